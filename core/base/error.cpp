@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "base/error.h"
+
+namespace relucent {
+
+std::string_view toString(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage: return "usage";
+    case ErrorKind::input: return "input";
+    case ErrorKind::format: return "format";
+    case ErrorKind::disk: return "disk";
+    case ErrorKind::memory: return "memory";
+    case ErrorKind::device: return "device";
+    case ErrorKind::numerics: return "numerics";
+  }
+  return "unknown";
+}
+
+Error::Error(ErrorKind kind, std::string what, std::string advice, std::string context)
+    : kind_(kind), what_(std::move(what)), advice_(std::move(advice)), context_(std::move(context)) {
+  line_ = context_.empty() ? what_ : context_ + ": " + what_;
+  if (!advice_.empty()) line_ += "; " + advice_;
+  line_ += ".";
+}
+
+Error Error::within(std::string_view context) const {
+  std::string joined(context);
+  if (!context_.empty()) joined += ": " + context_;
+  return Error(kind_, what_, advice_, joined);
+}
+
+namespace detail {
+void failRequire(const std::source_location& location, const std::string& message) {
+  throw std::logic_error(
+      fmt::format("{}:{}: {}: {}", location.file_name(), location.line(), location.function_name(), message));
+}
+}  // namespace detail
+
+}  // namespace relucent

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace relucent {
+
+/// The whole file. Throws: Error{disk} if it is missing or unreadable.
+std::string readFile(const std::filesystem::path& path);
+
+/// Replaces `path` by `content` in one step: temporary name beside it, fsync, rename, fsync of the folder.
+/// After a crash the old or the new file is there, never a part. Throws: Error{disk}; `path` is untouched.
+void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
+
+/// The same for libraries that write files themselves: `write` is given the temporary name (same folder,
+/// same extension). Whatever it throws is passed on after the temporary file has been removed.
+void writeFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// Creates a folder and its parents. Throws: Error{disk} with the reason.
+void createFolder(const std::filesystem::path& path);
+
+}  // namespace relucent

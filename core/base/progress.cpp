@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "base/progress.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace relucent {
+
+void StopRequest::ask(Kind kind) noexcept {
+  int wanted = static_cast<int>(kind);
+  int current = state_.load();
+  while (current < wanted && !state_.compare_exchange_weak(current, wanted)) {
+  }
+}
+
+Progress::Progress() = default;
+
+Progress::Progress(ProgressSink& sink, StopRequest& stop) : sink_(&sink), stop_(&stop) {}
+
+Progress::Progress(ProgressSink* sink, StopRequest* stop, double begin, double length, std::string stage)
+    : sink_(sink), stop_(stop), begin_(begin), length_(length), stage_(std::move(stage)) {}
+
+Progress Progress::part(double share, std::string stage) {
+  require(share >= 0.0 && share <= 1.0, "a part is between 0 and 1 of its whole, not {}", share);
+  share = std::min(share, 1.0 - done_);
+  Progress child(sink_, stop_, begin_ + done_ * length_, share * length_, std::move(stage));
+  done_ += share;
+  child.report(0.0);
+  return child;
+}
+
+void Progress::report(double fraction) {
+  done_ = std::clamp(fraction, done_, 1.0);
+  if (sink_ != nullptr) sink_->progressed(begin_ + done_ * length_, stage_);
+  checkpoint();
+}
+
+void Progress::checkpoint() const {
+  if (stop_ != nullptr && stop_->asked() == StopRequest::Kind::cancel) throw Cancelled();
+}
+
+bool Progress::stopAndKeep() const { return stop_ != nullptr && stop_->asked() == StopRequest::Kind::keep; }
+
+void Progress::preview(Preview preview) const {
+  if (sink_ != nullptr) sink_->previewed(preview);
+}
+
+}  // namespace relucent

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace relucent {
+
+/// Width and height of a raster in pixels.
+struct Size {
+  int width = 0;
+  int height = 0;
+
+  std::size_t count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  bool empty() const { return width <= 0 || height <= 0; }
+  bool operator==(const Size&) const = default;
+};
+
+/// A pixel's place in its raster; index = y * width + x everywhere.
+struct Pixel {
+  int x = 0;
+  int y = 0;
+  bool operator==(const Pixel&) const = default;
+};
+
+inline std::size_t indexOf(Size size, Pixel pixel) {
+  return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.width) +
+         static_cast<std::size_t>(pixel.x);
+}
+inline Pixel pixelAt(Size size, std::size_t index) {
+  return {static_cast<int>(index % static_cast<std::size_t>(size.width)),
+          static_cast<int>(index / static_cast<std::size_t>(size.width))};
+}
+
+/// The rasters of several devices of one kind, numbered through: device d's pixels start at offset(d).
+/// This is how the rows of T hold all cameras' pixels and its columns all projectors' (paper, appendix).
+class Rasters {
+ public:
+  Rasters() = default;
+  Rasters(std::vector<Size> sizes);  // NOLINT(google-explicit-constructor): a list of sizes is one
+  Rasters(Size single);              // NOLINT(google-explicit-constructor)
+
+  std::size_t devices() const { return sizes_.size(); }
+  Size size(std::size_t device) const { return sizes_.at(device); }
+  const std::vector<Size>& sizes() const { return sizes_; }
+  std::size_t offset(std::size_t device) const { return offsets_.at(device); }
+  /// Pixels of all devices together.
+  std::size_t count() const { return offsets_.empty() ? 0 : offsets_.back(); }
+  bool operator==(const Rasters&) const = default;
+
+ private:
+  std::vector<Size> sizes_;
+  std::vector<std::size_t> offsets_;  // one more than sizes
+};
+
+/// Values of all pixels of a Rasters, three channels interleaved: value(pixel, c) = stack[3 * pixel + c].
+/// Camera stacks hold radiance, projector stacks hold linear drive.
+using Stack = std::vector<float>;
+
+}  // namespace relucent

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "rig/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+template <typename Device>
+Rasters rastersOf(const std::vector<std::unique_ptr<Device>>& devices) {
+  std::vector<Size> sizes;
+  for (const auto& device : devices) sizes.push_back(device->size());
+  return Rasters(std::move(sizes));
+}
+
+}  // namespace
+
+Rasters Rig::projectorRasters() const { return rastersOf(projectors); }
+Rasters Rig::cameraRasters() const { return rastersOf(cameras); }
+
+void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
+  const Image& image = frame.signal;
+  if (image.size() != size)
+    throw Error(ErrorKind::input,
+                fmt::format("the photograph has {}x{} pixels where {}x{} were announced", image.width(),
+                            image.height(), size.width, size.height),
+                "set the camera to that size, or start again with the size that it delivers", camera);
+  if (image.channels() != 3)
+    throw Error(ErrorKind::input, fmt::format("the photograph has {} channels", image.channels()),
+                "set the camera to colour pictures (red, green, blue)", camera);
+  auto notFinite = std::find_if(image.data().begin(), image.data().end(),
+                                [](float value) { return !std::isfinite(value); });
+  if (notFinite != image.data().end()) {
+    Pixel place = pixelAt(size, static_cast<std::size_t>(notFinite - image.data().begin()) / 3);
+    throw Error(ErrorKind::input,
+                fmt::format("the photograph holds {} at pixel {}, {}", *notFinite, place.x, place.y),
+                "check the program that writes it: every value must be a finite number", camera);
+  }
+}
+
+}  // namespace relucent

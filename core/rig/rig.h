@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/raster.h"
+#include "image/image.h"
+
+namespace relucent {
+
+/// Names a shot within a calibration: "acquisition" 17. Also the key of a simulated device's noise, so a
+/// shot taken again after an interruption comes out as it would have.
+struct ShotId {
+  std::string stage;
+  int number = 0;
+  bool operator==(const ShotId&) const = default;
+};
+
+/// A projector: a raster whose pixels are driven with encoded values.
+class Projector {
+ public:
+  virtual ~Projector() = default;
+
+  virtual std::string name() const = 0;
+  virtual Size size() const = 0;
+  /// Bits of the drive values: 2^bits - 1 is full drive.
+  virtual int bits() const = 0;
+
+  /// Shows encoded drive values in [0, 1] (3 channels, this size), rounded to the projector's codes.
+  /// Returns when the light is out: every exposure that starts now sees the picture and nothing older.
+  /// Throws: Error{device}.
+  virtual void show(const Image& encodedDrive) = 0;
+};
+
+/// Exposure times that a camera can be asked for.
+struct ExposureRange {
+  double shortest = 0.0;  // seconds
+  double longest = 0.0;
+};
+
+/// What a camera is asked for.
+struct CaptureRequest {
+  ShotId shot;
+  int exposure = 0;      // index within the shot's bracket
+  double seconds = 0.0;  // wanted exposure time
+};
+
+/// One photograph as the camera gave it.
+struct RawFrame {
+  Image signal;          // 3 channels, full scale 1; linear unless the camera has a response curve
+  int bits = 0;          // signal * (2^bits - 1) are whole numbers; 0: floating point
+  double seconds = 0.0;  // exposure time that the camera reports
+};
+
+/// A camera with manual exposure.
+class Camera {
+ public:
+  virtual ~Camera() = default;
+
+  virtual std::string name() const = 0;
+  virtual Size size() const = 0;
+  virtual ExposureRange exposures() const = 0;
+
+  /// A frame exposed wholly after this call began.
+  /// Throws: Error{device} if there is none, Error{input} if it is not usable (size, channels, NaN).
+  virtual RawFrame capture(const CaptureRequest& request) = 0;
+};
+
+/// The devices of a venue: k projectors and r cameras.
+struct Rig {
+  std::vector<std::unique_ptr<Projector>> projectors;
+  std::vector<std::unique_ptr<Camera>> cameras;
+
+  /// All projectors' pixels numbered through: the columns of T.
+  Rasters projectorRasters() const;
+  /// All cameras' pixels numbered through: the rows of T.
+  Rasters cameraRasters() const;
+};
+
+/// Throws: Error{input} unless `frame` has `size`, three channels and only finite values.
+void checkFrame(const RawFrame& frame, Size size, const std::string& camera);
+
+}  // namespace relucent

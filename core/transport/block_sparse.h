@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/raster.h"
+
+namespace relucent {
+
+/// A 3x3 block: rows are camera channels, columns projector channels (paper eq. 2).
+using ColourBlock = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+
+/// A sparse matrix of 3x3 blocks, compressed by rows, 22 bytes a block: a 32-bit column and nine 16-bit
+/// fixed-point values on a scale of the row's own,
+///   block = scale[row] * code,  |code| <= 32767.
+/// Products are bound by memory traffic; beside single floats this halves it at an error of at most
+/// scale / 2 per value, 2e-5 of the row's largest.
+class BlockSparse {
+ public:
+  BlockSparse() = default;
+
+  std::size_t rows() const { return rowStart_.size() - 1; }
+  std::size_t columns() const { return columns_; }
+  std::size_t blocks() const { return column_.size(); }
+  std::size_t bytes() const;
+
+  /// Entries of a row: [rowBegin(r), rowBegin(r + 1)), columns ascending.
+  std::size_t rowBegin(std::size_t row) const { return rowStart_[row]; }
+  std::uint32_t column(std::size_t entry) const { return column_[entry]; }
+  float scale(std::size_t row) const { return scale_[row]; }
+  const std::array<std::int16_t, 9>& code(std::size_t entry) const { return code_[entry]; }
+  ColourBlock block(std::size_t row, std::size_t entry) const;
+
+  /// y = B x. Shapes: 3 * columns() -> 3 * rows().
+  Stack multiply(const Stack& x) const;
+  /// x = B^T y. Rows whose y is zero cost nothing, so a matrix stored the other way round multiplies
+  /// patterns that are mostly dark in time proportional to what is lit. Same bits for every number of
+  /// threads. Shapes: 3 * rows() -> 3 * columns().
+  Stack multiplyTransposed(const Stack& y) const;
+
+  /// The same matrix stored the other way round: block (r, c) becomes its transpose at (c, r).
+  BlockSparse transposed() const;
+  /// Row r times the factor of each camera channel: block(r) <- diag(factor[3r..3r+2]) block(r).
+  BlockSparse withRowsScaled(const Stack& factor) const;
+  /// Only the entries for which keep(row, entry) is true.
+  template <typename Keep>
+  BlockSparse filtered(const Keep& keep) const;
+
+  bool operator==(const BlockSparse&) const = default;
+
+ private:
+  friend class BlockSparseBuilder;
+  friend class TransportFile;
+  std::size_t columns_ = 0;
+  std::vector<std::size_t> rowStart_{0};
+  std::vector<std::uint32_t> column_;
+  std::vector<std::array<std::int16_t, 9>> code_;
+  std::vector<float> scale_;
+};
+
+/// Collects blocks in any order and sorts them into a BlockSparse. Blocks at the same place add up.
+class BlockSparseBuilder {
+ public:
+  /// `fullScale[r]`: the largest magnitude that row r will hold; what is larger saturates there.
+  BlockSparseBuilder(std::size_t columns, std::vector<float> fullScale);
+
+  void add(std::size_t row, std::size_t column, const ColourBlock& block);
+  std::size_t blocks() const { return entries_.size(); }
+  /// Not thread-safe; empties the builder.
+  BlockSparse build();
+
+ private:
+  struct Entry {
+    std::uint32_t row;
+    std::uint32_t column;
+    std::array<std::int16_t, 9> code;
+  };
+  std::size_t columns_;
+  std::vector<float> scale_;
+  std::vector<Entry> entries_;
+};
+
+template <typename Keep>
+BlockSparse BlockSparse::filtered(const Keep& keep) const {
+  BlockSparse result;
+  result.columns_ = columns_;
+  result.scale_ = scale_;
+  result.rowStart_.assign(1, 0);
+  for (std::size_t row = 0; row < rows(); ++row) {
+    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
+      if (!keep(row, entry)) continue;
+      result.column_.push_back(column_[entry]);
+      result.code_.push_back(code_[entry]);
+    }
+    result.rowStart_.push_back(result.column_.size());
+  }
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "transport/node_layout.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace relucent {
+
+NodeLayout::NodeLayout(Rasters projectors) : projectors_(std::move(projectors)) {
+  grids_.resize(projectors_.devices());
+  for (std::size_t projector = 0; projector < projectors_.devices(); ++projector) {
+    Size size = projectors_.size(projector);
+    grids_[projector].push_back({size, 0});
+    while (size.count() > 1) {
+      size = {(size.width + 1) / 2, (size.height + 1) / 2};
+      grids_[projector].push_back({size, 0});
+    }
+  }
+  for (int level = 0; level < levels(); ++level) {
+    for (auto& pyramid : grids_) {
+      if (level >= static_cast<int>(pyramid.size())) continue;
+      Grid& grid = pyramid[static_cast<std::size_t>(level)];
+      grid.offset = count_;
+      count_ += grid.size.count();
+    }
+  }
+}
+
+int NodeLayout::levels() const {
+  std::size_t most = 0;
+  for (const auto& pyramid : grids_) most = std::max(most, pyramid.size());
+  return static_cast<int>(most);
+}
+
+std::size_t NodeLayout::index(const Node& node) const {
+  const Grid& grid = grids_[static_cast<std::size_t>(node.projector)][static_cast<std::size_t>(node.level)];
+  return grid.offset + indexOf(grid.size, {node.x, node.y});
+}
+
+Node NodeLayout::node(std::size_t index) const {
+  require(index < count_, "node {} of {}", index, count_);
+  for (int level = levels() - 1; level >= 0; --level) {
+    for (std::size_t projector = grids_.size(); projector-- > 0;) {
+      if (level >= levels(projector)) continue;
+      const Grid& grid = grids_[projector][static_cast<std::size_t>(level)];
+      if (index < grid.offset) continue;
+      Pixel place = pixelAt(grid.size, index - grid.offset);
+      return {static_cast<int>(projector), level, place.x, place.y};
+    }
+  }
+  return {};
+}
+
+Block NodeLayout::block(const Node& node) const {
+  Size size = projectors_.size(static_cast<std::size_t>(node.projector));
+  int side = 1 << node.level;
+  return {node.x * side, node.y * side, std::min((node.x + 1) * side, size.width),
+          std::min((node.y + 1) * side, size.height)};
+}
+
+std::vector<Node> NodeLayout::children(const Node& node) const {
+  require(node.level > 0, "a pixel has no children");
+  Size finer = gridSize(static_cast<std::size_t>(node.projector), node.level - 1);
+  std::vector<Node> children;
+  for (int y = 2 * node.y; y < std::min(2 * node.y + 2, finer.height); ++y)
+    for (int x = 2 * node.x; x < std::min(2 * node.x + 2, finer.width); ++x)
+      children.push_back({node.projector, node.level - 1, x, y});
+  return children;
+}
+
+Node NodeLayout::nodeOver(std::size_t pixel, int level) const {
+  std::size_t projector = 0;
+  while (projector + 1 < projectors_.devices() && pixel >= projectors_.offset(projector + 1)) ++projector;
+  Pixel place = pixelAt(projectors_.size(projector), pixel - projectors_.offset(projector));
+  level = std::min(level, levels(projector) - 1);
+  return {static_cast<int>(projector), level, place.x >> level, place.y >> level};
+}
+
+Stack NodeLayout::means(const Stack& pattern) const {
+  require(pattern.size() == 3 * projectors_.count(), "a pattern of {} values for {} projector pixels",
+          pattern.size(), projectors_.count());
+  Stack values(3 * count_);
+  std::copy(pattern.begin(), pattern.end(), values.begin());
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
+    for (int level = 1; level < levels(projector); ++level) {
+      Size grid = gridSize(projector, level);
+      parallelFor(0, static_cast<std::size_t>(grid.height), 16, [&](std::size_t y) {
+        for (int x = 0; x < grid.width; ++x) {
+          Node node{static_cast<int>(projector), level, x, static_cast<int>(y)};
+          float sum[3] = {0, 0, 0};
+          // Children at the border may be cut off: weighting by their pixels keeps every pixel's say equal.
+          for (int cy = 2 * node.y; cy < 2 * node.y + 2; ++cy) {
+            for (int cx = 2 * node.x; cx < 2 * node.x + 2; ++cx) {
+              Size finer = gridSize(projector, level - 1);
+              if (cx >= finer.width || cy >= finer.height) continue;
+              Node child{node.projector, level - 1, cx, cy};
+              float weight = static_cast<float>(block(child).count());
+              const float* value = &values[3 * index(child)];
+              for (int c = 0; c < 3; ++c) sum[c] += weight * value[c];
+            }
+          }
+          float pixels = static_cast<float>(block(node).count());
+          float* value = &values[3 * index(node)];
+          for (int c = 0; c < 3; ++c) value[c] = sum[c] / pixels;
+        }
+      });
+    }
+  }
+  return values;
+}
+
+Stack NodeLayout::meansAdjoint(const Stack& nodeValues) const {
+  require(nodeValues.size() == 3 * count_, "{} values for {} nodes", nodeValues.size(), count_);
+  // Top down: what a node holds per pixel of its block is handed to its children in proportion.
+  Stack perNode = nodeValues;
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
+    for (int level = levels(projector) - 2; level >= 0; --level) {
+      Size grid = gridSize(projector, level);
+      parallelFor(0, static_cast<std::size_t>(grid.height), 16, [&](std::size_t y) {
+        for (int x = 0; x < grid.width; ++x) {
+          Node node{static_cast<int>(projector), level, x, static_cast<int>(y)};
+          Node above = parent(node);
+          float share = static_cast<float>(block(node).count()) / static_cast<float>(block(above).count());
+          const float* from = &perNode[3 * index(above)];
+          float* to = &perNode[3 * index(node)];
+          for (int c = 0; c < 3; ++c) to[c] += share * from[c];
+        }
+      });
+    }
+  }
+  perNode.resize(3 * projectors_.count());
+  return perNode;
+}
+
+}  // namespace relucent

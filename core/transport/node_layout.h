@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/raster.h"
+
+namespace relucent {
+
+/// A node of a projector's mean pyramid: level 0 is the pixels, level l has blocks of 2^l x 2^l pixels,
+/// cut off at the right and lower border where the size is no power of two.
+struct Node {
+  int projector = 0;
+  int level = 0;
+  int x = 0;
+  int y = 0;
+  bool operator==(const Node&) const = default;
+};
+
+/// The part of a projector that a node stands for, in pixels: [x0, x1) x [y0, y1).
+struct Block {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int count() const { return (x1 - x0) * (y1 - y0); }
+};
+
+/// Numbers the nodes of all projectors' mean pyramids. All pixels of all projectors come first, in the
+/// order of Rasters (node index of a pixel = its pixel index), then level 1 of all projectors, and so on.
+/// Level l of a w x h projector has ceil(w / 2^l) x ceil(h / 2^l) nodes; the last level is one node.
+class NodeLayout {
+ public:
+  NodeLayout() = default;
+  explicit NodeLayout(Rasters projectors);
+
+  const Rasters& projectors() const { return projectors_; }
+  std::size_t count() const { return count_; }
+  /// Levels of a projector's pyramid, 1 for a single pixel.
+  int levels(std::size_t projector) const { return static_cast<int>(grids_[projector].size()); }
+  /// The most levels of any projector.
+  int levels() const;
+  /// Nodes of one level.
+  Size gridSize(std::size_t projector, int level) const { return grids_[projector][static_cast<std::size_t>(level)].size; }
+
+  std::size_t index(const Node& node) const;
+  Node node(std::size_t index) const;
+  Block block(const Node& node) const;
+  /// The node of the next coarser level that holds this one. Contract: not the last level.
+  Node parent(const Node& node) const { return {node.projector, node.level + 1, node.x / 2, node.y / 2}; }
+  /// Up to four nodes of the next finer level, row by row. Contract: level > 0.
+  std::vector<Node> children(const Node& node) const;
+  /// The node of `level` that holds a projector pixel (index over all projectors).
+  Node nodeOver(std::size_t pixel, int level) const;
+
+  /// Mean of a pattern over every node: v = A p. A pixel counts once however the block is cut.
+  /// Shapes: 3 * projectors().count() -> 3 * count().
+  Stack means(const Stack& pattern) const;
+  /// The adjoint A^T: spreads every node's value evenly over its pixels.
+  Stack meansAdjoint(const Stack& nodeValues) const;
+
+ private:
+  struct Grid {
+    Size size;
+    std::size_t offset = 0;
+  };
+  Rasters projectors_;
+  std::vector<std::vector<Grid>> grids_;  // [projector][level]
+  std::size_t count_ = 0;
+};
+
+}  // namespace relucent

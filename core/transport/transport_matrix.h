@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/raster.h"
+#include "transport/block_sparse.h"
+#include "transport/node_layout.h"
+
+namespace relucent {
+
+/// The light transport between all projectors and all cameras of a rig,
+///   camera = T * projector + e,      T = T' A,
+/// where A takes a pattern's means over the nodes of its mean pyramid and T' ("leaves") has a column for
+/// every node: light that arrives evenly from a wide area is one entry, not thousands.
+/// A leaf's value is the camera signal per second while its whole block is fully lit.
+/// Shapes: rows = camera pixels, columns = projector pixels, 3x3 blocks (paper eq. 2 and appendix).
+/// Source: core/transport/README.md; Wetzstein & Bimber 2007, Sen et al. 2005.
+class TransportMatrix {
+ public:
+  TransportMatrix() = default;
+  /// Throws: std::logic_error unless leaves is cameras.count() x NodeLayout(projectors).count().
+  TransportMatrix(Rasters cameras, Rasters projectors, BlockSparse leaves);
+
+  const Rasters& cameras() const { return cameras_; }
+  const Rasters& projectors() const { return layout_.projectors(); }
+  const NodeLayout& layout() const { return layout_; }
+  const BlockSparse& leaves() const { return leaves_; }
+
+  /// Relighting, without e: what the cameras see under linear patterns. Shapes: projector -> camera stack.
+  Stack apply(const Stack& projector) const;
+  /// Dual photography: the projectors' view under light from the cameras. Shapes: camera -> projector stack.
+  Stack applyTransposed(const Stack& camera) const;
+  /// T 1: what the cameras see when every pixel is fully lit.
+  Stack floodlight() const;
+  /// Per camera pixel the whole 3x3 mixing, sum over all its leaves.
+  std::vector<ColourBlock> rowSums() const;
+
+ private:
+  Rasters cameras_;
+  NodeLayout layout_;
+  BlockSparse leaves_;
+};
+
+/// Rows scaled, per camera channel, so that T 1 equals `flood`: what a threshold took away is put back in
+/// proportion (paper, Algorithm 1, line 21). Channels where T 1 is at most `floor` are left alone.
+TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood, float floor = 0.0f);
+
+/// Thresholding settings: a leaf is dropped where, per projector pixel of its block, the largest value of
+/// its 3x3 block stays below both limits.
+struct ThresholdSettings {
+  float absolute = 0.0f;       // camera signal per second: the paper's "HDR value of a camera pixel"
+  float shareOfRowMax = 0.0f;  // of the row's strongest single connection
+};
+
+/// Drops weak leaves, then rescales to `flood`.
+/// Law: never adds energy beyond the flood image.
+TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
+                            const Stack& flood);
+
+}  // namespace relucent

@@ -5,13 +5,20 @@ namespace relucent {
 
 std::string_view toString(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::usage: return "usage";
-    case ErrorKind::input: return "input";
-    case ErrorKind::format: return "format";
-    case ErrorKind::disk: return "disk";
-    case ErrorKind::memory: return "memory";
-    case ErrorKind::device: return "device";
-    case ErrorKind::numerics: return "numerics";
+    case ErrorKind::usage:
+      return "usage";
+    case ErrorKind::input:
+      return "input";
+    case ErrorKind::format:
+      return "format";
+    case ErrorKind::disk:
+      return "disk";
+    case ErrorKind::memory:
+      return "memory";
+    case ErrorKind::device:
+      return "device";
+    case ErrorKind::numerics:
+      return "numerics";
   }
   return "unknown";
 }

@@ -19,13 +19,18 @@ namespace {
 std::string adviceFor(int code) {
   switch (code) {
     case ENOSPC:
-    case EDQUOT: return "free some space there or choose another disk, then try again";
+    case EDQUOT:
+      return "free some space there or choose another disk, then try again";
     case EACCES:
     case EPERM:
-    case EROFS: return "choose a folder that you may write to, or ask for the permission";
-    case ENOENT: return "check the path";
-    case EIO: return "check the disk and its cable";
-    default: return "check the path and the disk";
+    case EROFS:
+      return "choose a folder that you may write to, or ask for the permission";
+    case ENOENT:
+      return "check the path";
+    case EIO:
+      return "check the disk and its cable";
+    default:
+      return "check the path and the disk";
   }
 }
 

@@ -32,6 +32,8 @@ std::string Fingerprint::hex() const {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-std::uint64_t Fingerprint::low() const { return XXH3_128bits_digest(state_->xxh).low64; }
+std::uint64_t Fingerprint::low() const {
+  return XXH3_128bits_digest(state_->xxh).low64;
+}
 
 }  // namespace relucent

@@ -40,7 +40,9 @@ void Progress::checkpoint() const {
   if (stop_ != nullptr && stop_->asked() == StopRequest::Kind::cancel) throw Cancelled();
 }
 
-bool Progress::stopAndKeep() const { return stop_ != nullptr && stop_->asked() == StopRequest::Kind::keep; }
+bool Progress::stopAndKeep() const {
+  return stop_ != nullptr && stop_->asked() == StopRequest::Kind::keep;
+}
 
 void Progress::preview(Preview preview) const {
   if (sink_ != nullptr) sink_->previewed(preview);

@@ -15,9 +15,9 @@ namespace relucent {
 /// What compensation needs to know of a measured venue, whoever measured it.
 struct MeasuredVenue {
   TransportMatrix transport;
-  Stack black;                         // e
-  Stack flood;                         // T 1 as photographed
-  std::vector<std::uint8_t> usable;    // per camera pixel: lit by the projector and not flagged
+  Stack black;                       // e
+  Stack flood;                       // T 1 as photographed
+  std::vector<std::uint8_t> usable;  // per camera pixel: lit by the projector and not flagged
 };
 
 struct TargetSettings {
@@ -39,7 +39,8 @@ struct Target {
 };
 
 /// Places and scales linear content (values 0 to 1) into what the camera should see.
-///   wanted = white * K content,  K = the venue's mean row-normalised colour mixing, so that content's colours
+///   wanted = white * K content,  K = the venue's mean row-normalised colour mixing, so that content's
+///   colours
 /// keep the projector's hues and white stays neutral. Brightness: from the reachability map.
 Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings);
 

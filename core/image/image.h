@@ -41,7 +41,9 @@ class Image {
  private:
   std::size_t offset(int x, int y, int c) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
-            static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels_) + static_cast<std::size_t>(c);
+            static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(channels_) +
+           static_cast<std::size_t>(c);
   }
 
   Size size_;

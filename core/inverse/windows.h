@@ -19,6 +19,7 @@ std::vector<std::string> problems(const WindowSettings& settings);
 /// The default inverse operator: for every tile of projector pixels a small regularised inverse over the
 /// camera pixels that see it strongest; windows of neighbouring tiles overlap.
 ///   M_tile = T_J^T (G_WW + lambda I)^-1,  G = T T^T
-class WindowInverse;  // see the .cpp's author: define here: apply(const Stack& cameraResidual) -> Stack projector
+class WindowInverse;  // see the .cpp's author: define here: apply(const Stack& cameraResidual) -> Stack
+                      // projector
 
 }  // namespace relucent

@@ -19,11 +19,11 @@ struct ProjectorResponse {
 };
 
 struct LinearizationSettings {
-  int levels = 33;              // ramp levels per channel
-  double shadowPower = 2.0;     // level k at (k / (levels - 1))^shadowPower: denser in the shadows
-  int noisePairs = 4;           // pairs of equal shots for the camera noise model
+  int levels = 33;                 // ramp levels per channel
+  double shadowPower = 2.0;        // level k at (k / (levels - 1))^shadowPower: denser in the shadows
+  int noisePairs = 4;              // pairs of equal shots for the camera noise model
   double additivityLimit = 0.025;  // larger relative deviations are a finding
-  std::uint64_t seed = 1;       // order of the ramp
+  std::uint64_t seed = 1;          // order of the ramp
 };
 std::vector<std::string> problems(const LinearizationSettings& settings);
 

@@ -18,8 +18,12 @@ Rasters rastersOf(const std::vector<std::unique_ptr<Device>>& devices) {
 
 }  // namespace
 
-Rasters Rig::projectorRasters() const { return rastersOf(projectors); }
-Rasters Rig::cameraRasters() const { return rastersOf(cameras); }
+Rasters Rig::projectorRasters() const {
+  return rastersOf(projectors);
+}
+Rasters Rig::cameraRasters() const {
+  return rastersOf(cameras);
+}
 
 void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
   const Image& image = frame.signal;

@@ -15,6 +15,29 @@ constexpr float largestCode = 32767.0f;
 // A fixed number of private sums makes the transposed product the same for every number of threads.
 constexpr std::size_t scatterChunks = 4;
 
+using Code = std::array<std::int16_t, 9>;
+
+/// Sorts one row's entries by column, adds up entries of the same column (saturating), and returns how
+/// many are left.
+std::size_t sortAndMerge(std::uint32_t* column, Code* code, std::size_t count) {
+  std::vector<std::pair<std::uint32_t, Code>> row(count);
+  for (std::size_t i = 0; i < count; ++i) row[i] = {column[i], code[i]};
+  std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+
+  std::size_t left = 0;
+  for (const auto& [place, values] : row) {
+    if (left == 0 || column[left - 1] != place) {
+      column[left] = place;
+      code[left] = values;
+      ++left;
+      continue;
+    }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      code[left - 1][k] = static_cast<std::int16_t>(std::clamp(code[left - 1][k] + values[k], -32767, 32767));
+  }
+  return left;
+}
+
 }  // namespace
 
 std::size_t BlockSparse::bytes() const {
@@ -94,8 +117,8 @@ BlockSparse BlockSparse::withRowsScaled(const Stack& factor) const {
   require(factor.size() == 3 * rows(), "{} factors for {} rows", factor.size(), rows());
   BlockSparse result = *this;
   parallelFor(0, rows(), 256, [&](std::size_t row) {
-    float largest = std::max({std::abs(factor[3 * row]), std::abs(factor[3 * row + 1]),
-                              std::abs(factor[3 * row + 2])});
+    float largest =
+        std::max({std::abs(factor[3 * row]), std::abs(factor[3 * row + 1]), std::abs(factor[3 * row + 2])});
     if (largest == 0.0f) {
       for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) result.code_[entry] = {};
       return;
@@ -138,38 +161,43 @@ BlockSparse BlockSparseBuilder::build() {
   std::vector<std::size_t> start(result.scale_.size() + 1, 0);
   for (const Entry& entry : entries_) ++start[entry.row + 1];
   for (std::size_t row = 1; row < start.size(); ++row) start[row] += start[row - 1];
+
+  // Straight into the result's arrays, in rows but unsorted within: at full scale a sorted copy of the
+  // entries would be another gigabyte.
+  result.column_.resize(entries_.size());
+  result.code_.resize(entries_.size());
   {
-    std::vector<Entry> sorted(entries_.size());
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for (const Entry& entry : entries_) sorted[next[entry.row]++] = entry;
-    entries_ = std::move(sorted);
+    for (const Entry& entry : entries_) {
+      std::size_t place = next[entry.row]++;
+      result.column_[place] = entry.column;
+      result.code_[place] = entry.code;
+    }
   }
-  parallelFor(0, start.size() - 1, 256, [&](std::size_t row) {
-    std::stable_sort(entries_.begin() + static_cast<std::ptrdiff_t>(start[row]),
-                     entries_.begin() + static_cast<std::ptrdiff_t>(start[row + 1]),
-                     [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  entries_ = {};
+  columns_ = 0;
+
+  // Each row is sorted and its repeated columns are added up, at the front of its own range.
+  std::vector<std::size_t> length(start.size() - 1);
+  parallelFor(0, length.size(), 256, [&](std::size_t row) {
+    length[row] = sortAndMerge(result.column_.data() + start[row], result.code_.data() + start[row],
+                               start[row + 1] - start[row]);
   });
 
   result.rowStart_.assign(1, 0);
   result.rowStart_.reserve(start.size());
-  result.column_.reserve(entries_.size());
-  result.code_.reserve(entries_.size());
-  for (std::size_t row = 0; row + 1 < start.size(); ++row) {
-    for (std::size_t i = start[row]; i < start[row + 1]; ++i) {
-      bool again = result.column_.size() > result.rowStart_.back() && result.column_.back() == entries_[i].column;
-      if (!again) {
-        result.column_.push_back(entries_[i].column);
-        result.code_.push_back(entries_[i].code);
-        continue;
-      }
-      for (std::size_t k = 0; k < 9; ++k)
-        result.code_.back()[k] = static_cast<std::int16_t>(
-            std::clamp(result.code_.back()[k] + entries_[i].code[k], -32767, 32767));
+  for (std::size_t row = 0; row < length.size(); ++row) {
+    auto from = static_cast<std::ptrdiff_t>(start[row]);
+    auto end = from + static_cast<std::ptrdiff_t>(length[row]);
+    auto to = static_cast<std::ptrdiff_t>(result.rowStart_.back());
+    if (from != to) {
+      std::copy(result.column_.begin() + from, result.column_.begin() + end, result.column_.begin() + to);
+      std::copy(result.code_.begin() + from, result.code_.begin() + end, result.code_.begin() + to);
     }
-    result.rowStart_.push_back(result.column_.size());
+    result.rowStart_.push_back(result.rowStart_.back() + length[row]);
   }
-  entries_ = {};
-  columns_ = 0;
+  result.column_.resize(result.rowStart_.back());
+  result.code_.resize(result.rowStart_.back());
   return result;
 }
 

@@ -40,7 +40,9 @@ class NodeLayout {
   /// The most levels of any projector.
   int levels() const;
   /// Nodes of one level.
-  Size gridSize(std::size_t projector, int level) const { return grids_[projector][static_cast<std::size_t>(level)].size; }
+  Size gridSize(std::size_t projector, int level) const {
+    return grids_[projector][static_cast<std::size_t>(level)].size;
+  }
 
   std::size_t index(const Node& node) const;
   Node node(std::size_t index) const;

@@ -15,13 +15,17 @@ TransportMatrix::TransportMatrix(Rasters cameras, Rasters projectors, BlockSpars
           cameras_.count(), layout_.count());
 }
 
-Stack TransportMatrix::apply(const Stack& projector) const { return leaves_.multiply(layout_.means(projector)); }
+Stack TransportMatrix::apply(const Stack& projector) const {
+  return leaves_.multiply(layout_.means(projector));
+}
 
 Stack TransportMatrix::applyTransposed(const Stack& camera) const {
   return layout_.meansAdjoint(leaves_.multiplyTransposed(camera));
 }
 
-Stack TransportMatrix::floodlight() const { return leaves_.multiply(Stack(3 * layout_.count(), 1.0f)); }
+Stack TransportMatrix::floodlight() const {
+  return leaves_.multiply(Stack(3 * layout_.count(), 1.0f));
+}
 
 std::vector<ColourBlock> TransportMatrix::rowSums() const {
   std::vector<ColourBlock> sums(leaves_.rows(), ColourBlock::Zero());
@@ -38,7 +42,8 @@ TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Sta
   Stack factor(now.size(), 1.0f);
   for (std::size_t i = 0; i < now.size(); ++i)
     if (now[i] > floor && now[i] > 0.0f) factor[i] = std::max(0.0f, flood[i]) / now[i];
-  return TransportMatrix(transport.cameras(), transport.projectors(), transport.leaves().withRowsScaled(factor));
+  return TransportMatrix(transport.cameras(), transport.projectors(),
+                         transport.leaves().withRowsScaled(factor));
 }
 
 TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
@@ -59,8 +64,8 @@ TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSet
     // The strongest connection always stays: a camera pixel never leaves the matrix.
     limit[row] = std::min(strongest, std::max(settings.absolute, settings.shareOfRowMax * strongest));
   });
-  BlockSparse kept = leaves.filtered(
-      [&](std::size_t row, std::size_t entry) { return strength(row, entry) >= limit[row]; });
+  BlockSparse kept =
+      leaves.filtered([&](std::size_t row, std::size_t entry) { return strength(row, entry) >= limit[row]; });
   return rescaledToFloodlight(TransportMatrix(transport.cameras(), transport.projectors(), std::move(kept)),
                               flood);
 }

@@ -42,7 +42,8 @@ class TransportMatrix {
 
 /// Rows scaled, per camera channel, so that T 1 equals `flood`: what a threshold took away is put back in
 /// proportion (paper, Algorithm 1, line 21). Channels where T 1 is at most `floor` are left alone.
-TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood, float floor = 0.0f);
+TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood,
+                                     float floor = 0.0f);
 
 /// Thresholding settings: a leaf is dropped where, per projector pixel of its block, the largest value of
 /// its 3x3 block stays below both limits.

@@ -24,16 +24,16 @@ const std::vector<VenueDescription>& venues();
 struct DeviceModelSettings {
   int projectorBits = 8;
   int cameraBits = 12;
-  double contrast = 1500.0;       // full white : black of the projector
-  double gamma = 2.2;             // overall shape of the projector's response; each channel deviates from it
-  double vignetting = 0.2;        // loss of light in the projector's corners
-  double fullWell = 15000.0;      // electrons at full scale: shot noise
-  double readElectrons = 6.0;     // read noise
-  double ambient = 0.002;         // room light, relative to the flood image's mean
-  double drift = 0.0;             // relative change of lamp power over 1000 shots
-  bool whiteSegment = false;      // a fourth, white segment: additivity broken
-  double flicker = 0.0;           // relative standard deviation of lamp power between exposures
-  double cameraGamma = 1.0;       // other than 1: the camera applies a response curve
+  double contrast = 1500.0;    // full white : black of the projector
+  double gamma = 2.2;          // overall shape of the projector's response; each channel deviates from it
+  double vignetting = 0.2;     // loss of light in the projector's corners
+  double fullWell = 15000.0;   // electrons at full scale: shot noise
+  double readElectrons = 6.0;  // read noise
+  double ambient = 0.002;      // room light, relative to the flood image's mean
+  double drift = 0.0;          // relative change of lamp power over 1000 shots
+  bool whiteSegment = false;   // a fourth, white segment: additivity broken
+  double flicker = 0.0;        // relative standard deviation of lamp power between exposures
+  double cameraGamma = 1.0;    // other than 1: the camera applies a response curve
 };
 
 struct VenueSettings {
@@ -60,12 +60,13 @@ class SimulatedVenue {
   Rig rig() const;
 
   /// The truth, for `evaluate` and for tests only.
-  /// T of linear light, without vignetting of the lens left out: as the camera would measure it, free of noise.
+  /// T of linear light, without vignetting of the lens left out: as the camera would measure it, free of
+  /// noise.
   const TransportMatrix& trueTransport() const;
   /// e: black level of the projector and ambient light, camera signal per second.
   const Stack& trueBlack() const;
-  /// What the cameras would measure under encoded drive values (rounded to codes, through the projector's true
-  /// response), free of noise: camera signal per second.
+  /// What the cameras would measure under encoded drive values (rounded to codes, through the projector's
+  /// true response), free of noise: camera signal per second.
   Stack trueRadiance(const std::vector<Image>& encodedDrive) const;
 
  private:

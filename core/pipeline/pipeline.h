@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "acquisition/acquisition.h"
+#include "base/progress.h"
+#include "compensation/target.h"
+#include "inverse/windows.h"
+#include "linearization/linearization.h"
+#include "venue/venue.h"
+
+/// What can be done with a calibration, one function a deed: what the command line calls, and the window too.
+/// All of them work on a calibration folder (core/calibration/calibration_folder.h), report to a Progress,
+/// and throw Error for failures of the world and Cancelled when asked to stop. Results that a document on
+/// standard output shows are turned into JSON by json.h.
+namespace relucent {
+
+/// External programs as devices: anybody's camera by script.
+/// {image} in the projector's command is the file to show; {exposure} in the camera's command is the time
+/// in seconds, {output} the file to write (float EXR, 16-bit PNG or TIFF, or 8-bit).
+struct CommandRigSettings {
+  std::string projectorCommand;
+  std::string cameraCommand;
+  Size projector;
+  std::optional<Size> camera;      // none: the size of the first photograph
+  double shortestExposure = 1e-3;  // seconds
+  double longestExposure = 4.0;    // seconds
+};
+
+/// How the rig is made: a simulated venue or external programs.
+using RigSettings = std::variant<VenueSettings, CommandRigSettings>;
+
+struct CalibrateSettings {
+  RigSettings rig;
+  LinearizationSettings linearization;
+  AcquisitionSettings acquisition;
+  WindowSettings windows;
+};
+/// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.
+std::vector<std::string> problems(const CalibrateSettings& settings);
+
+struct CalibrateResult {
+  int patterns = 0;   // shown, all stages
+  int exposures = 0;  // photographed, all stages
+  struct Seconds {    // wall time of each stage, earlier runs of a resumed calibration included
+    double linearization = 0.0;
+    double acquisition = 0.0;
+    double inverse = 0.0;
+  } seconds;
+  std::uint64_t connections = 0;  // camera pixel - projector pixel pairs that T connects, expanded
+  std::uint64_t leaves = 0;       // blocks stored
+  double unresolvedEnergy = 0.0;  // share of the flood image that no leaf explains
+  double flaggedShare = 0.0;      // share of camera pixels that verification found wrong
+  double verificationError = 0.0;
+  std::uint64_t peakMemoryBytes = 0;
+  std::vector<std::string> findings;  // sentences of all stages
+};
+
+/// Measures a venue into a new calibration folder. A simulated venue's transport is kept in `cache`.
+/// Interrupted at any instant, the folder can be resumed.
+/// Stop and keep: ends acquisition after the level under way and goes on with that.
+/// Throws: Error{usage} if `folder` already holds a calibration or anything else; Error{device, input, disk}.
+CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
+                          const std::filesystem::path& cache, Progress& progress);
+
+/// Goes on where an interrupted calibration stopped, with the settings it was begun with. A finished one is
+/// reported as it is. Ends in the same bits as an uninterrupted run.
+CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
+                       Progress& progress);
+
+/// A method of compensation on offer; the names are those of the command line.
+struct MethodDescription {
+  std::string name;      // "refined"
+  std::string sentence;  // what it does
+};
+/// none, scalar, mix, windows, refined, optimum: from the simplest to the best.
+const std::vector<MethodDescription>& methods();
+
+struct CompensateSettings {
+  std::filesystem::path image;     // content, sRGB file or linear EXR
+  std::string method = "refined";  // a name from methods()
+  TargetSettings target;
+  std::filesystem::path out;  // folder; created; files of the same names are replaced
+};
+std::vector<std::string> problems(const CompensateSettings& settings);
+
+struct CompensateResult {
+  std::string method;
+  double psnrPredicted = 0.0;  // dB, prediction against target where reachable
+  double clipped = 0.0;        // share of drive values at 0 or 1
+  double reachable = 0.0;      // share of the content's camera pixels
+  double seconds = 0.0;        // solving alone
+  std::vector<std::filesystem::path> files;
+};
+
+/// Computes the pattern that makes the venue look like an image, and what the camera should then see.
+/// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr into `out`.
+CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
+                            Progress& progress);
+
+struct EvaluateSettings {
+  std::vector<std::filesystem::path> images;  // none: the product's own test pictures
+  std::vector<std::string> methods;           // none: all of them
+  TargetSettings target;
+};
+std::vector<std::string> problems(const EvaluateSettings& settings);
+
+/// How well one method did on one image, through the venue's true transport.
+struct MethodScore {
+  std::string method;
+  double psnrReachable = 0.0;  // dB, linear light, peak = the target's white
+  double psnrAll = 0.0;
+  double ssim = 0.0;
+  double deltaE = 0.0;   // mean CIEDE2000
+  double seconds = 0.0;  // for one frame
+};
+
+struct ImageScore {
+  std::string name;
+  double reachable = 0.0;  // share of this image's pixels
+  std::vector<MethodScore> methods;
+};
+
+/// How well T itself was measured; relative errors.
+struct TransportScore {
+  double frobenius = 0.0;
+  double rowMedian = 0.0;
+  double rowP95 = 0.0;
+  double relightNatural = 0.0;
+  double relightRandom = 0.0;
+};
+
+struct EvaluateResult {
+  std::string venue;
+  Size projector;
+  Size camera;
+  double reachable = 0.0;  // mean over images
+  TransportScore transport;
+  std::vector<ImageScore> images;
+};
+
+/// Compares every method through the true transport of the simulated venue that was calibrated.
+/// Throws: Error{usage} if the calibration is of a real venue: its truth is not known.
+EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSettings& settings,
+                        const std::filesystem::path& cache, Progress& progress);
+
+struct ExportSettings {
+  std::filesystem::path transport;  // T as SciPy BSR, 3x3 blocks, expanded to pixels; empty: not wanted
+  std::filesystem::path inverse;    // T+, the same form; empty: not wanted
+  std::filesystem::path maps;       // folder for black, flood, reachability, flags as EXR; empty: not wanted
+};
+std::vector<std::string> problems(const ExportSettings& settings);
+
+/// Files that a deed wrote.
+struct WrittenFiles {
+  std::vector<std::filesystem::path> files;
+};
+
+/// Writes the measured data for other programs.
+WrittenFiles exportCalibration(const std::filesystem::path& folder, const ExportSettings& settings,
+                               Progress& progress);
+
+struct RelightSettings {
+  std::filesystem::path image;  // relight: linear projector pattern or sRGB file; dual: light from the camera
+  std::filesystem::path out;    // EXR (linear) or PNG
+};
+std::vector<std::string> problems(const RelightSettings& settings);
+
+/// What the camera sees under a pattern, e included: T p + e. The image is scaled to the projector's size.
+WrittenFiles relight(const std::filesystem::path& folder, const RelightSettings& settings,
+                     Progress& progress);
+
+/// Dual photography: the venue as the projector would see it, lit from the camera: T^T c. No image: all
+/// white.
+WrittenFiles dual(const std::filesystem::path& folder, const RelightSettings& settings, Progress& progress);
+
+struct ReportSettings {
+  std::filesystem::path out;                  // the HTML file; empty: report.html in the calibration folder
+  std::vector<std::filesystem::path> images;  // content shown before and after; none: the product's own
+  bool evaluate = true;  // simulated venues: a table of methods through the true transport
+};
+
+/// One self-contained HTML file about a calibration, see report.h.
+WrittenFiles report(const std::filesystem::path& folder, const ReportSettings& settings,
+                    const std::filesystem::path& cache, Progress& progress);
+
+struct Benchmark {
+  std::string name;
+  double seconds = 0.0;      // one run
+  double bytes = 0.0;        // memory traffic of one run that cannot be avoided
+  double shareOfCopy = 0.0;  // bytes / seconds / the machine's copy bandwidth
+};
+
+struct BenchResult {
+  struct Machine {
+    std::string processor;
+    int threads = 0;
+    double copyBytesPerSecond = 0.0;
+  } machine;
+  std::vector<Benchmark> benchmarks;
+};
+
+/// Times the parts that decide how fast everything else is. `name`: only those that contain it; empty: all.
+/// Throws: Error{usage} if no benchmark has such a name, naming what there is.
+BenchResult bench(const std::string& name, Progress& progress);
+
+}  // namespace relucent

@@ -23,9 +23,9 @@ class Random {
   /// Uniform in [0, 1).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
   float uniformFloat() { return static_cast<float>(next() >> 40) * 0x1.0p-24f; }
-  /// Uniform in {0, ..., n-1}, n > 0; the bias of at most n / 2^64 is accepted.
+  /// Uniform in {0, ..., n-1}, 0 < n <= 2^53.
   std::uint64_t below(std::uint64_t n) {
-    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next()) * n) >> 64);
+    return static_cast<std::uint64_t>(uniform() * static_cast<double>(n));
   }
   /// Standard normal (Box-Muller; the second value is kept for the next call).
   double normal() {

@@ -239,8 +239,15 @@ class TestShotJournal : public QObject {
   /// bit, at most one more is, and everything else is a leftover that the next start clears away.
   void killedAtAnyInstant() {
     Random random{2026};
+    // Made once, so that the child spends its time in keep().
+    Shot shot = shotOf(0, {320, 240});
+    auto numbered = [&shot](int number) -> const Shot& {
+      shot.id.number = number;
+      shot.frames[0][0].signal.at(1, 1, 1) = static_cast<float>(number / 4095.0);
+      return shot;
+    };
     int next = 0;
-    for (int round = 0; round < 12; ++round) {
+    for (int round = 0; round < 20; ++round) {
       int done[2];
       QCOMPARE(::pipe(done), 0);
       pid_t child = ::fork();
@@ -248,7 +255,7 @@ class TestShotJournal : public QObject {
         ::close(done[0]);
         ShotJournal journal(folder_);
         for (int number = next;; ++number) {
-          journal.keep(shotOf(number, {160, 120}));
+          journal.keep(numbered(number));
           char byte = 1;
           if (::write(done[1], &byte, 1) != 1) ::_exit(1);
         }
@@ -258,8 +265,8 @@ class TestShotJournal : public QObject {
       int announced = 0;
       for (std::uint64_t shots = 1 + random.below(4); shots > 0; --shots)
         announced += static_cast<int>(::read(done[0], &byte, 1));
-      // Some instant within the shots that follow: a shot takes about two milliseconds.
-      auto until = std::chrono::steady_clock::now() + std::chrono::microseconds(random.below(4000));
+      // Some instant within the shots that follow: a shot takes a few milliseconds.
+      auto until = std::chrono::steady_clock::now() + std::chrono::microseconds(random.below(10000));
       while (std::chrono::steady_clock::now() < until) {
       }
       ::kill(child, SIGKILL);
@@ -272,7 +279,7 @@ class TestShotJournal : public QObject {
       ShotJournal journal(folder_);
       for (int number = 0; number < next + announced; ++number) {
         std::optional<Shot> found = journal.find({"acquisition", number}, fingerprint);
-        QVERIFY2(found && identical(*found, shotOf(number, {160, 120})), std::to_string(number).c_str());
+        QVERIFY2(found && identical(*found, numbered(number)), std::to_string(number).c_str());
       }
       next += announced;
       if (journal.find({"acquisition", next}, fingerprint)) ++next;

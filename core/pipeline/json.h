@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "calibration/json.h"
 
 #include "pipeline/pipeline.h"
 
 namespace relucent {
-
-/// JSON whose keys keep the order in which they were written: documents that people read.
-using Json = nlohmann::ordered_json;
 
 /// The documents of the command line: snake_case keys, numbers without units. What is not finite is null.
 Json toJson(const CalibrateResult& result);

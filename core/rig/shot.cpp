@@ -27,7 +27,7 @@ Shot ShotTaker::take(const std::vector<Image>& encodedPatterns, const std::vecto
   require(!exposures.empty(), "a shot needs an exposure");
   progress.checkpoint();
 
-  Shot shot{{stage_, next_++}, fingerprintOf(encodedPatterns, exposures), {}};
+  Shot shot{{stage_, next_++}, fingerprintOf(encodedPatterns, exposures), {}, exposures};
   exposures_ += static_cast<int>(exposures.size());
   if (std::optional<Shot> kept = log_.find(shot.id, shot.fingerprint)) return *std::move(kept);
 

@@ -15,6 +15,7 @@ struct Shot {
   ShotId id;
   std::string fingerprint;                    // of the patterns shown and the exposures asked for
   std::vector<std::vector<RawFrame>> frames;  // [exposure][camera]
+  std::vector<double> exposuresAsked{};       // seconds; what the cameras report is in the frames
 };
 
 /// Where shots are kept as soon as they are taken. A log makes a run resumable: what it holds is not

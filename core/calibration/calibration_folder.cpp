@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/calibration_folder.h"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/file.h"
+
+#ifndef RELUCENT_VERSION
+#define RELUCENT_VERSION "development"
+#endif
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* formatName = "relucent calibration";
+
+std::string now() {
+  auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
+}
+
+/// Names become parts of file names.
+void requireName(const std::string& name) {
+  bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+  require(plain, "'{}' is no name for a stage: letters, digits, - and _", name);
+}
+
+/// What a program that was killed in the middle of a write left: never named by a manifest.
+bool isManifestLeftover(const std::string& name) {
+  return name.starts_with(".calibration.part") && name.ends_with(".relucent");
+}
+bool isResultLeftover(const std::string& name) {
+  return name.starts_with(".") && name.ends_with(".part");
+}
+
+void removeLeftovers(const fs::path& folder, bool (*isLeftover)(const std::string& name)) {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (isLeftover(entry.path().filename().string())) leftovers.push_back(entry.path());
+  for (const fs::path& path : leftovers) fs::remove_all(path, ignored);
+}
+
+bool holdsAnything(const fs::path& folder) {
+  std::error_code code;
+  fs::directory_iterator entries(folder, code);
+  if (code)
+    throw Error(ErrorKind::disk, fmt::format("cannot look into the folder ({})", code.message()),
+                "check that you may read it, or choose another name", folder.string());
+  return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    return !isManifestLeftover(entry.path().filename().string());
+  });
+}
+
+void sync(const fs::path& path, int flags) {
+  int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  int result = descriptor < 0 ? -1 : ::fsync(descriptor);
+  int code = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  // Some file systems cannot sync a folder; the rename is still atomic there.
+  if (result != 0 && code != EINVAL)
+    throw Error(ErrorKind::disk, fmt::format("cannot write ({})", std::strerror(code)),
+                "free some space there or check the disk, then try again", path.string());
+}
+
+Error damaged(const fs::path& manifest, const std::string& what) {
+  return Error(ErrorKind::format, what,
+               "choose another calibration, or copy it again from where it was measured", manifest.string());
+}
+
+/// The manifest, with everything that this class later takes for granted.
+Json readManifest(const fs::path& file) {
+  Json manifest = Json::parse(readFile(file), nullptr, false);
+  if (manifest.is_discarded() || !manifest.is_object())
+    throw damaged(file, "the calibration's manifest is damaged");
+  if (manifest.value("format", Json()) != formatName)
+    throw damaged(file, "this is no calibration of Relucent");
+  Json written = manifest.value("version", Json());
+  if (!written.is_number_integer()) throw damaged(file, "the calibration's manifest is damaged");
+  if (written.get<int>() > CalibrationFolder::version)
+    throw Error(ErrorKind::format, "the calibration was made by a newer Relucent",
+                "open it with that version, or update this one", file.string());
+
+  auto isText = [](const Json& value) { return value.is_string(); };
+  auto isResult = [&](const Json& entry) {
+    return entry.is_object() && isText(entry.value("inputs", Json())) &&
+           isText(entry.value("stored", Json())) && isText(entry.value("folder", Json())) &&
+           entry.contains("values") && entry.value("files", Json()).is_object() &&
+           std::all_of(entry["files"].begin(), entry["files"].end(),
+                       [](const Json& bytes) { return bytes.is_number_unsigned(); });
+  };
+  Json results = manifest.value("results", Json());
+  bool whole = isText(manifest.value("software", Json())) && isText(manifest.value("created", Json())) &&
+               manifest.contains("rig") && manifest.contains("settings") && results.is_object() &&
+               std::all_of(results.begin(), results.end(), [&](const Json& entries) {
+                 return entries.is_array() && std::all_of(entries.begin(), entries.end(), isResult);
+               });
+  if (!whole) throw damaged(file, "the calibration's manifest is damaged");
+  return manifest;
+}
+
+}  // namespace
+
+CalibrationFolder::CalibrationFolder(fs::path path, FolderLock lock, Access access, Json manifest)
+    : path_(std::move(path)), lock_(std::move(lock)), access_(access), manifest_(std::move(manifest)) {}
+
+CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json settings) {
+  std::error_code code;
+  if (fs::exists(path, code) && !fs::is_directory(path, code))
+    throw Error(ErrorKind::usage, "there is a file of this name", "choose another name for the calibration",
+                path.string());
+  createFolder(path);
+  FolderLock lock(path, Access::write);
+  if (fs::exists(path / manifestName, code))
+    throw Error(ErrorKind::usage, "there is a calibration already",
+                "go on with it by `resume`, or choose another name", path.string());
+  if (holdsAnything(path))
+    throw Error(ErrorKind::usage, "the folder holds other files",
+                "choose a new or an empty folder for the calibration", path.string());
+
+  Json manifest = {
+      {"format", formatName},     {"version", version},    {"software", "Relucent " RELUCENT_VERSION},
+      {"created", now()},         {"rig", std::move(rig)}, {"settings", std::move(settings)},
+      {"results", Json::object()}};
+  CalibrationFolder folder(path, std::move(lock), Access::write, std::move(manifest));
+  folder.writeManifest(folder.manifest_);
+  return folder;
+}
+
+CalibrationFolder CalibrationFolder::open(const fs::path& given, Access access) {
+  fs::path path = given.filename() == manifestName ? given.parent_path() : given;
+  if (path.empty()) path = ".";
+  std::error_code code;
+  if (!fs::is_directory(path, code))
+    throw Error(ErrorKind::input, "there is no such calibration",
+                "check the name, or make one by `calibrate`", path.string());
+  if (!fs::exists(path / manifestName, code))
+    throw Error(ErrorKind::input, fmt::format("this folder is no calibration: it holds no {}", manifestName),
+                "check the name, or make one by `calibrate`", path.string());
+
+  FolderLock lock(path, access);
+  Json manifest = readManifest(path / manifestName);
+  if (access == Access::write) {
+    removeLeftovers(path, isManifestLeftover);
+    removeLeftovers(path / "results", isResultLeftover);
+  }
+  return CalibrationFolder(path, std::move(lock), access, std::move(manifest));
+}
+
+void CalibrationFolder::writeManifest(const Json& manifest) const {
+  require(access_ == Access::write, "the calibration {} is open for reading", path_.string());
+  writeFileAtomically(path_ / manifestName, manifest.dump(1) + "\n");
+}
+
+void CalibrationFolder::setSettings(Json settings) {
+  Json manifest = manifest_;
+  manifest["settings"] = std::move(settings);
+  writeManifest(manifest);
+  manifest_ = std::move(manifest);
+}
+
+StageResult CalibrationFolder::store(const std::string& stage, const std::string& inputs, Json values,
+                                     const std::function<void(const fs::path&)>& writeFiles) {
+  requireName(stage);
+  require(access_ == Access::write, "the calibration {} is open for reading", path_.string());
+  Json files = Json::object();
+  std::string name;
+  if (writeFiles) {
+    fs::path results = path_ / "results";
+    createFolder(results);
+    // A folder without an entry is what a program that died before its last step left; it is passed over.
+    int number = 1;
+    while (fs::exists(results / fmt::format("{}-{}", stage, number))) ++number;
+    name = fmt::format("{}-{}", stage, number);
+    fs::path temporary = results / ("." + name + ".part");
+
+    try {
+      createFolder(temporary);
+      writeFiles(temporary);
+      for (const fs::directory_entry& entry : fs::directory_iterator(temporary)) {
+        sync(entry.path(), O_RDONLY);
+        files[entry.path().filename().string()] = entry.file_size();
+      }
+      sync(temporary, O_RDONLY | O_DIRECTORY);
+      fs::rename(temporary, results / name);
+      sync(results, O_RDONLY | O_DIRECTORY);
+    } catch (const fs::filesystem_error& error) {
+      removeLeftovers(results, isResultLeftover);
+      throw Error(ErrorKind::disk, fmt::format("cannot write ({})", error.code().message()),
+                  "free some space there or check the disk, then try again", results.string());
+    } catch (...) {
+      removeLeftovers(results, isResultLeftover);
+      throw;
+    }
+  }
+
+  Json manifest = manifest_;
+  Json entry = {{"inputs", inputs},
+                {"stored", now()},
+                {"folder", name},
+                {"values", std::move(values)},
+                {"files", std::move(files)}};
+  manifest["results"][stage].push_back(std::move(entry));
+  writeManifest(manifest);
+  manifest_ = std::move(manifest);
+  return *latest(stage);
+}
+
+StageResult CalibrationFolder::resultFrom(const std::string& stage, const Json& entry) const {
+  StageResult result{stage,
+                     entry.at("inputs"),
+                     entry.at("stored"),
+                     entry.at("values"),
+                     path_ / "results" / entry.at("folder").get<std::string>(),
+                     {}};
+  for (const auto& [name, bytes] : entry.at("files").items()) result.files.push_back({name, bytes});
+  return result;
+}
+
+std::optional<StageResult> CalibrationFolder::find(const std::string& stage,
+                                                   const std::string& inputs) const {
+  const Json& results = manifest_.at("results");
+  if (!results.contains(stage)) return std::nullopt;
+  const Json& entries = results.at(stage);
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
+    if (entry->at("inputs") == inputs) return resultFrom(stage, *entry);
+  return std::nullopt;
+}
+
+std::optional<StageResult> CalibrationFolder::latest(const std::string& stage) const {
+  const Json& results = manifest_.at("results");
+  if (!results.contains(stage) || results.at(stage).empty()) return std::nullopt;
+  return resultFrom(stage, results.at(stage).back());
+}
+
+bool CalibrationFolder::isCurrent(const std::string& stage, const std::string& inputs) const {
+  return find(stage, inputs).has_value();
+}
+
+bool CalibrationFolder::isStale(const std::string& stage, const std::string& inputs) const {
+  return latest(stage).has_value() && !isCurrent(stage, inputs);
+}
+
+fs::path fileOf(const StageResult& result, const std::string& name) {
+  auto file = std::find_if(result.files.begin(), result.files.end(),
+                           [&](const ResultFile& candidate) { return candidate.name == name; });
+  fs::path path = result.folder / name;
+  std::error_code code;
+  std::uint64_t bytes = fs::file_size(path, code);
+  if (file == result.files.end() || code)
+    throw damaged(path, fmt::format("a file of the calibration's {} is missing", result.stage));
+  if (bytes != file->bytes)
+    throw damaged(path, fmt::format("a file of the calibration's {} has {} bytes instead of {}", result.stage,
+                                    bytes, file->bytes));
+  return path;
+}
+
+}  // namespace relucent

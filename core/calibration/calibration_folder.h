@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/folder_lock.h"
+#include "calibration/json.h"
+
+namespace relucent {
+
+/// A file that belongs to a stage's result, as it was when it was stored.
+struct ResultFile {
+  std::string name;
+  std::uint64_t bytes = 0;
+};
+
+/// What a stage left behind. Never changed once it is stored.
+struct StageResult {
+  std::string stage;              // "acquisition"
+  std::string inputs;             // fingerprint of everything that the stage was given
+  std::string stored;             // when, ISO 8601, UTC
+  Json values;                    // small results: figures, curves, sentences
+  std::filesystem::path folder;   // where its files are, absolute or as the calibration was opened
+  std::vector<ResultFile> files;  // large results
+};
+
+/// A calibration on disk: a folder with a manifest.
+///   calibration.relucent      JSON: format, version, software, how the rig is made, settings, results
+///   results/<stage>-<n>/      files of the n-th result of a stage
+///   shots/                    the journal of photographs, see shot_journal.h
+/// Every change is one atomic step; killing the program at any instant leaves the calibration as it was
+/// before or after. Results are never changed or deleted: a result whose inputs differ from those asked
+/// for is stale and stays, and is current again when the settings are set back.
+class CalibrationFolder {
+ public:
+  using Access = FolderLock::Kind;
+  static constexpr int version = 1;
+  static constexpr const char* manifestName = "calibration.relucent";
+
+  /// A new calibration, locked for writing. `rig` and `settings` are the pipeline's: how the devices are
+  /// made and what each stage was asked for.
+  /// Throws: Error{usage} if there is a calibration already or the folder holds other things; Error{disk}.
+  static CalibrationFolder create(const std::filesystem::path& path, Json rig, Json settings);
+
+  /// A calibration that is there; `path` is its folder or its manifest. Readers may be many, a writer is
+  /// alone.
+  /// Throws: Error{input} if there is none, Error{format} if it is foreign, damaged or of a newer version,
+  /// Error{usage} if another program works on it.
+  static CalibrationFolder open(const std::filesystem::path& path, Access access);
+
+  const std::filesystem::path& path() const { return path_; }
+  const Json& rig() const { return manifest_.at("rig"); }
+  const Json& settings() const { return manifest_.at("settings"); }
+  /// What later runs are asked for. Results stay; those that no longer fit become stale by themselves.
+  void setSettings(Json settings);
+  /// The program that made this calibration, and when (ISO 8601, UTC).
+  std::string software() const { return manifest_.at("software"); }
+  std::string created() const { return manifest_.at("created"); }
+  std::filesystem::path shotFolder() const { return path_ / "shots"; }
+
+  /// Stores a result: `writeFiles` writes the large parts into the folder it is given. Only when all of
+  /// them are on disk does the manifest name them.
+  /// Throws: Error{disk} and whatever writeFiles throws; the calibration is then as it was.
+  StageResult store(const std::string& stage, const std::string& inputs, Json values,
+                    const std::function<void(const std::filesystem::path& folder)>& writeFiles = {});
+
+  /// The newest result of a stage for these inputs.
+  std::optional<StageResult> find(const std::string& stage, const std::string& inputs) const;
+  /// The newest result of a stage for any inputs: perhaps stale.
+  std::optional<StageResult> latest(const std::string& stage) const;
+  bool isCurrent(const std::string& stage, const std::string& inputs) const;
+  /// There are results, but none for these inputs.
+  bool isStale(const std::string& stage, const std::string& inputs) const;
+
+ private:
+  CalibrationFolder(std::filesystem::path path, FolderLock lock, Access access, Json manifest);
+  void writeManifest(const Json& manifest) const;
+  StageResult resultFrom(const std::string& stage, const Json& entry) const;
+
+  std::filesystem::path path_;
+  FolderLock lock_;
+  Access access_;
+  Json manifest_;
+};
+
+/// Where a file of a result is, after a look at its size.
+/// Throws: Error{format} if it is missing or not as long as it was when it was stored.
+std::filesystem::path fileOf(const StageResult& result, const std::string& name);
+
+}  // namespace relucent

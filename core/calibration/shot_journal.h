@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "rig/shot.h"
+
+namespace relucent {
+
+/// Shots on disk, one file each: what makes a measurement resumable.
+///
+/// A file is a line of JSON (id, fingerprint, exposures asked for and reported, size, bits, checksum) and
+/// then the samples of every exposure of every camera, row by row, channels interleaved, little endian:
+/// whole codes in 8 or 16 bits where the frame consists of codes, else 32-bit floats. Nothing is
+/// compressed, because that would take longer than the photograph (figures: core/calibration/README.md).
+///
+/// Names: <stage>-<number>-<fingerprint>.shot, so that shots taken with other settings stay.
+class ShotJournal : public ShotLog {
+ public:
+  /// Creates `folder`, and clears away what an interrupted write left there. Throws: Error{disk}.
+  explicit ShotJournal(std::filesystem::path folder);
+
+  /// The same bits that keep() was given. A file that is foreign, damaged or cut short counts as none.
+  std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override;
+  /// Throws: Error{disk}; then everything kept before is as it was.
+  void keep(const Shot& shot) override;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path pathOf(const ShotId& id, const std::string& fingerprint) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace relucent

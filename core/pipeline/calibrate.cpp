@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "base/error.h"
+#include "calibration/results.h"
+#include "calibration/shot_journal.h"
+#include "pipeline/devices.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/settings_json.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::uint64_t peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Pairs of a camera pixel and a projector pixel that the leaves connect; nested leaves count once each.
+std::uint64_t connectionsOf(const TransportMatrix& transport) {
+  std::uint64_t connections = 0;
+  const BlockSparse& leaves = transport.leaves();
+  const NodeLayout& layout = transport.layout();
+  for (std::size_t entry = 0; entry < leaves.blocks(); ++entry)
+    connections += static_cast<std::uint64_t>(layout.block(layout.node(leaves.column(entry))).count());
+  return connections;
+}
+
+/// The stages of a calibration, each taken from the folder where it is done already.
+class Calibrating {
+ public:
+  Calibrating(CalibrationFolder& folder, OpenedRig& devices)
+      : folder_(folder), devices_(devices), journal_(folder.shotFolder()), settings_(settingsOf(folder)) {}
+
+  CalibrateResult run(Progress& progress) {
+    Progress linearizing = progress.part(0.15, "Linearizing");
+    Linearization linearization = linearized(linearizing);
+    linearizing.report(1.0);
+    Progress acquiring = progress.part(0.75, "Measuring the light transport");
+    Acquisition acquisition = acquired(linearization, acquiring);
+    acquiring.report(1.0);
+    Progress inverting = progress.part(0.1, "Inverting the light transport");
+    CalibrateResult result = summary(linearization, acquisition);
+    inverted(acquisition, inverting, result);
+    progress.report(1.0);
+    result.peakMemoryBytes = peakMemory();
+    return result;
+  }
+
+ private:
+  /// What a stage's run cost, kept with its result.
+  Json cost(Clock::time_point begin, const ShotTaker* shots) const {
+    Json values{{"seconds", secondsSince(begin)}};
+    values["patterns"] = shots != nullptr ? shots->shots() : 0;
+    values["exposures"] = shots != nullptr ? shots->exposures() : 0;
+    return values;
+  }
+
+  Linearization linearized(Progress& progress) {
+    std::string inputs = linearizationFingerprint(settings_);
+    if (auto done = folder_.find(stage::linearization, inputs)) return loadLinearization(*done);
+    auto begin = Clock::now();
+    ShotTaker shots(devices_.rig, journal_, stage::linearization);
+    Linearization linearization = linearize(shots, settings_.linearization, progress);
+    storeLinearization(folder_, inputs, linearization, cost(begin, &shots));
+    return linearization;
+  }
+
+  Acquisition acquired(const Linearization& linearization, Progress& progress) {
+    std::string inputs = acquisitionFingerprint(settings_);
+    if (auto done = folder_.find(stage::acquisition, inputs)) return loadAcquisition(*done);
+    auto begin = Clock::now();
+    ShotTaker shots(devices_.rig, journal_, stage::acquisition);
+    Acquisition acquisition = acquire(shots, linearization, settings_.acquisition, progress);
+    storeAcquisition(folder_, inputs, acquisition, cost(begin, &shots));
+    return acquisition;
+  }
+
+  /// The operator itself is not stored: making it again is quicker than reading it. What is kept is that it
+  /// can be made, and how long it took.
+  void inverted(Acquisition& acquisition, Progress& progress, CalibrateResult& result) {
+    std::string inputs = inverseFingerprint(settings_);
+    if (!folder_.isCurrent(stage::inverse, inputs)) {
+      auto begin = Clock::now();
+      MeasuredVenue venue = takeMeasuredVenue(acquisition, settings_.threshold);
+      WindowInverse inverse = computeWindows(venue.transport, venue.usable, settings_.windows, progress);
+      folder_.store(stage::inverse, inputs, Json{{"cost", cost(begin, nullptr)}, {"bytes", inverse.bytes()}});
+    }
+    result.seconds.inverse = costOf(stage::inverse, "seconds");
+  }
+
+  /// A figure that cost() kept.
+  double costOf(const char* stageName, const char* key) const {
+    std::optional<StageResult> stored = folder_.latest(stageName);
+    return stored ? stored->values.at("cost").value(key, 0.0) : 0.0;
+  }
+
+  CalibrateResult summary(const Linearization& linearization, const Acquisition& acquisition) const {
+    CalibrateResult result;
+    for (const char* stageName : {stage::linearization, stage::acquisition}) {
+      result.patterns += static_cast<int>(costOf(stageName, "patterns"));
+      result.exposures += static_cast<int>(costOf(stageName, "exposures"));
+    }
+    result.seconds.linearization = costOf(stage::linearization, "seconds");
+    result.seconds.acquisition = costOf(stage::acquisition, "seconds");
+    result.leaves = acquisition.transport.leaves().blocks();
+    result.connections = connectionsOf(acquisition.transport);
+    result.unresolvedEnergy = acquisition.unresolvedEnergy;
+    std::size_t flagged = 0;
+    for (std::uint8_t flag : acquisition.flagged) flagged += flag != 0;
+    result.flaggedShare = static_cast<double>(flagged) / static_cast<double>(acquisition.flagged.size());
+    result.verificationError = acquisition.verificationError;
+    result.findings = linearization.findings;
+    result.findings.insert(result.findings.end(), acquisition.findings.begin(), acquisition.findings.end());
+    return result;
+  }
+
+  CalibrationFolder& folder_;
+  OpenedRig& devices_;
+  ShotJournal journal_;
+  CalibrateSettings settings_;
+};
+
+CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, Progress& progress) {
+  CalibrateSettings settings = settingsOf(folder);
+  Progress opening = progress.part(0.2, "Preparing the devices");
+  OpenedRig devices = openRig(settings.rig, cache, opening);
+  opening.report(1.0);
+  Progress measuring = progress.part(0.8, "Calibrating");
+  return Calibrating(folder, devices).run(measuring);
+}
+
+}  // namespace
+
+CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
+                          Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  CalibrationFolder folder =
+      CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  return runStages(folder, cache, progress);
+}
+
+CalibrateResult resume(const fs::path& path, const fs::path& cache, Progress& progress) {
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+  return runStages(folder, cache, progress);
+}
+
+}  // namespace relucent

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "image/image.h"
+
+namespace relucent {
+
+/// Three values of a colour in whatever space the name of the variable says.
+using Color = std::array<double, 3>;
+
+/// The sRGB transfer function, exact and piecewise; odd beyond 0, so that negative values survive.
+/// Source: IEC 61966-2-1.
+double srgbEncode(double linear);
+double srgbDecode(double encoded);
+Image srgbEncoded(const Image& linear);
+Image srgbDecoded(const Image& encoded);
+
+/// Y = 0.2126 R + 0.7152 G + 0.0722 B, of linear values.  Source: ITU-R BT.709.
+double luminance(const Color& linearRgb);
+/// The same for every pixel of an image of three channels: one channel.
+Image luminance(const Image& linear);
+
+/// Linear sRGB -> CIE XYZ, white at Y = 1 (D65).  Source: IEC 61966-2-1.
+Color xyzFromLinearRgb(const Color& linearRgb);
+/// CIE XYZ -> CIE L*a*b* with the white of sRGB, so that grey is a = b = 0.  Source: CIE 15.
+Color labFromXyz(const Color& xyz);
+
+/// The colour difference CIEDE2000 with kL = kC = kH = 1.  Source: Sharma, Wu & Dalal 2005.
+double ciede2000(const Color& lab1, const Color& lab2);
+
+/// What a viewer adapted to `white` sees, as sRGB: encode(clamp(linear / white, 0, 1)) per channel.
+/// The common ground of meanDeltaE() and ssim().
+Image viewed(const Image& linear, const std::array<float, 3>& white);
+
+/// Mean CIEDE2000 between two sRGB-encoded images over the pixels where `mask` is not 0 (empty: all).
+/// Throws: std::logic_error if shapes differ or no pixel is left.
+double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
+
+}  // namespace relucent

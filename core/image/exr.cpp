@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "image/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfStringAttribute.h>
+#include <ImfTestFile.h>
+#include <ImfVersion.h>
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <set>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/exr_stream.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+/// More than any camera or projector delivers; a damaged header can ask for anything.
+constexpr std::size_t largestSampleCount = std::size_t{1} << 30;
+
+std::string joined(const std::vector<std::string>& names) {
+  return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
+}
+
+Size sizeOf(const Imath::Box2i& window) {
+  return {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
+}
+
+Imath::Box2i boxOf(Pixel origin, Size size) {
+  return {Imath::V2i(origin.x, origin.y), Imath::V2i(origin.x + size.width - 1, origin.y + size.height - 1)};
+}
+
+bool reservedName(const std::string& name) {
+  static const std::set<std::string> reserved{"channels",
+                                              "compression",
+                                              "dataWindow",
+                                              "displayWindow",
+                                              "lineOrder",
+                                              "pixelAspectRatio",
+                                              "screenWindowCenter",
+                                              "screenWindowWidth",
+                                              "tiles",
+                                              "name",
+                                              "type",
+                                              "version",
+                                              "chunkCount",
+                                              "preview",
+                                              "maxSamplesPerPixel"};
+  return reserved.contains(name);
+}
+
+/// Alphabetical as in the file, but R, G, B, A of a layer in the order in which everybody expects them.
+std::vector<std::string> orderedNames(const Imf::ChannelList& channels) {
+  std::vector<std::string> names;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) names.push_back(channel.name());
+  auto key = [](const std::string& name) {
+    std::size_t dot = name.rfind('.');
+    std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
+    std::string last = dot == std::string::npos ? name : name.substr(dot + 1);
+    std::size_t rank = last.size() == 1 ? std::string_view("RGBA").find(last) : std::string_view::npos;
+    return std::tuple(layer, rank, last);
+  };
+  std::sort(names.begin(), names.end(),
+            [&](const std::string& a, const std::string& b) { return key(a) < key(b); });
+  return names;
+}
+
+std::map<std::string, ExrAttribute> attributesOf(const Imf::Header& header) {
+  std::map<std::string, ExrAttribute> attributes;
+  for (auto entry = header.begin(); entry != header.end(); ++entry) {
+    if (reservedName(entry.name())) continue;
+    const Imf::Attribute& attribute = entry.attribute();
+    if (auto text = dynamic_cast<const Imf::StringAttribute*>(&attribute))
+      attributes[entry.name()] = text->value();
+    else if (auto real = dynamic_cast<const Imf::DoubleAttribute*>(&attribute))
+      attributes[entry.name()] = real->value();
+    else if (auto single = dynamic_cast<const Imf::FloatAttribute*>(&attribute))
+      attributes[entry.name()] = static_cast<double>(single->value());
+    else if (auto whole = dynamic_cast<const Imf::IntAttribute*>(&attribute))
+      attributes[entry.name()] = whole->value();
+  }
+  return attributes;
+}
+
+[[noreturn]] void failFormat(const fs::path& path, std::string what, std::string advice) {
+  throw Error(ErrorKind::format, std::move(what), std::move(advice), path.string());
+}
+
+/// Throws: Error{format} for the kinds of OpenEXR files that are no plain pictures.
+void checkKind(const Imf::InputFile& file, const fs::path& path) {
+  const Imf::Header& header = file.header();
+  if (Imf::isMultiPart(file.version()))
+    failFormat(path, "the OpenEXR file has several parts",
+               "save the part that you want as a file of its own");
+  if (Imf::isNonImage(file.version()) || (header.hasType() && Imf::isDeepData(header.type())))
+    failFormat(path, "the OpenEXR file holds deep data", "flatten it to a plain picture and save it again");
+  if (!file.isComplete())
+    failFormat(path, "the OpenEXR file is incomplete", "copy it again, or write it again with its program");
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+      failFormat(
+          path,
+          fmt::format("channel {} of the OpenEXR file is subsampled (luminance and chroma)", channel.name()),
+          "save it again as R, G, B at full resolution");
+}
+
+ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
+  const Imf::Header& header = file.header();
+  const Imath::Box2i window = header.dataWindow();
+  const Size size = sizeOf(window);
+
+  ExrImage image;
+  image.channelNames = orderedNames(header.channels());
+  const std::size_t channels = image.channelNames.size();
+  if (channels == 0) failFormat(path, "the OpenEXR file has no channels", "choose another file");
+  if (size.count() > largestSampleCount / channels)
+    failFormat(path, fmt::format("the OpenEXR file claims {}x{} pixels", size.width, size.height),
+               "check the file: it is damaged, or far larger than any camera's picture");
+  image.pixels = Image(size, static_cast<int>(channels));
+  image.dataOrigin = {window.min.x, window.min.y};
+  image.displayOrigin = {header.displayWindow().min.x, header.displayWindow().min.y};
+  image.displaySize = sizeOf(header.displayWindow());
+  image.attributes = attributesOf(header);
+
+  Imf::FrameBuffer frame;
+  const std::size_t pixelBytes = channels * sizeof(float);
+  for (std::size_t c = 0; c < channels; ++c)
+    frame.insert(image.channelNames[c],
+                 Imf::Slice::Make(Imf::FLOAT, image.pixels.data().data() + c, window, pixelBytes,
+                                  pixelBytes * static_cast<std::size_t>(size.width)));
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+std::vector<half> toHalf(const Image& image, const fs::path& path) {
+  std::vector<half> samples(image.data().size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = half(image.data()[i]);
+    if (samples[i].isInfinity() && std::isfinite(image.data()[i]))
+      throw Error(ErrorKind::input,
+                  fmt::format("the value {} is too large for half precision (65504)", image.data()[i]),
+                  "write the picture as float", path.string());
+  }
+  return samples;
+}
+
+Imf::Header headerFor(const ExrImage& image, ExrType type) {
+  const Size display = image.displaySize.value_or(image.pixels.size());
+  const Pixel displayOrigin = image.displaySize ? image.displayOrigin : image.dataOrigin;
+  Imf::Header header(boxOf(displayOrigin, display), boxOf(image.dataOrigin, image.pixels.size()), 1.0f,
+                     Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  for (const std::string& name : image.channelNames)
+    header.channels().insert(name, Imf::Channel(type == ExrType::half ? Imf::HALF : Imf::FLOAT));
+  for (const auto& [name, attribute] : image.attributes) {
+    require(!reservedName(name), "OpenEXR reserves the attribute name {}", name);
+    if (auto text = std::get_if<std::string>(&attribute))
+      header.insert(name, Imf::StringAttribute(*text));
+    else if (auto real = std::get_if<double>(&attribute))
+      header.insert(name, Imf::DoubleAttribute(*real));
+    else
+      header.insert(name, Imf::IntAttribute(std::get<int>(attribute)));
+  }
+  return header;
+}
+
+template <typename Sample>
+std::string encoded(const ExrImage& image, ExrType type, const std::vector<Sample>& samples,
+                    const fs::path& path) {
+  detail::MemoryOutput stream(path.filename().string());
+  {
+    Imf::Header header = headerFor(image, type);
+    Imf::FrameBuffer frame;
+    const std::size_t pixelBytes = image.channelNames.size() * sizeof(Sample);
+    for (std::size_t c = 0; c < image.channelNames.size(); ++c)
+      frame.insert(image.channelNames[c],
+                   Imf::Slice::Make(type == ExrType::half ? Imf::HALF : Imf::FLOAT, samples.data() + c,
+                                    header.dataWindow(), pixelBytes,
+                                    pixelBytes * static_cast<std::size_t>(image.pixels.width())));
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.pixels.height());
+  }  // closing the file writes its table of lines
+  return stream.content();
+}
+
+}  // namespace
+
+bool looksLikeExr(std::string_view content) {
+  return content.size() >= 4 && Imf::isImfMagic(content.data());
+}
+
+ExrImage readExr(const fs::path& path) {
+  const std::string content = readFile(path);
+  if (!looksLikeExr(content)) failFormat(path, "this is not an OpenEXR file", "choose an .exr file");
+  try {
+    detail::MemoryInput stream(content, path.filename().string());
+    Imf::InputFile file(stream);
+    checkKind(file, path);
+    return readPixels(file, path);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::memory, "there is not enough memory to read the picture",
+                "close other programs, or make the picture smaller", path.string());
+  } catch (const std::exception&) {
+    failFormat(path, "the OpenEXR file is damaged or cut short",
+               "copy it again, or write it again with its program");
+  }
+}
+
+void writeExr(const fs::path& path, const ExrImage& image, ExrType type) {
+  require(!image.pixels.empty(), "an OpenEXR file needs pixels");
+  require(image.channelNames.size() == static_cast<std::size_t>(image.pixels.channels()),
+          "{} names for {} channels", image.channelNames.size(), image.pixels.channels());
+  require(std::set(image.channelNames.begin(), image.channelNames.end()).size() == image.channelNames.size(),
+          "channel names are not unique: {}", joined(image.channelNames));
+  writeFileAtomically(path, type == ExrType::half ? encoded(image, type, toHalf(image.pixels, path), path)
+                                                  : encoded(image, type, image.pixels.data(), path));
+}
+
+void writeExr(const fs::path& path, const Image& image, ExrType type,
+              std::map<std::string, ExrAttribute> attributes) {
+  require(image.channels() == 3 || image.channels() == 1, "no names for {} channels", image.channels());
+  ExrImage exr;
+  exr.pixels = image;
+  exr.channelNames =
+      image.channels() == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
+  exr.attributes = std::move(attributes);
+  writeExr(path, exr, type);
+}
+
+Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
+  const ExrImage exr = readExr(path);
+  const Size size = *exr.displaySize;
+  if (expected && size != *expected)
+    throw Error(ErrorKind::input,
+                fmt::format("the picture has {}x{} pixels where {}x{} are needed", size.width, size.height,
+                            expected->width, expected->height),
+                "choose a picture of that size", path.string());
+  if (size.count() > largestSampleCount / 3)
+    failFormat(path, fmt::format("the OpenEXR file claims {}x{} pixels", size.width, size.height),
+               "check the file: it is damaged, or far larger than any camera's picture");
+
+  auto placeOf = [&](const char* name) {
+    return std::find(exr.channelNames.begin(), exr.channelNames.end(), name) - exr.channelNames.begin();
+  };
+  const auto end = std::ssize(exr.channelNames);
+  std::array<std::ptrdiff_t, 3> source{placeOf("R"), placeOf("G"), placeOf("B")};
+  const bool rgb = std::find(source.begin(), source.end(), end) == source.end();
+  if (!rgb && exr.channelNames == std::vector<std::string>{"Y"})
+    source = {0, 0, 0};
+  else if (!rgb)
+    failFormat(path, fmt::format("the OpenEXR file has the channels {}", joined(exr.channelNames)),
+               "save it with the channels R, G and B, or with Y alone");
+
+  // Display coordinates of the data window; only what both windows share is copied.
+  const std::int64_t left = std::int64_t{exr.dataOrigin.x} - exr.displayOrigin.x;
+  const std::int64_t top = std::int64_t{exr.dataOrigin.y} - exr.displayOrigin.y;
+  Image image(size, 3);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const std::int64_t dataX = x - left, dataY = y - top;
+      if (dataX < 0 || dataY < 0 || dataX >= exr.pixels.width() || dataY >= exr.pixels.height()) continue;
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = exr.pixels.at(static_cast<int>(dataX), static_cast<int>(dataY),
+                                          static_cast<int>(source[static_cast<std::size_t>(c)]));
+    }
+  return image;
+}
+
+void checkFinite(const Image& image, const fs::path& path) {
+  std::size_t notNumbers = 0, infinities = 0, first = 0;
+  for (std::size_t i = 0; i < image.data().size(); ++i) {
+    if (std::isfinite(image.data()[i])) continue;
+    if (notNumbers + infinities == 0) first = i;
+    ++(std::isnan(image.data()[i]) ? notNumbers : infinities);
+  }
+  if (notNumbers + infinities == 0) return;
+  const Pixel place = pixelAt(image.size(), first / static_cast<std::size_t>(image.channels()));
+  throw Error(ErrorKind::input,
+              fmt::format("the picture holds {} NaN and {} infinite values, the first at pixel {}, {}",
+                          notNumbers, infinities, place.x, place.y),
+              "write it again with finite numbers only", path.string());
+}
+
+}  // namespace relucent

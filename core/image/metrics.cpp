@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "image/metrics.h"
+
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error.h"
+#include "image/color.h"
+#include "image/mask.h"
+
+namespace relucent {
+namespace {
+
+constexpr int windowRadius = 5;
+
+/// Mean over pixels of sum over channels ((a - b) / scale)^2 / channels.
+template <typename Scale>
+double meanSquare(const Image& a, const Image& b, std::span<const std::uint8_t> mask, const Scale& scale) {
+  const std::size_t counted = detail::comparedPixels(a, b, mask);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.pixels(); ++i) {
+    if (!detail::inside(mask, i)) continue;
+    const auto pixelA = a.pixel(i), pixelB = b.pixel(i);
+    for (std::size_t c = 0; c < pixelA.size(); ++c) {
+      const double step = (static_cast<double>(pixelA[c]) - static_cast<double>(pixelB[c])) / scale(c);
+      sum += step * step;
+    }
+  }
+  return sum / (static_cast<double>(counted) * a.channels());
+}
+
+double decibels(double meanSquare) {
+  return meanSquare > 0.0 ? -10.0 * std::log10(meanSquare) : std::numeric_limits<double>::infinity();
+}
+
+/// The luma as doubles: variances are differences of nearly equal numbers.
+cv::Mat lumaOf(const Image& encoded) {
+  cv::Mat luma(encoded.height(), encoded.width(), CV_64F);
+  for (std::size_t i = 0; i < encoded.pixels(); ++i) {
+    const auto pixel = encoded.pixel(i);
+    luma.ptr<double>()[i] =
+        encoded.channels() == 3 ? luminance(Color{pixel[0], pixel[1], pixel[2]}) : pixel[0];
+  }
+  return luma;
+}
+
+cv::Mat windowMean(const cv::Mat& values) {
+  cv::Mat mean;
+  const int side = 2 * windowRadius + 1;
+  cv::GaussianBlur(values, mean, cv::Size(side, side), 1.5, 1.5, cv::BORDER_REFLECT_101);
+  return mean;
+}
+
+/// Wang et al., equation 13, per pixel.
+cv::Mat similarityMap(const cv::Mat& a, const cv::Mat& b) {
+  constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
+  const cv::Mat meanA = windowMean(a), meanB = windowMean(b);
+  const cv::Mat meanAA = meanA.mul(meanA), meanBB = meanB.mul(meanB), meanAB = meanA.mul(meanB);
+  const cv::Mat varianceA = windowMean(a.mul(a)) - meanAA, varianceB = windowMean(b.mul(b)) - meanBB;
+  const cv::Mat covariance = windowMean(a.mul(b)) - meanAB;
+  const cv::Mat above = (2.0 * meanAB + c1).mul(2.0 * covariance + c2);
+  const cv::Mat below = (meanAA + meanBB + c1).mul(varianceA + varianceB + c2);
+  return above / below;
+}
+
+}  // namespace
+
+double mse(const Image& a, const Image& b, std::span<const std::uint8_t> mask) {
+  return meanSquare(a, b, mask, [](std::size_t) { return 1.0; });
+}
+
+double psnr(const Image& a, const Image& b, double peak, std::span<const std::uint8_t> mask) {
+  require(peak > 0.0, "a peak is positive, not {}", peak);
+  return decibels(meanSquare(a, b, mask, [&](std::size_t) { return peak; }));
+}
+
+double psnr(const Image& a, const Image& b, const std::array<float, 3>& white,
+            std::span<const std::uint8_t> mask) {
+  require(a.channels() == 3, "3 channels are needed, not {}", a.channels());
+  for (float peak : white) require(peak > 0.0f, "a peak is positive, not {}", peak);
+  return decibels(meanSquare(a, b, mask, [&](std::size_t c) { return static_cast<double>(white[c]); }));
+}
+
+double ssim(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask) {
+  detail::comparedPixels(encodedA, encodedB, mask);
+  require(encodedA.channels() == 3 || encodedA.channels() == 1, "no luma of {} channels",
+          encodedA.channels());
+  const cv::Mat map = similarityMap(lumaOf(encodedA), lumaOf(encodedB));
+
+  double wholeSum = 0.0, edgeSum = 0.0;
+  std::size_t wholeCount = 0, edgeCount = 0;
+  for (int y = 0; y < map.rows; ++y)
+    for (int x = 0; x < map.cols; ++x) {
+      if (!detail::inside(mask, indexOf(encodedA.size(), {x, y}))) continue;
+      const bool whole = x >= windowRadius && y >= windowRadius && x < map.cols - windowRadius &&
+                         y < map.rows - windowRadius;
+      (whole ? wholeSum : edgeSum) += map.at<double>(y, x);
+      ++(whole ? wholeCount : edgeCount);
+    }
+  return wholeCount > 0 ? wholeSum / static_cast<double>(wholeCount)
+                        : edgeSum / static_cast<double>(edgeCount);
+}
+
+}  // namespace relucent

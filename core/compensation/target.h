@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compensation/placement.h"
 #include "image/image.h"
 #include "transport/transport_matrix.h"
 
@@ -16,32 +17,41 @@ namespace relucent {
 struct MeasuredVenue {
   TransportMatrix transport;
   Stack black;                       // e
-  Stack flood;                       // T 1 as photographed
+  Stack flood;                       // T 1 as photographed, less e
   std::vector<std::uint8_t> usable;  // per camera pixel: lit by the projector and not flagged
 };
 
 struct TargetSettings {
-  /// Corners of the content in the first camera's view, pixels, clockwise from top left; none: the largest
-  /// upright rectangle of the content's shape that lies in usable pixels.
-  std::optional<std::array<std::array<double, 2>, 4>> corners;
+  /// Corners of the content in the first camera's view; none: largestUpright() over the usable pixels.
+  std::optional<Corners> corners;
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
   double blackLift = 0.0;             // share of white added to black
+  double unreachableWeight = 0.1;     // weight of pixels that cannot show what is wanted
 };
 std::vector<std::string> problems(const TargetSettings& settings);
 
-/// The image wanted at the camera.
+/// The image wanted at the cameras.
 struct Target {
-  Stack wanted;                         // camera signal per second
+  Stack content;                        // the content as it is placed, 0 to 1; 0 outside
+  Stack wanted;                         // camera signal per second; e outside
   std::vector<std::uint8_t> inside;     // per camera pixel: the content covers it
   std::vector<std::uint8_t> reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
-  std::vector<float> weight;            // per camera pixel: 1 inside, less where unreachable, 0 outside
+  std::vector<float> weight;            // per camera pixel: 1 inside, less where unreachable, 0 where of no use
   std::array<float, 3> white{};         // wanted signal of the content's white: the peak for PSNR
+  Corners corners{};                    // where the content was placed
 };
 
-/// Places and scales linear content (values 0 to 1) into what the camera should see.
-///   wanted = white * K content,  K = the venue's mean row-normalised colour mixing, so that content's
-///   colours
-/// keep the projector's hues and white stays neutral. Brightness: from the reachability map.
+/// K: how the venue mixes the projector's colours on average,
+///   K = mean over the usable pixels of diag(B_i 1)^-1 B_i,   B_i = the row sum of T.
+/// Every row of K sums to one, so grey content stays grey.
+ColourBlock meanColourMixing(const MeasuredVenue& venue);
+
+/// Places and scales linear content (three channels, values 0 to 1) into what the first camera should see:
+///   wanted = white * (lift + (1 - lift) K content).
+/// White is the same signal in all channels: as bright as `reachablePercentile` allows, that is so bright that
+/// this share of the usable pixels inside cannot show it (their T 1 + e lies below it in some channel).
+/// Source: core/compensation/README.md.
+/// Throws: Error{input} if no part of the view is lit or the corners enclose nothing usable.
 Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings);
 
 }  // namespace relucent

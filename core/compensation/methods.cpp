@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/methods.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::array<std::pair<Method, std::string_view>, 6> methodNames{{{Method::none, "none"},
+                                                                          {Method::scalar, "scalar"},
+                                                                          {Method::mix, "mix"},
+                                                                          {Method::windows, "windows"},
+                                                                          {Method::refined, "refined"},
+                                                                          {Method::optimum, "optimum"}}};
+
+float clamp01(float value) { return std::clamp(value, 0.0f, 1.0f); }
+
+Stack difference(const Stack& a, const Stack& b) {
+  Stack result(a.size());
+  parallelFor(0, a.size(), 4096, [&](std::size_t i) { result[i] = a[i] - b[i]; });
+  return result;
+}
+
+/// Per projector pixel: its brightest camera pixel lies within the content.
+std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
+  std::vector<std::uint8_t> free(brightest.size(), 0);
+  for (std::size_t j = 0; j < free.size(); ++j)
+    free[j] = brightest[j] >= 0 && target.inside[static_cast<std::size_t>(brightest[j])];
+  return free;
+}
+
+/// Clamps, blackens what is not free, and says what share of the free values was cut off.
+double finish(Stack& p, const std::vector<std::uint8_t>& free) {
+  // A value beyond by less than half a code of an 8-bit projector is not visibly cut.
+  constexpr float visible = 0.002f;
+  std::size_t cut = 0, values = 0;
+  for (std::size_t j = 0; j < p.size(); ++j) {
+    if (!free[j / 3]) {
+      p[j] = 0.0f;
+      continue;
+    }
+    ++values;
+    cut += p[j] < -visible || p[j] > 1.0f + visible;
+    p[j] = clamp01(p[j]);
+  }
+  return values > 0 ? static_cast<double>(cut) / static_cast<double>(values) : 0.0;
+}
+
+}  // namespace
+
+std::string_view toString(Method method) {
+  for (const auto& [value, name] : methodNames)
+    if (value == method) return name;
+  return {};
+}
+
+std::optional<Method> methodFromName(std::string_view name) {
+  for (const auto& [value, text] : methodNames)
+    if (text == name) return value;
+  return std::nullopt;
+}
+
+std::vector<std::string> problems(const CompensatorSettings& settings) {
+  std::vector<std::string> found = problems(settings.optimum);
+  for (float step : settings.steps)
+    if (!(step > 0.0f)) found.push_back("the steps of the refined method must be above 0");
+  return found;
+}
+
+std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
+                                                  const std::vector<std::uint8_t>& usable) {
+  constexpr float leastShare = 0.01f;
+  const BlockSparse& leaves = transport.leaves();
+  const NodeLayout& layout = transport.layout();
+  const Rasters& projectors = transport.projectors();
+  std::vector<std::int32_t> brightest(projectors.count(), -1);
+  std::vector<float> light(projectors.count(), 0.0f);
+  std::vector<float> pixelsOf(layout.count());
+  parallelFor(0, pixelsOf.size(), 1024, [&](std::size_t node) {
+    pixelsOf[node] = static_cast<float>(layout.block(layout.node(node)).count());
+  });
+
+  std::vector<float> ofEntry;
+  for (std::size_t row = 0; row < leaves.rows(); ++row) {
+    if (!usable[row]) continue;
+    ofEntry.clear();
+    float most = 0.0f;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+      ofEntry.push_back(leaves.block(row, entry).sum() / pixelsOf[leaves.column(entry)]);
+      most = std::max(most, ofEntry.back());
+    }
+    for (std::size_t i = 0; i < ofEntry.size(); ++i) {
+      if (!(ofEntry[i] > 0.0f) || ofEntry[i] < leastShare * most) continue;
+      Node node = layout.node(leaves.column(leaves.rowBegin(row) + i));
+      auto projector = static_cast<std::size_t>(node.projector);
+      Block block = layout.block(node);
+      for (int y = block.y0; y < block.y1; ++y) {
+        for (int x = block.x0; x < block.x1; ++x) {
+          std::size_t pixel = projectors.offset(projector) + indexOf(projectors.size(projector), {x, y});
+          if (ofEntry[i] <= light[pixel]) continue;
+          light[pixel] = ofEntry[i];
+          brightest[pixel] = static_cast<std::int32_t>(row);
+        }
+      }
+    }
+  }
+  return brightest;
+}
+
+Compensator::Compensator(const MeasuredVenue& venue, const WindowInverse& inverse, CompensatorSettings settings)
+    : venue_(venue),
+      inverse_(inverse),
+      settings_(std::move(settings)),
+      brightest_(brightestCorrespondence(venue.transport, venue.usable)),
+      mixing_(venue.transport.rowSums()) {
+  require(inverse.cameras() == venue.transport.cameras() && inverse.projectors() == venue.transport.projectors(),
+          "the inverse belongs to another venue");
+  auto wrong = problems(settings_);
+  require(wrong.empty(), "compensator settings: {}", fmt::join(wrong, "; "));
+}
+
+Stack Compensator::perPixel(Method method, const Target& target) const {
+  Stack p(3 * brightest_.size(), 0.0f);
+  parallelFor(0, brightest_.size(), 1024, [&](std::size_t j) {
+    if (brightest_[j] < 0) return;
+    auto i = static_cast<std::size_t>(brightest_[j]);
+    using Colour = Eigen::Map<const Eigen::Vector3f>;
+    Eigen::Map<Eigen::Vector3f> drive(&p[3 * j]);
+    Eigen::Vector3f residual = Colour(&target.wanted[3 * i]) - Colour(&venue_.black[3 * i]);
+    switch (method) {
+      case Method::scalar:
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          float flood = venue_.flood[3 * i + static_cast<std::size_t>(c)];
+          drive[c] = flood > 0.0f ? residual[c] / flood : 0.0f;
+        }
+        break;
+      case Method::mix: {
+        Eigen::Matrix3f inverse;
+        bool invertible = false;
+        Eigen::Matrix3f(mixing_[i]).computeInverseWithCheck(inverse, invertible, 1e-12f);
+        if (invertible) drive = inverse * residual;
+        break;
+      }
+      default:
+        drive = Colour(&target.content[3 * i]);
+    }
+  });
+  return p;
+}
+
+Stack Compensator::windows(const Target& target) const {
+  return inverse_.apply(difference(target.wanted, venue_.black));
+}
+
+Compensation Compensator::solve(Method method, const Target& target, Progress& progress) const {
+  require(target.wanted.size() == venue_.black.size() && target.inside.size() == venue_.usable.size(),
+          "a target of {} values for {} camera values", target.wanted.size(), venue_.black.size());
+  std::vector<std::uint8_t> free = contentPixels(brightest_, target);
+  Compensation result;
+  if (method == Method::none || method == Method::scalar || method == Method::mix) {
+    result.projector = perPixel(method, target);
+    result.clipped = finish(result.projector, free);
+    progress.report(1.0);
+    return result;
+  }
+
+  result.projector = windows(target);
+  result.clipped = finish(result.projector, free);
+  Stack wantedLessBlack = difference(target.wanted, venue_.black);
+  ConstrainedProblem problem{venue_.transport, wantedLessBlack, target.weight, free};
+  if (method == Method::refined) {
+    Stack c = diagonalPreconditioner(problem);
+    for (float step : settings_.steps) {
+      progress.report(static_cast<double>(result.iterations) / static_cast<double>(settings_.steps.size()));
+      Stack g = gradient(problem, result.projector);
+      parallelFor(0, g.size(), 4096, [&](std::size_t j) { result.projector[j] -= step * c[j] * g[j]; });
+      result.clipped = finish(result.projector, free);
+      ++result.iterations;
+    }
+  }
+  if (method == Method::optimum) {
+    SolveResult solved = solveConstrained(problem, result.projector, settings_.optimum, progress);
+    result.projector = std::move(solved.x);
+    result.iterations = solved.iterations;
+  }
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/progress.h"
+#include "compensation/solver.h"
+#include "compensation/target.h"
+#include "inverse/windows.h"
+
+namespace relucent {
+
+/// The ways to compensate, from the least knowledge of the light transport to the most.
+enum class Method { none, scalar, mix, windows, refined, optimum };
+
+inline constexpr std::array allMethods{Method::none,    Method::scalar,  Method::mix,
+                                       Method::windows, Method::refined, Method::optimum};
+
+/// Names as on the command line: "none", "scalar", ...
+std::string_view toString(Method method);
+std::optional<Method> methodFromName(std::string_view name);
+
+struct CompensatorSettings {
+  std::vector<float> steps = {1.0f, 3.0f};  // a_k of `refined`
+  SolverSettings optimum;
+};
+std::vector<std::string> problems(const CompensatorSettings& settings);
+
+/// What to project.
+struct Compensation {
+  Stack projector;      // linear drive, 0 to 1
+  double clipped = 0;   // share of the content's projector values that the projector's limits cut off
+  int iterations = 0;   // products with T and T^T that it took, in pairs
+};
+
+/// Turns targets into projector images. Prepared once for a venue.
+/// Projector pixels whose brightest camera pixel lies outside the content stay black, and so do those that no
+/// usable camera pixel sees: what falls there was not asked for.
+/// `venue` and `inverse` must outlive it.
+class Compensator {
+ public:
+  Compensator(const MeasuredVenue& venue, const WindowInverse& inverse, CompensatorSettings settings = {});
+
+  /// With o = target.wanted, i*(j) = the brightest camera pixel of projector pixel j, B = the row sums of T:
+  ///   none     content at i*(j) as drive: geometric warp only
+  ///   scalar   (o - e) / flood at i*(j), channel by channel                    [Bimber et al. 2005]
+  ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
+  ///   windows  clamp01(M (o - e))
+  ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
+  ///   optimum  the constrained least-squares solution, started from windows
+  /// Throws: Cancelled; Error{numerics} where solveConstrained() does.
+  Compensation solve(Method method, const Target& target, Progress& progress) const;
+
+  /// i*(j), -1 where no usable camera pixel sees projector pixel j.
+  const std::vector<std::int32_t>& brightestCameraPixel() const { return brightest_; }
+
+ private:
+  Stack perPixel(Method method, const Target& target) const;
+  Stack windows(const Target& target) const;
+
+  const MeasuredVenue& venue_;
+  const WindowInverse& inverse_;
+  CompensatorSettings settings_;
+  std::vector<std::int32_t> brightest_;
+  std::vector<ColourBlock> mixing_;
+};
+
+/// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,
+/// sum over all channels. Leaves below 1 % of their row's brightest do not count: far-field light has no place.
+std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
+                                                  const std::vector<std::uint8_t>& usable);
+
+}  // namespace relucent

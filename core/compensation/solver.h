@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+/// The weighted least squares with box constraints that compensation is:
+///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= 1,   b = wanted - e.
+struct ConstrainedProblem {
+  const TransportMatrix& transport;
+  const Stack& wantedLessBlack;            // b, camera stack
+  const std::vector<float>& weight;        // w per camera pixel
+  const std::vector<std::uint8_t>& free;   // per projector pixel: 0 is held at 0
+};
+
+struct SolverSettings {
+  enum class Algorithm {
+    fista,            // accelerated projected gradient with restart
+    barzilaiBorwein,  // projected spectral steps with exact line search
+  };
+  Algorithm algorithm = Algorithm::fista;
+  int mostIterations = 200;
+  double tolerance = 1e-3;  // of the projected gradient, see SolveResult
+};
+std::vector<std::string> problems(const SolverSettings& settings);
+
+struct SolveResult {
+  Stack x;
+  int iterations = 0;
+  bool converged = false;          // the tolerance was met
+  double projectedGradient = 0.0;  // root mean square over the free pixels of p - clamp01(p - C grad f(p))
+  double objective = 0.0;          // f
+};
+
+/// C_j = 1 / (T^T W (T 1))_j, with 1 on the free pixels only: the diagonal that bounds T^T W T from above for
+/// transport that is nowhere negative, so a step of one never overshoots. 0 where nothing weighted is seen.
+/// Only a diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
+/// Shapes: projector stack.  Source: core/compensation/README.md.
+Stack diagonalPreconditioner(const ConstrainedProblem& problem);
+
+/// grad f(p) = T^T W (T p - b), 0 on pixels that are not free.
+Stack gradient(const ConstrainedProblem& problem, const Stack& p);
+
+/// Solves from `start` (clamped first). Never ends worse than it began. Stop and keep: the best so far.
+/// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite.
+SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
+                             Progress& progress);
+
+}  // namespace relucent

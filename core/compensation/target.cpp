@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+Size firstCamera(const MeasuredVenue& venue) { return venue.transport.cameras().size(0); }
+
+void checkShapes(const Image& content, const MeasuredVenue& venue) {
+  std::size_t pixels = venue.transport.cameras().count();
+  require(venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels && venue.usable.size() == pixels,
+          "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(), venue.flood.size(),
+          venue.usable.size(), pixels);
+  require(!content.empty() && content.channels() == 3, "content of {} channels; three are needed",
+          content.channels());
+}
+
+/// Where the content goes when nobody says.
+Corners chosenCorners(const Image& content, const MeasuredVenue& venue) {
+  Size view = firstCamera(venue);
+  std::vector<std::uint8_t> usable(venue.usable.begin(),
+                                   venue.usable.begin() + static_cast<std::ptrdiff_t>(view.count()));
+  double aspect = static_cast<double>(content.width()) / content.height();
+  std::optional<Corners> found = largestUpright(usable, view, aspect);
+  if (!found)
+    throw Error(ErrorKind::input, "no part of the camera's view is lit well enough to hold a picture",
+                "aim the camera at the projection or set the corners of the content by hand");
+  return *found;
+}
+
+/// The brightest white that all but `percentile` percent of the usable pixels inside can show.
+float whiteLevel(const MeasuredVenue& venue, const std::vector<std::uint8_t>& inside, double percentile) {
+  std::vector<float> brightest;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (!inside[i] || !venue.usable[i]) continue;
+    float least = venue.flood[3 * i] + venue.black[3 * i];
+    for (std::size_t c = 1; c < 3; ++c) least = std::min(least, venue.flood[3 * i + c] + venue.black[3 * i + c]);
+    brightest.push_back(least);
+  }
+  if (brightest.empty())
+    throw Error(ErrorKind::input, "the corners of the content enclose no pixel that the projector lights",
+                "move the corners into the lit part of the camera's view");
+  auto rank = static_cast<std::size_t>(percentile / 100.0 * static_cast<double>(brightest.size() - 1));
+  auto chosen = brightest.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(brightest.begin(), chosen, brightest.end());
+  if (!(*chosen > 0.0f))
+    throw Error(ErrorKind::input, "some colour of the projector hardly reaches the camera within the content",
+                "move the corners into the lit part of the camera's view");
+  return *chosen;
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const TargetSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.corners && !isConvex(*settings.corners))
+    found.push_back("the corners of the content must go clockwise round a convex quadrilateral");
+  if (!(settings.reachablePercentile >= 0.0 && settings.reachablePercentile <= 100.0))
+    found.push_back("the share of pixels too dark for white must lie between 0 and 100 percent");
+  if (!(settings.blackLift >= 0.0 && settings.blackLift < 1.0))
+    found.push_back("the black lift must lie between 0 and 1");
+  if (!(settings.unreachableWeight >= 0.0 && settings.unreachableWeight <= 1.0))
+    found.push_back("the weight of unreachable pixels must lie between 0 and 1");
+  return found;
+}
+
+ColourBlock meanColourMixing(const MeasuredVenue& venue) {
+  std::vector<ColourBlock> mixing = venue.transport.rowSums();
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double rows = 0.0;
+  for (std::size_t i = 0; i < mixing.size(); ++i) {
+    if (!venue.usable[i]) continue;
+    Eigen::Vector3f flood = mixing[i].rowwise().sum();
+    if (!(flood.minCoeff() > 0.0f)) continue;
+    sum += (flood.cwiseInverse().asDiagonal() * mixing[i]).eval().cast<double>();
+    rows += 1.0;
+  }
+  if (rows == 0.0) return ColourBlock::Identity();
+  return (sum / rows).cast<float>();
+}
+
+Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings) {
+  checkShapes(linearContent, venue);
+  auto wrong = problems(settings);
+  require(wrong.empty(), "target settings: {}", fmt::join(wrong, "; "));
+
+  Target target;
+  target.corners = settings.corners ? *settings.corners : chosenCorners(linearContent, venue);
+  Placed placed = place(linearContent, target.corners, firstCamera(venue));
+  std::size_t pixels = venue.transport.cameras().count();
+  target.inside = std::move(placed.inside);
+  target.inside.resize(pixels, 0);
+  target.content = std::move(placed.image.data());
+  target.content.resize(3 * pixels, 0.0f);
+
+  float white = whiteLevel(venue, target.inside, settings.reachablePercentile);
+  target.white = {white, white, white};
+  ColourBlock mixing = meanColourMixing(venue);
+  auto lift = static_cast<float>(settings.blackLift);
+  target.wanted = venue.black;
+  target.reachable.assign(pixels, 0);
+  target.weight.assign(pixels, 0.0f);
+  parallelFor(0, pixels, 1024, [&](std::size_t i) {
+    if (!target.inside[i]) return;
+    Eigen::Map<const Eigen::Vector3f> content(&target.content[3 * i]);
+    Eigen::Map<Eigen::Vector3f> wanted(&target.wanted[3 * i]);
+    wanted = white * (lift + (1.0f - lift) * (mixing * content).array());
+    if (!venue.usable[i]) return;
+    Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&venue.flood[3 * i]);
+    bool reachable = (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();
+    target.reachable[i] = reachable;
+    target.weight[i] = reachable ? 1.0f : static_cast<float>(settings.unreachableWeight);
+  });
+  return target;
+}
+
+}  // namespace relucent

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "inverse/near_field.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+/// Below this share of the row's brightest projector pixel a leaf cannot matter beside the ridge: pairs of
+/// such leaves contribute at most its square to G, the ridge is tenths of G's diagonal.
+constexpr float nearShare = 0.01f;
+/// Colours that a surface returns by less than this share of the rest are noise, not information.
+constexpr float unmixingShare = 0.03f;
+
+float mean(const NearField::Value& value) { return (value[0] + value[1] + value[2]) / 3.0f; }
+
+/// diag(U T) of one leaf.
+NearField::Value unmixed(const ColourBlock& unmix, const ColourBlock& block) {
+  NearField::Value value{};
+  for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = unmix.row(c).dot(block.col(c));
+  return value;
+}
+
+}  // namespace
+
+ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share) {
+  float norm = mixing.norm();
+  if (!(norm > 0.0f)) return ColourBlock::Zero();
+  Eigen::Matrix3d b = mixing.cast<double>() / static_cast<double>(norm);
+  Eigen::Matrix3d normal = b.transpose() * b;
+  normal.diagonal().array() += static_cast<double>(share) * static_cast<double>(share);
+  return (normal.inverse() * b.transpose() / static_cast<double>(norm)).cast<float>();
+}
+
+NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
+  const BlockSparse& leaves = transport.leaves();
+  require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(), leaves.rows());
+
+  std::vector<float> pixelsOf(transport.layout().count());
+  parallelFor(0, pixelsOf.size(), 1024, [&](std::size_t node) {
+    pixelsOf[node] =
+        static_cast<float>(transport.layout().block(transport.layout().node(node)).count());
+  });
+
+  NearField near;
+  near.unmix.assign(leaves.rows(), ColourBlock::Zero());
+  near.flood.assign(leaves.rows(), NearField::Value{});
+  std::vector<ColourBlock> mixing = transport.rowSums();
+  std::vector<float> threshold(leaves.rows(), 0.0f);
+
+  // Twice over the same leaves, first to count: the near field is the largest array here and is made to measure.
+  auto brightness = [&](std::size_t row, std::size_t entry) {
+    return std::abs(mean(unmixed(near.unmix[row], leaves.block(row, entry)))) / pixelsOf[leaves.column(entry)];
+  };
+  near.start.assign(leaves.rows() + 1, 0);
+  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+    if (!usable[row]) return;
+    near.unmix[row] = regularisedUnmixing(mixing[row], unmixingShare);
+    Eigen::Vector3f flood = near.unmix[row] * (mixing[row] * Eigen::Vector3f::Ones());
+    near.flood[row] = {flood[0], flood[1], flood[2], 0.0f};
+    float brightest = 0.0f;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      brightest = std::max(brightest, brightness(row, entry));
+    threshold[row] = nearShare * brightest;
+    if (!(brightest > 0.0f)) return;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      near.start[row + 1] += brightness(row, entry) >= threshold[row];
+  });
+  for (std::size_t row = 0; row < leaves.rows(); ++row) near.start[row + 1] += near.start[row];
+
+  near.node.resize(near.start.back());
+  near.value.resize(near.start.back());
+  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+    std::size_t next = near.start[row];
+    if (next == near.start[row + 1]) return;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+      if (brightness(row, entry) < threshold[row]) continue;
+      near.node[next] = leaves.column(entry);
+      near.value[next++] = unmixed(near.unmix[row], leaves.block(row, entry));
+    }
+  });
+  return near;
+}
+
+}  // namespace relucent

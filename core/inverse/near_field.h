@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+/// Inverse of a 3x3 colour mixing that stays bounded where the mixing loses a colour:
+///   U = (B^T B + (share * |B|_F)^2 I)^-1 B^T.   Zero for B = 0.
+ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share);
+
+/// The bright part of every row of T, with the colours unmixed and so reduced to one number a projector
+/// channel: value(leaf) = diag(U_i T_i,leaf), zero rows where a camera pixel is not usable.
+/// A leaf belongs to the near field if its value per projector pixel is at least `nearShare` of the row's
+/// largest, whatever its level: a wide, dim leaf of the far field does not, a wide leaf that carries the
+/// direct light of a T measured no finer does.
+struct NearField {
+  using Value = std::array<float, 4>;  // three channels and padding to a vector register
+
+  std::vector<ColourBlock> unmix;   // U_i per camera pixel
+  std::vector<Value> flood;         // U_i B_i 1: the unmixed flood image, 1 up to regularisation
+  std::vector<std::size_t> start;   // leaves of row i: [start[i], start[i + 1])
+  std::vector<std::uint32_t> node;  // index in the NodeLayout
+  std::vector<Value> value;
+};
+
+NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable);
+
+}  // namespace relucent

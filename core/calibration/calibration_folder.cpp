@@ -118,15 +118,15 @@ CalibrationFolder::CalibrationFolder(fs::path path, FolderLock lock, Access acce
 CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json settings) {
   std::error_code code;
   if (fs::exists(path, code) && !fs::is_directory(path, code))
-    throw Error(ErrorKind::usage, "there is a file of this name", "choose another name for the calibration",
+    throw Error(ErrorKind::input, "there is a file of this name", "choose another name for the calibration",
                 path.string());
   createFolder(path);
   FolderLock lock(path, Access::write);
   if (fs::exists(path / manifestName, code))
-    throw Error(ErrorKind::usage, "there is a calibration already",
+    throw Error(ErrorKind::input, "there is a calibration already",
                 "go on with it by `resume`, or choose another name", path.string());
   if (holdsAnything(path))
-    throw Error(ErrorKind::usage, "the folder holds other files",
+    throw Error(ErrorKind::input, "the folder holds other files",
                 "choose a new or an empty folder for the calibration", path.string());
 
   Json manifest = {

@@ -44,13 +44,13 @@ class CalibrationFolder {
 
   /// A new calibration, locked for writing. `rig` and `settings` are the pipeline's: how the devices are
   /// made and what each stage was asked for.
-  /// Throws: Error{usage} if there is a calibration already or the folder holds other things; Error{disk}.
+  /// Throws: Error{input} if there is a calibration already or the folder holds other things; Error{disk}.
   static CalibrationFolder create(const std::filesystem::path& path, Json rig, Json settings);
 
   /// A calibration that is there; `path` is its folder or its manifest. Readers may be many, a writer is
   /// alone.
   /// Throws: Error{input} if there is none, Error{format} if it is foreign, damaged or of a newer version,
-  /// Error{usage} if another program works on it.
+  /// Error{input} if another program works on it.
   static CalibrationFolder open(const std::filesystem::path& path, Access access);
 
   const std::filesystem::path& path() const { return path_; }

@@ -29,7 +29,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
   if (result == 0 || errno != EWOULDBLOCK) return;
 
   ::close(std::exchange(descriptor_, -1));
-  throw Error(ErrorKind::usage, "another program is working on this calibration",
+  throw Error(ErrorKind::input, "another program is working on this calibration",
               "wait until it has finished, or close it, then try again", folder.string());
 }
 

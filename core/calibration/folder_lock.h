@@ -11,7 +11,7 @@ class FolderLock {
  public:
   enum class Kind { read, write };
 
-  /// Does not wait. Throws: Error{usage} if another program holds a lock that excludes this one;
+  /// Does not wait. Throws: Error{input} if another program holds a lock that excludes this one;
   /// Error{disk} if the folder cannot be opened.
   FolderLock(const std::filesystem::path& folder, Kind kind);
   ~FolderLock();

@@ -66,7 +66,7 @@ struct CalibrateResult {
 /// Measures a venue into a new calibration folder. A simulated venue's transport is kept in `cache`.
 /// Interrupted at any instant, the folder can be resumed.
 /// Stop and keep: ends acquisition after the level under way and goes on with that.
-/// Throws: Error{usage} if `folder` already holds a calibration or anything else; Error{device, input, disk}.
+/// Throws: Error{input} if `folder` already holds a calibration or anything else; Error{device, input, disk}.
 CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
                           const std::filesystem::path& cache, Progress& progress);
 
@@ -147,7 +147,7 @@ struct EvaluateResult {
 };
 
 /// Compares every method through the true transport of the simulated venue that was calibrated.
-/// Throws: Error{usage} if the calibration is of a real venue: its truth is not known.
+/// Throws: Error{input} if the calibration is of a real venue: its truth is not known.
 EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSettings& settings,
                         const std::filesystem::path& cache, Progress& progress);
 
@@ -208,7 +208,7 @@ struct BenchResult {
 };
 
 /// Times the parts that decide how fast everything else is. `name`: only those that contain it; empty: all.
-/// Throws: Error{usage} if no benchmark has such a name, naming what there is.
+/// Throws: Error{input} if no benchmark has such a name, naming what there is.
 BenchResult bench(const std::string& name, Progress& progress);
 
 }  // namespace relucent

@@ -163,11 +163,11 @@ class TestCalibrationFolder : public QObject {
       CalibrationFolder writer = CalibrationFolder::create(root_ / "c", {}, {});
       std::string sentence = sentenceOf([&] { CalibrationFolder::open(root_ / "c", Access::read); });
       QVERIFY2(contains(sentence, "another program"), sentence.c_str());
-      QVERIFY(kindOf([&] { CalibrationFolder::open(root_ / "c", Access::write); }) == ErrorKind::usage);
+      QVERIFY(kindOf([&] { CalibrationFolder::open(root_ / "c", Access::write); }) == ErrorKind::input);
     }
     CalibrationFolder one = CalibrationFolder::open(root_ / "c", Access::read);
     CalibrationFolder two = CalibrationFolder::open(root_ / "c", Access::read);
-    QVERIFY(kindOf([&] { CalibrationFolder::open(root_ / "c", Access::write); }) == ErrorKind::usage);
+    QVERIFY(kindOf([&] { CalibrationFolder::open(root_ / "c", Access::write); }) == ErrorKind::input);
   }
 
   void theLockOfADeadProgramIsGone() {

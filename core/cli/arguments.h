@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// What the command line asks for, one struct a subcommand.
+struct PrintText {  // --help, --version
+  std::string text;
+};
+struct ListVenues {};
+struct Calibrate {
+  std::filesystem::path calibration;
+  CalibrateSettings settings;
+  std::filesystem::path cache;
+};
+struct Resume {
+  std::filesystem::path calibration;
+  std::filesystem::path cache;
+};
+struct Compensate {
+  std::filesystem::path calibration;
+  CompensateSettings settings;
+};
+struct Evaluate {
+  std::filesystem::path calibration;
+  EvaluateSettings settings;
+  std::filesystem::path cache;
+};
+struct Export {
+  std::filesystem::path calibration;
+  ExportSettings settings;
+};
+struct Relight {
+  std::filesystem::path calibration;
+  RelightSettings settings;
+  bool dual = false;
+};
+struct Report {
+  std::filesystem::path calibration;
+  ReportSettings settings;
+  std::filesystem::path cache;
+};
+struct Bench {
+  std::string name;
+};
+using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Compensate, Evaluate, Export, Relight,
+                             Report, Bench>;
+
+struct Arguments {
+  Command command;
+  bool json = false;  // one JSON document on standard output and nothing else
+};
+
+/// The command line cannot be understood; the sentence says how to write it.
+class WrongUsage : public std::exception {
+ public:
+  explicit WrongUsage(std::string sentence) : sentence_(std::move(sentence)) {}
+  const char* what() const noexcept override { return sentence_.c_str(); }
+
+ private:
+  std::string sentence_;
+};
+
+/// `arguments`: without the program's name. Says nothing about whether files exist or sizes are possible.
+/// Throws: WrongUsage.
+Arguments parseArguments(const std::vector<std::string>& arguments);
+
+/// "256x192". Throws: WrongUsage unless it is two whole numbers.
+Size parseSize(const std::string& text);
+
+/// Where simulated venues are kept: $XDG_CACHE_HOME/relucent, or .cache/relucent in the home folder; empty,
+/// which means no cache, where there is neither.
+std::filesystem::path defaultCache();
+
+}  // namespace relucent

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <new>
+
+#include "base/error.h"
+#include "calibration/calibration_folder.h"
+#include "cli/interruption.h"
+#include "cli/terminal_progress.h"
+
+namespace relucent {
+namespace {
+
+enum ExitStatus { done = 0, failed = 1, wrongUsage = 2, interrupted = 130 };
+
+/// Throws: Error{input} if there are any, naming all of them.
+void refuse(const std::vector<std::string>& problems) {
+  std::string all;
+  for (const std::string& problem : problems) all += (all.empty() ? "" : ", and ") + problem;
+  if (!all.empty()) throw Error(ErrorKind::input, all, "choose other values");
+}
+
+std::string lines(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += sentence + "\n";
+  return text;
+}
+
+std::string textOf(const CalibrateResult& result) {
+  double seconds = result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse;
+  return fmt::format(
+             "Calibrated with {} patterns and {} photographs in {:.0f} s.\n"
+             "{} connections of light in {} leaves; {:.1f} % of the light is unresolved, {:.1f} % of the "
+             "camera's "
+             "pixels are flagged.\n",
+             result.patterns, result.exposures, seconds, result.connections, result.leaves,
+             100.0 * result.unresolvedEnergy, 100.0 * result.flaggedShare) +
+         lines(result.findings);
+}
+
+std::string textOf(const WrittenFiles& result) {
+  std::string text;
+  for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
+  return text;
+}
+
+std::string textOf(const CompensateResult& result) {
+  return fmt::format(
+             "Predicted: {:.1f} dB where it can be reached, which is {:.1f} % of the picture; {:.1f} % of "
+             "the "
+             "drive values are at their limits.\n",
+             result.psnrPredicted, 100.0 * result.reachable, 100.0 * result.clipped) +
+         textOf(WrittenFiles{result.files});
+}
+
+std::string textOf(const EvaluateResult& result) {
+  std::string text =
+      fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
+  for (const ImageScore& image : result.images) {
+    text += fmt::format("\n{:<12} {:>14} {:>9} {:>7} {:>7} {:>9}\n", image.name, "reachable dB", "all dB",
+                        "SSIM", "dE2000", "seconds");
+    for (const MethodScore& score : image.methods)
+      text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", score.method,
+                          score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
+  }
+  return text;
+}
+
+std::string textOf(const BenchResult& result) {
+  std::string text = fmt::format("{}, {} threads, copies {:.1f} GB/s\n", result.machine.processor,
+                                 result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
+  for (const Benchmark& benchmark : result.benchmarks)
+    text += fmt::format("{:<32} {:>10.3f} ms {:>8.1f} MB {:>5.0f} % of copying\n", benchmark.name,
+                        1e3 * benchmark.seconds, benchmark.bytes / 1e6, 100.0 * benchmark.shareOfCopy);
+  return text;
+}
+
+template <typename Result>
+Outcome outcomeOf(const Result& result) {
+  return {toJson(result), textOf(result)};
+}
+
+/// One overload a command; each is one call of the pipeline.
+struct Executor {
+  Progress& progress;
+
+  Outcome operator()(const PrintText& command) const { return {{}, command.text}; }
+
+  Outcome operator()(const ListVenues&) const {
+    std::string text;
+    for (const VenueDescription& venue : venues())
+      text += fmt::format("{:<10} {}\n", venue.name, venue.sentence);
+    return {toJson(venues()), text};
+  }
+
+  Outcome operator()(const Calibrate& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(calibrate(command.calibration, command.settings, command.cache, progress));
+  }
+
+  Outcome operator()(const Resume& command) const {
+    return outcomeOf(resume(command.calibration, command.cache, progress));
+  }
+
+  Outcome operator()(const Compensate& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(compensate(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Evaluate& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(evaluate(command.calibration, command.settings, command.cache, progress));
+  }
+
+  Outcome operator()(const Export& command) const {
+    return outcomeOf(exportCalibration(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Relight& command) const {
+    return outcomeOf(command.dual ? dual(command.calibration, command.settings, progress)
+                                  : relight(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Report& command) const {
+    return outcomeOf(report(command.calibration, command.settings, command.cache, progress));
+  }
+
+  Outcome operator()(const Bench& command) const { return outcomeOf(bench(command.name, progress)); }
+};
+
+/// The name as a shell takes it.
+std::string quoted(const std::string& name) {
+  bool plain = !name.empty() && name.find_first_not_of(
+                                    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                    "0123456789-_./~+,:@%") == std::string::npos;
+  if (plain) return name;
+  std::string result = "'";
+  for (char c : name) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string interruptedSentence(const Command& command) {
+  const std::filesystem::path* folder = nullptr;
+  if (const auto* calibrate = std::get_if<Calibrate>(&command)) folder = &calibrate->calibration;
+  if (const auto* resume = std::get_if<Resume>(&command)) folder = &resume->calibration;
+  std::error_code code;
+  if (folder != nullptr && !std::filesystem::exists(*folder / CalibrationFolder::manifestName, code))
+    return "interrupted before anything was measured; run it again.";
+  if (folder == nullptr) return "interrupted; nothing on disk is damaged, run it again.";
+  return fmt::format("interrupted; every photograph is safe, resume with: relucent-cli resume {}",
+                     quoted(folder->string()));
+}
+
+int fail(const std::string& sentence, int status) {
+  std::cerr << "relucent-cli: " << sentence << std::endl;
+  return status;
+}
+
+void print(const Outcome& outcome, bool json) {
+  if (json)
+    std::cout << outcome.document.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+  else
+    std::cout << outcome.text;
+  std::cout.flush();
+  if (!std::cout)
+    throw Error(ErrorKind::disk, "cannot write the results to standard output",
+                "check where it leads and that there is space");
+}
+
+}  // namespace
+
+Outcome execute(const Command& command, Progress& progress) {
+  return std::visit(Executor{progress}, command);
+}
+
+int runCommandLine(const std::vector<std::string>& arguments) {
+  Arguments parsed;
+  try {
+    parsed = parseArguments(arguments);
+  } catch (const WrongUsage& error) {
+    return fail(error.what(), wrongUsage);
+  }
+
+  try {
+    Outcome outcome;
+    {
+      Interruption interruption;
+      TerminalProgress terminal(TerminalProgress::standardError());
+      Progress progress(terminal, interruption.stop());
+      outcome = execute(parsed.command, progress);
+    }
+    print(outcome, parsed.json);
+    return done;
+  } catch (const Cancelled&) {
+    return fail(interruptedSentence(parsed.command), interrupted);
+  } catch (const Error& error) {
+    return fail(error.what(), error.kind() == ErrorKind::usage ? wrongUsage : failed);
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory; close other programs or choose smaller sizes.", failed);
+  } catch (const std::exception& error) {
+    return fail(fmt::format("this should not have happened: {}; please report it.", error.what()), failed);
+  }
+}
+
+}  // namespace relucent

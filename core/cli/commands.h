@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "cli/arguments.h"
+#include "pipeline/json.h"
+
+namespace relucent {
+
+/// What a command found: the document for programs and the text for people.
+struct Outcome {
+  Json document;
+  std::string text;
+};
+
+/// Does what the command line asks for.
+/// Throws: Error, Cancelled as the pipeline does; Error{input} for settings that cannot be.
+Outcome execute(const Command& command, Progress& progress);
+
+/// The whole program: parses, executes, prints. Returns the exit status, see the README.
+int runCommandLine(const std::vector<std::string>& arguments);
+
+}  // namespace relucent

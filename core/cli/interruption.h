@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/progress.h"
+
+namespace relucent {
+
+/// Turns Ctrl-C and the request to terminate into a StopRequest while it lives: the first asks the work to
+/// cancel at its next checkpoint, the second ends the program at once with exit status 130 (what is on
+/// disk is whole at every instant). One at a time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  StopRequest& stop() { return stop_; }
+
+ private:
+  StopRequest stop_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+namespace {
+
+using Problems = std::vector<std::string>;
+
+void append(Problems& problems, const Problems& more) {
+  problems.insert(problems.end(), more.begin(), more.end());
+}
+
+void checkSize(Problems& problems, const char* device, Size size) {
+  constexpr int least = 8;
+  constexpr int most = 8192;
+  if (size.width < least || size.height < least || size.width > most || size.height > most)
+    problems.push_back(fmt::format("a {} of {}x{} pixels is impossible: each side is {} to {}", device,
+                                   size.width, size.height, least, most));
+}
+
+Problems problemsOf(const VenueSettings& settings) {
+  Problems found;
+  checkSize(found, "projector", settings.projector);
+  checkSize(found, "camera", settings.camera);
+  // The venue would complain about the same sizes again in its own words.
+  if (found.empty()) append(found, problems(settings));
+  return found;
+}
+
+void checkCommand(Problems& problems, const char* device, const std::string& command,
+                  std::initializer_list<const char*> placeholders) {
+  if (command.empty()) problems.push_back(fmt::format("the {}'s command is empty", device));
+  for (const char* placeholder : placeholders)
+    if (!command.empty() && command.find(placeholder) == std::string::npos)
+      problems.push_back(fmt::format("the {}'s command does not say {}", device, placeholder));
+}
+
+Problems problemsOf(const CommandRigSettings& settings) {
+  Problems found;
+  checkSize(found, "projector", settings.projector);
+  if (settings.camera) checkSize(found, "camera", *settings.camera);
+  checkCommand(found, "projector", settings.projectorCommand, {"{image}"});
+  checkCommand(found, "camera", settings.cameraCommand, {"{exposure}", "{output}"});
+  if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
+    found.push_back("the shortest exposure must be above zero and no longer than the longest");
+  return found;
+}
+
+void checkTarget(Problems& problems, const TargetSettings& target) {
+  append(problems, relucent::problems(target));
+}
+
+void checkMethod(Problems& problems, const std::string& name) {
+  auto has = [&](const MethodDescription& method) { return method.name == name; };
+  if (std::any_of(methods().begin(), methods().end(), has)) return;
+  std::string names;
+  for (const MethodDescription& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
+  problems.push_back(fmt::format("there is no method '{}': there are {}", name, names));
+}
+
+}  // namespace
+
+Problems problems(const CalibrateSettings& settings) {
+  Problems found = std::visit([](const auto& rig) { return problemsOf(rig); }, settings.rig);
+  append(found, problems(settings.linearization));
+  append(found, problems(settings.acquisition));
+  append(found, problems(settings.windows));
+  return found;
+}
+
+Problems problems(const CompensateSettings& settings) {
+  Problems found;
+  if (settings.image.empty()) found.push_back("no image is given");
+  if (settings.out.empty()) found.push_back("no folder for the results is given");
+  checkMethod(found, settings.method);
+  checkTarget(found, settings.target);
+  return found;
+}
+
+Problems problems(const EvaluateSettings& settings) {
+  Problems found;
+  for (const std::string& method : settings.methods) checkMethod(found, method);
+  checkTarget(found, settings.target);
+  return found;
+}
+
+Problems problems(const ExportSettings& settings) {
+  if (!settings.transport.empty() || !settings.inverse.empty() || !settings.maps.empty()) return {};
+  return {"nothing to export is named"};
+}
+
+Problems problems(const RelightSettings& settings) {
+  if (!settings.out.empty()) return {};
+  return {"no file for the result is given"};
+}
+
+const std::vector<MethodDescription>& methods() {
+  static const std::vector<MethodDescription> all{
+      {"none", "the picture warped into place, nothing corrected"},
+      {"scalar", "each pixel's brightness corrected on its own"},
+      {"mix", "each pixel's colour corrected on its own, by its 3x3 mixing"},
+      {"windows", "overlapping regularised inverses of the light transport"},
+      {"refined", "windows and two constrained steps: the one for video"},
+      {"optimum", "the constrained optimum: the best for still pictures, the slowest"}};
+  return all;
+}
+
+}  // namespace relucent

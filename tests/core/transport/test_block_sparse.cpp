@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <tbb/global_control.h>
+
+#include <QtTest>
+#include <cmath>
+
+#include "random_blocks.h"
+
+using namespace relucent;
+
+namespace {
+
+// A sum of n products in single floats, values up to 1: n roundings of 2^-24 at the size of the sum.
+double roundingOf(std::size_t terms) {
+  return static_cast<double>(terms) * static_cast<double>(terms) * 0x1.0p-24;
+}
+
+double largestDifference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+class TestBlockSparse : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void shapes_data() {
+    QTest::addColumn<int>("rows");
+    QTest::addColumn<int>("columns");
+    QTest::addColumn<double>("density");
+    QTest::newRow("empty") << 5 << 3 << 0.0;
+    QTest::newRow("single") << 1 << 1 << 1.0;
+    QTest::newRow("tall") << 97 << 5 << 0.5;
+    QTest::newRow("wide") << 3 << 101 << 0.3;
+    QTest::newRow("large") << 300 << 200 << 0.05;
+  }
+
+  void productsAreThoseOfTheDenseMatrix_data() { shapes_data(); }
+  void productsAreThoseOfTheDenseMatrix() {
+    QFETCH(int, rows);
+    QFETCH(int, columns);
+    QFETCH(double, density);
+    auto r = static_cast<std::size_t>(rows), c = static_cast<std::size_t>(columns);
+    RandomBlocks blocks = randomBlocks(r, c, density, 1);
+    QVERIFY((density == 0.0) == (blocks.sparse.blocks() == 0));
+    Stack x = randomStack(c, 2), y = randomStack(r, 3);
+    QVERIFY(largestDifference(vectorOf(blocks.sparse.multiply(x)), blocks.dense * vectorOf(x)) <
+            roundingOf(3 * c));
+    QVERIFY(largestDifference(vectorOf(blocks.sparse.multiplyTransposed(y)),
+                              blocks.dense.transpose() * vectorOf(y)) < roundingOf(3 * r));
+  }
+
+  /// Requantised on the columns' own scales, each the column's largest / 32767.
+  void transposedIsTheDenseTranspose_data() { shapes_data(); }
+  void transposedIsTheDenseTranspose() {
+    QFETCH(int, rows);
+    QFETCH(int, columns);
+    QFETCH(double, density);
+    RandomBlocks blocks =
+        randomBlocks(static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), density, 4);
+    BlockSparse transposed = blocks.sparse.transposed();
+    QCOMPARE(transposed.rows(), blocks.sparse.columns());
+    QCOMPARE(transposed.columns(), blocks.sparse.rows());
+    QVERIFY((denseOf(transposed) - blocks.dense.transpose()).cwiseAbs().maxCoeff() <= 0.5001 / 32767);
+    for (std::size_t row = 0; row < transposed.rows(); ++row)
+      for (std::size_t entry = transposed.rowBegin(row) + 1; entry < transposed.rowBegin(row + 1); ++entry)
+        QVERIFY(transposed.column(entry - 1) < transposed.column(entry));
+  }
+
+  void productsAreTheSameBitsForEveryNumberOfThreads() {
+    RandomBlocks blocks = randomBlocks(600, 300, 0.1, 5);
+    Stack x = randomStack(300, 6), y = randomStack(600, 7);
+    Stack forward = blocks.sparse.multiply(x), back = blocks.sparse.multiplyTransposed(y);
+    for (std::size_t threads : {1, 3}) {
+      tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      QVERIFY(blocks.sparse.multiply(x) == forward);
+      QVERIFY(blocks.sparse.multiplyTransposed(y) == back);
+    }
+  }
+
+  void darkRowsDoNotChangeTheTransposedProduct() {
+    RandomBlocks blocks = randomBlocks(50, 20, 0.4, 8);
+    Stack y = randomStack(50, 9);
+    for (std::size_t row = 0; row < 50; ++row)
+      if (row % 3 != 0) y[3 * row] = y[3 * row + 1] = y[3 * row + 2] = 0.0f;
+    QVERIFY(largestDifference(vectorOf(blocks.sparse.multiplyTransposed(y)),
+                              blocks.dense.transpose() * vectorOf(y)) < roundingOf(150));
+  }
+
+  void quantisationIsHalfAStepOfTheRow() {
+    Random random{10};
+    std::vector<float> fullScale{1.0f, 1e-6f, 3e4f};
+    BlockSparseBuilder builder(40, fullScale);
+    std::vector<ColourBlock> stored;
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 40; ++column) {
+        ColourBlock block;
+        for (int i = 0; i < 9; ++i) block.data()[i] = fullScale[row] * (2.0f * random.uniformFloat() - 1.0f);
+        stored.push_back(block);
+        builder.add(row, column, block);
+      }
+    BlockSparse blocks = builder.build();
+    QCOMPARE(blocks.blocks(), std::size_t{120});
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t entry = blocks.rowBegin(row); entry < blocks.rowBegin(row + 1); ++entry) {
+        float error = (blocks.block(row, entry) - stored[entry]).cwiseAbs().maxCoeff();
+        QVERIFY2(error <= fullScale[row] * (0.5f / 32767.0f + 2e-7f), qPrintable(QString::number(error)));
+      }
+  }
+
+  void blocksAtTheSamePlaceAddUpInAnyOrder() {
+    BlockSparseBuilder builder(9, {1.0f, 1.0f});
+    builder.add(1, 7, ColourBlock::Constant(0.25f));
+    builder.add(1, 2, ColourBlock::Constant(0.5f));
+    builder.add(0, 8, ColourBlock::Constant(0.125f));
+    builder.add(1, 7, ColourBlock::Constant(0.5f));
+    builder.add(1, 3, ColourBlock::Zero());
+    builder.add(0, 1, ColourBlock::Constant(7.0f));
+    BlockSparse blocks = builder.build();
+    QCOMPARE(blocks.blocks(), std::size_t{4});
+    QCOMPARE(blocks.column(0), 1u);
+    QCOMPARE(blocks.column(1), 8u);
+    QCOMPARE(blocks.column(2), 2u);
+    QCOMPARE(blocks.column(3), 7u);
+    QVERIFY(std::abs(blocks.block(1, 3)(2, 2) - 0.75f) <= 1.0f / 32767.0f);
+    QCOMPARE(blocks.block(0, 0)(0, 0), 1.0f);  // saturates at the row's full scale
+  }
+
+  void rowsAreScaledPerCameraChannel() {
+    RandomBlocks blocks = randomBlocks(40, 30, 0.3, 13);
+    Stack factor = randomStack(40, 14);
+    factor[0] = factor[1] = factor[2] = 0.0f;
+    for (float& value : factor) value *= 3.0f;
+    Eigen::MatrixXd expected = vectorOf(factor).asDiagonal() * blocks.dense;
+    BlockSparse scaled = blocks.sparse.withRowsScaled(factor);
+    QVERIFY((denseOf(scaled) - expected).cwiseAbs().maxCoeff() <= 3.0 * 0.501 / 32767);
+    QCOMPARE(denseOf(scaled).topRows(3).cwiseAbs().maxCoeff(), 0.0);
+  }
+
+  void filteringKeepsExactlyWhatIsAskedFor() {
+    RandomBlocks blocks = randomBlocks(30, 40, 0.3, 15);
+    auto odd = [&](std::size_t, std::size_t entry) { return blocks.sparse.column(entry) % 2 == 1; };
+    BlockSparse kept = blocks.sparse.filtered(odd);
+    Eigen::MatrixXd expected = blocks.dense;
+    for (Eigen::Index column = 0; column < expected.cols(); column += 6)
+      expected.middleCols(column, 3).setZero();
+    QVERIFY(denseOf(kept) == expected);
+    QVERIFY(blocks.sparse.filtered([](std::size_t, std::size_t) { return true; }) == blocks.sparse);
+  }
+
+  void breachesOfContractAreNamed() {
+    BlockSparse blocks = randomBlocks(3, 4, 1.0, 16).sparse;
+    QVERIFY_EXCEPTION_THROWN(blocks.multiply(Stack(9)), std::logic_error);
+    QVERIFY_EXCEPTION_THROWN(blocks.multiplyTransposed(Stack(12)), std::logic_error);
+    BlockSparseBuilder builder(4, {1.0f});
+    QVERIFY_EXCEPTION_THROWN(builder.add(1, 0, ColourBlock::Ones()), std::logic_error);
+    QVERIFY_EXCEPTION_THROWN(builder.add(0, 4, ColourBlock::Ones()), std::logic_error);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestBlockSparse)
+#include "test_block_sparse.moc"

@@ -41,6 +41,7 @@ struct CalibrateSettings {
   RigSettings rig;
   LinearizationSettings linearization;
   AcquisitionSettings acquisition;
+  ThresholdSettings threshold;  // none by default: every leaf that was measured counts
   WindowSettings windows;
 };
 /// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -24,54 +25,58 @@ const std::vector<VenueDescription>& venues();
 struct DeviceModelSettings {
   int projectorBits = 8;
   int cameraBits = 12;
-  double contrast = 1500.0;    // full white : black of the projector
-  double gamma = 2.2;          // overall shape of the projector's response; each channel deviates from it
+  double contrast = 1500.0;    // projector's full white : its black
+  double gamma = 2.2;          // shape of the projector's response, from which each channel deviates
   double vignetting = 0.2;     // loss of light in the projector's corners
-  double fullWell = 15000.0;   // electrons at full scale: shot noise
+  double fullWell = 15000.0;   // electrons at full scale; decides the shot noise
   double readElectrons = 6.0;  // read noise
   double ambient = 0.002;      // room light, relative to the flood image's mean
   double drift = 0.0;          // relative change of lamp power over 1000 shots
-  bool whiteSegment = false;   // a fourth, white segment: additivity broken
   double flicker = 0.0;        // relative standard deviation of lamp power between exposures
-  double cameraGamma = 1.0;    // other than 1: the camera applies a response curve
+  bool whiteSegment = false;   // the colour wheel has a white segment: channels do not add up
+  double cameraGamma = 1.0;    // 1: linear; otherwise signal = light^(1 / cameraGamma)
 };
 
 struct VenueSettings {
   std::string name = "corner";
   Size projector{256, 192};
   Size camera{160, 120};
-  std::uint64_t seed = 1;
-  int pathsPerPixel = 256;
+  std::uint64_t seed = 1;   // of the devices' noise; the scene does not depend on it
+  int pathsPerPixel = 256;  // of the light tracer
   DeviceModelSettings devices;
 };
 std::vector<std::string> problems(const VenueSettings& settings);
 
-/// A venue that exists only in the computer: a scene traced into its light transport, and models of a
-/// projector and a camera that answer from it with noise, quantisation, saturation and a response curve.
+class VenueLight;
+
+/// A venue that exists only in the computer: a scene traced into its light transport, and models of
+/// projectors and a camera that answer from it with codes, noise, saturation and response curves.
+/// The brightest parts of the flood image reach full scale in 1/60 s.
 class SimulatedVenue {
  public:
-  /// Traces the scene, or reads its transport from `cache` (a folder; created; empty path: no cache).
-  /// Throws: Error{input} for an unknown name or an impossible size, naming what there is.
+  /// Traces the scene, or reads its transport from `cache`, a folder, created if need be; with an empty path
+  /// nothing is kept. A damaged or foreign file in the cache is replaced.
+  /// Throws: Error{input} for settings with problems(); Error{disk} if the cache cannot be written;
+  /// Cancelled.
   SimulatedVenue(const VenueSettings& settings, const std::filesystem::path& cache, Progress& progress);
   ~SimulatedVenue();
 
   const VenueSettings& settings() const;
-  /// The devices, as the pipeline sees them. Share the venue's data; may outlive this object.
+  /// Devices as the pipeline sees them. They may outlive this object. Each call gives a new set, showing
+  /// black.
   Rig rig() const;
 
-  /// The truth, for `evaluate` and for tests only.
-  /// T of linear light, without vignetting of the lens left out: as the camera would measure it, free of
-  /// noise.
+  /// The truth, for `evaluate` and tests only.
+  /// T: camera signal per second per linear light of the projectors, free of noise. Vignetting is part of it;
+  /// the response curves, the white segment and the black level are not.
   const TransportMatrix& trueTransport() const;
-  /// e: black level of the projector and ambient light, camera signal per second.
+  /// e: the projectors' black level and the ambient light, camera signal per second.
   const Stack& trueBlack() const;
-  /// What the cameras would measure under encoded drive values (rounded to codes, through the projector's
-  /// true response), free of noise: camera signal per second.
+  /// Camera signal per second under encoded drive, rounded to codes as the projectors do, free of noise.
   Stack trueRadiance(const std::vector<Image>& encodedDrive) const;
 
  private:
-  struct State;
-  std::shared_ptr<const State> state_;
+  std::shared_ptr<const VenueLight> light_;
 };
 
 }  // namespace relucent

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "venue/mesh.h"
+
+namespace relucent {
+
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;  // of length 1
+};
+
+/// Where a ray meets a triangle.
+struct RayHit {
+  float distance = 0.0f;
+  std::uint32_t mesh = 0;
+  std::uint32_t triangle = 0;
+  float u = 0.0f, v = 0.0f;  // weights of the triangle's second and third vertex
+  Eigen::Vector3f normal;    // geometric, of length 1, outwards
+};
+
+/// Finds what rays meet first among meshes. The only place that knows Embree.
+class RayCaster {
+ public:
+  explicit RayCaster(const std::vector<const Mesh*>& meshes);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+  RayCaster& operator=(RayCaster&&) noexcept;
+
+  std::optional<RayHit> nearest(const Ray& ray) const;
+  /// Whether anything lies on the ray nearer than `distance`.
+  bool blocked(const Ray& ray, float distance) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace relucent

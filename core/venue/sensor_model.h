@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "image/image.h"
+#include "rig/rig.h"
+#include "venue/venue.h"
+
+namespace relucent {
+
+/// How a camera turns light into a photograph.
+///   z = radiance * seconds;  z' = z + N(0, z / fullWell + (read / fullWell)^2), clipped to [0, 1]
+///   signal = z'^(1 / cameraGamma), rounded to codes
+class SensorModel {
+ public:
+  SensorModel(const DeviceModelSettings& settings, std::uint64_t seed);
+
+  /// The photograph that `request` asks for. The noise depends on the request and the seed alone.
+  /// Shapes: radiance of size.count() pixels, three channels.
+  RawFrame expose(const Stack& radiance, Size size, const CaptureRequest& request) const;
+
+  /// Relative power of the lamp while `request` is exposed: drift and flicker.
+  double lampPower(const CaptureRequest& request) const;
+
+  /// The exposure that a wish for `seconds` comes to.
+  static double granted(double seconds);
+  static ExposureRange exposures() { return {1.0 / 8000.0, 4.0}; }
+
+ private:
+  DeviceModelSettings settings_;
+  std::uint64_t seed_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "venue/simulated_devices.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+
+#include "base/error.h"
+#include "venue/sensor_model.h"
+
+namespace relucent {
+namespace {
+
+/// What the projectors of one rig show, and what that looks like to the camera: computed for the first
+/// exposure, kept for the others.
+class Stage {
+ public:
+  explicit Stage(std::shared_ptr<const VenueLight> light) : light_(std::move(light)) {
+    const Rasters& rasters = light_->layout().projectors();
+    for (std::size_t i = 0; i < rasters.devices(); ++i) shown_.emplace_back(rasters.size(i), 3);
+  }
+
+  const VenueLight& light() const { return *light_; }
+
+  void show(std::size_t projector, const Image& encodedDrive) {
+    std::lock_guard lock(mutex_);
+    if (shown_[projector] == encodedDrive) return;
+    shown_[projector] = encodedDrive;
+    current_ = nullptr;
+  }
+
+  std::shared_ptr<const Stack> fromProjectors() {
+    std::lock_guard lock(mutex_);
+    if (!current_) current_ = std::make_shared<Stack>(light_->fromProjectors(shown_));
+    return current_;
+  }
+
+ private:
+  std::shared_ptr<const VenueLight> light_;
+  std::mutex mutex_;
+  std::vector<Image> shown_;
+  std::shared_ptr<const Stack> current_;
+};
+
+class SimulatedProjector : public Projector {
+ public:
+  SimulatedProjector(std::shared_ptr<Stage> stage, std::size_t index)
+      : stage_(std::move(stage)), index_(index) {}
+
+  std::string name() const override { return fmt::format("simulated projector {}", index_ + 1); }
+  Size size() const override { return stage_->light().layout().projectors().size(index_); }
+  int bits() const override { return stage_->light().projectorModel().bits(); }
+  void show(const Image& encodedDrive) override {
+    require(encodedDrive.size() == size() && encodedDrive.channels() == 3,
+            "a picture of {}x{} pixels, {} channels for a projector of {}x{}", encodedDrive.width(),
+            encodedDrive.height(), encodedDrive.channels(), size().width, size().height);
+    stage_->show(index_, encodedDrive);
+  }
+
+ private:
+  std::shared_ptr<Stage> stage_;
+  std::size_t index_;
+};
+
+class SimulatedCamera : public Camera {
+ public:
+  explicit SimulatedCamera(std::shared_ptr<Stage> stage)
+      : stage_(std::move(stage)),
+        sensor_(stage_->light().settings().devices, stage_->light().settings().seed) {}
+
+  std::string name() const override { return "simulated camera"; }
+  Size size() const override { return stage_->light().settings().camera; }
+  ExposureRange exposures() const override { return SensorModel::exposures(); }
+  RawFrame capture(const CaptureRequest& request) override {
+    std::shared_ptr<const Stack> fromProjectors = stage_->fromProjectors();
+    const Stack& ambient = stage_->light().ambient();
+    float power = static_cast<float>(sensor_.lampPower(request));
+    Stack radiance(ambient.size());
+    for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = power * (*fromProjectors)[i] + ambient[i];
+    return sensor_.expose(radiance, size(), request);
+  }
+
+ private:
+  std::shared_ptr<Stage> stage_;
+  SensorModel sensor_;
+};
+
+}  // namespace
+
+Rig simulatedRig(std::shared_ptr<const VenueLight> light) {
+  std::size_t projectors = light->layout().projectors().devices();
+  auto stage = std::make_shared<Stage>(std::move(light));
+  Rig rig;
+  for (std::size_t i = 0; i < projectors; ++i)
+    rig.projectors.push_back(std::make_unique<SimulatedProjector>(stage, i));
+  rig.cameras.push_back(std::make_unique<SimulatedCamera>(stage));
+  return rig;
+}
+
+}  // namespace relucent

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "transport/block_sparse.h"
+
+namespace relucent {
+
+/// Light is carried in twelve bands of 25 nm, centred at 410, 435, ... 685 nm: enough for the mixing of
+/// colours to depend on the surface, as it does in life.
+constexpr int bandCount = 12;
+using Spectrum = Eigen::Array<float, bandCount, 1>;
+
+/// A smooth reflectance whose mean over the long, middle and short wavelengths is about `rgb`, within [0, 1]
+/// where `rgb` is.
+Spectrum reflectance(const Eigen::Array3f& rgb);
+
+/// Radiance per band of the projector's channels at full drive. They overlap, as colour filters do.
+const std::array<Spectrum, 3>& projectorPrimaries();
+
+/// Response per band of the camera's channels, balanced: a white surface under all primaries gives 1, 1, 1.
+const std::array<Spectrum, 3>& cameraSensitivities();
+
+/// What transport `t` per band means for three-channel devices: block(c, p) = sum_b S_c(b) t(b) P_p(b).
+ColourBlock colourBlock(const Spectrum& transport);
+
+/// What the camera sees of a surface under room light (warm, 1 on a grey surface's green channel).
+Eigen::Array3f underRoomLight(const Spectrum& reflectance);
+
+}  // namespace relucent

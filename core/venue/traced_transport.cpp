@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "venue/traced_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+constexpr float largestCode = 32767.0f;
+/// Siblings that are together less than this of a row are not told apart: on average they hold less than
+/// half of what the camera's noise hides.
+constexpr float weakShare = 1.0f / 400.0f;
+
+/// One line of camera pixels, compact: a full picture of rows in floats would not fit.
+struct Line {
+  std::vector<std::size_t> rowStart{0};
+  std::vector<std::uint32_t> node;
+  std::vector<std::array<std::int16_t, 9>> code;
+  std::vector<float> scale;  // per pixel
+  Stack flood, roomLight;
+};
+
+void appendRow(const TransportRow& row, const NodeLayout& layout, Line& line) {
+  std::vector<ColourBlock> blocks;
+  blocks.reserve(row.entries().size());
+  float largest = 0.0f;
+  Eigen::Vector3f flood = Eigen::Vector3f::Zero();
+  for (const TransportRow::Entry& entry : row.entries()) {
+    blocks.push_back(colourBlock(entry.transport));
+    largest = std::max(largest, blocks.back().maxCoeff());
+    flood += blocks.back().rowwise().sum();
+  }
+  float scale = largest / largestCode;
+  line.scale.push_back(scale);
+  line.flood.insert(line.flood.end(), {flood.x(), flood.y(), flood.z()});
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    std::array<std::int16_t, 9> code{};
+    bool zero = true;
+    for (std::size_t k = 0; k < 9; ++k) {
+      code[k] = static_cast<std::int16_t>(std::lround(blocks[i].data()[k] / scale));
+      zero = zero && code[k] == 0;
+    }
+    if (zero) continue;
+    line.node.push_back(static_cast<std::uint32_t>(layout.index(row.entries()[i].node)));
+    line.code.push_back(code);
+  }
+  line.rowStart.push_back(line.node.size());
+}
+
+Line traceLine(const Tracer& tracer, const TracerSettings& settings, int width, std::size_t y) {
+  int coarsest = tracer.layout().levels() - 1;
+  for (std::size_t p = 0; p < tracer.layout().projectors().devices(); ++p)
+    coarsest = std::min(coarsest, tracer.layout().levels(p) - 1);
+  TransportRow row;
+  Line line;
+  for (int x = 0; x < width; ++x) {
+    row.clear();
+    Spectrum seen = tracer.trace(y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x), row);
+    row.condense(weakShare, std::min(settings.finestIndirectLevel, coarsest), coarsest);
+    appendRow(row, tracer.layout(), line);
+    Eigen::Array3f room = underRoomLight(seen);
+    line.roomLight.insert(line.roomLight.end(), {room[0], room[1], room[2]});
+  }
+  return line;
+}
+
+std::vector<Line> traceLines(const Tracer& tracer, const TracerSettings& settings, Size camera,
+                             Progress& progress) {
+  std::vector<Line> lines(static_cast<std::size_t>(camera.height));
+  constexpr std::size_t together = 8;
+  for (std::size_t begin = 0; begin < lines.size(); begin += together) {
+    std::size_t end = std::min(lines.size(), begin + together);
+    parallelFor(begin, end, 1,
+                [&](std::size_t y) { lines[y] = traceLine(tracer, settings, camera.width, y); });
+    progress.report(static_cast<double>(end) / static_cast<double>(lines.size()));
+  }
+  return lines;
+}
+
+/// The factor that takes the 99th percentile of the flood image's brightest channel to `brightSignal`.
+float unitsFactor(const std::vector<Line>& lines, double brightSignal) {
+  std::vector<float> brightest;
+  for (const Line& line : lines)
+    for (std::size_t i = 0; i < line.flood.size(); i += 3)
+      brightest.push_back(std::max({line.flood[i], line.flood[i + 1], line.flood[i + 2]}));
+  auto place = brightest.begin() + static_cast<std::ptrdiff_t>(brightest.size() * 99 / 100);
+  std::nth_element(brightest.begin(), place, brightest.end());
+  return *place > 0.0f ? static_cast<float>(brightSignal) / *place : 1.0f;
+}
+
+std::vector<float> largestByNode(const std::vector<Line>& lines, std::size_t nodes, float factor) {
+  std::vector<float> largest(nodes, 0.0f);
+  for (const Line& line : lines) {
+    for (std::size_t pixel = 0; pixel < line.scale.size(); ++pixel) {
+      for (std::size_t i = line.rowStart[pixel]; i < line.rowStart[pixel + 1]; ++i) {
+        std::int16_t code = *std::max_element(line.code[i].begin(), line.code[i].end());
+        float& value = largest[line.node[i]];
+        value = std::max(value, factor * line.scale[pixel] * static_cast<float>(code));
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
+                               Progress& progress) {
+  Tracer tracer(scene, settings);
+  std::vector<Line> lines = traceLines(tracer, settings, scene.camera.raster, progress);
+  float factor = unitsFactor(lines, brightSignal);
+
+  TracedTransport traced;
+  traced.fullScale = largestByNode(lines, tracer.layout().count(), factor);
+  BlockSparseBuilder builder(scene.camera.raster.count(), traced.fullScale);
+  std::size_t pixel = 0;
+  for (Line& line : lines) {
+    for (std::size_t i = 0; i < line.scale.size(); ++i, ++pixel) {
+      for (std::size_t entry = line.rowStart[i]; entry < line.rowStart[i + 1]; ++entry) {
+        ColourBlock block;
+        for (std::size_t k = 0; k < 9; ++k)
+          block.data()[k] = factor * line.scale[i] * static_cast<float>(line.code[entry][k]);
+        builder.add(line.node[entry], pixel, block.transpose());
+      }
+    }
+    traced.roomLight.insert(traced.roomLight.end(), line.roomLight.begin(), line.roomLight.end());
+    line = {};
+  }
+  traced.cameraByNode = builder.build();
+  return traced;
+}
+
+}  // namespace relucent

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "transport/node_layout.h"
+#include "venue/sample_pattern.h"
+#include "venue/scene.h"
+#include "venue/transport_row.h"
+
+namespace relucent {
+
+class Caustics;
+class SceneRays;
+
+struct TracerSettings {
+  int pathsPerPixel = 256;
+  int longestPath = 16;         // diffuse bounces
+  int finestIndirectLevel = 3;  // of the pyramid, for light that arrives by diffuse bounces
+  int photonsPerPixel = 32;     // per projector pixel that meets glass
+  std::uint64_t seed = 1;
+};
+
+/// Follows light paths from the camera into a scene. At every vertex the path is connected to a point on
+/// every projector's lens; the picture element that this path comes from gets its transport:
+///   T[camera pixel, node] += throughput * brdf * cosine * irradiance
+/// Paths without a diffuse bounce, those through glass included, land on single projector pixels. Light
+/// that has bounced arrives from a wide area of the picture: it is spread over nodes about as large as the
+/// distance to the neighbouring paths, with bilinear weights, and rows stay compact and smooth.
+/// Every pixel uses the same well-spread set of paths, moved by less than their spacing, so that what is
+/// left of the sampling error looks smooth too.
+/// Units: a white diffuse surface under irradiance 1 has transport 1 in all bands.
+/// Source: core/venue/README.md; Veach 1997, chapters 8 to 10.
+class Tracer {
+ public:
+  Tracer(const Scene& scene, const TracerSettings& settings);
+  ~Tracer();
+
+  const NodeLayout& layout() const { return layout_; }
+  /// Adds the transport of one camera pixel to `row`; returns the mean reflectance that it sees.
+  Spectrum trace(std::size_t cameraPixel, TransportRow& row) const;
+
+ private:
+  struct Path;
+  void followPath(Path& path, TransportRow& row) const;
+  void connect(const Path& path, TransportRow& row) const;
+  void gatherCaustics(const Path& path, TransportRow& row) const;
+  bool bounce(Path& path) const;
+  void land(const Path& path, int projector, const Eigen::Vector2f& place, float pixelsPerPath,
+            const Spectrum& transport, TransportRow& row) const;
+  int coarsestLevel(int projector) const;
+
+  const Scene& scene_;
+  TracerSettings settings_;
+  NodeLayout layout_;
+  SamplePattern samples_;
+  std::unique_ptr<const SceneRays> rays_;
+  std::unique_ptr<const Caustics> caustics_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "transport/node_layout.h"
+#include "venue/spectra.h"
+
+namespace relucent {
+
+/// One camera pixel's light transport while it is being traced: a sum of spectra per node of the
+/// projectors' mean pyramids.
+class TransportRow {
+ public:
+  struct Entry {
+    Node node;
+    Spectrum transport;
+  };
+
+  TransportRow();
+  void clear();
+  void add(const Node& node, const Spectrum& transport);
+  const std::vector<Entry>& entries() const { return entries_; }
+
+  /// Hands siblings that together are less than `share` of the row on to their parent, from the finest
+  /// level that may be merged upwards: light that hardly counts is not resolved. Energy is kept.
+  /// Nodes of levels below `finest` and of each projector's `coarsest` level stay.
+  void condense(float share, int finest, int coarsest);
+
+ private:
+  std::size_t slotOf(const Node& node) const;
+  void grow();
+
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> slots_;  // index into entries_ plus one; 0: free
+};
+
+}  // namespace relucent

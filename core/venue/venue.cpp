@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "venue/venue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/fingerprint.h"
+#include "venue/scenes.h"
+#include "venue/simulated_devices.h"
+#include "venue/transport_cache.h"
+#include "venue/venue_light.h"
+
+namespace relucent {
+namespace {
+
+constexpr int smallestSide = 16, largestSide = 4096;
+/// The flood image's bright parts reach full scale in 1/60 s.
+constexpr double brightSignalPerSecond = 60.0;
+/// To be raised when anything changes what is traced: scenes, materials, tracer.
+constexpr int traceVersion = 1;
+
+void checkSize(const char* device, Size size, std::vector<std::string>& found) {
+  auto impossible = [](int side) { return side < smallestSide || side > largestSide; };
+  if (impossible(size.width) || impossible(size.height))
+    found.push_back(fmt::format("a simulated {} of {}x{} pixels is not possible: each side must be {} to {}",
+                                device, size.width, size.height, smallestSide, largestSide));
+}
+
+void checkRange(const char* name, double value, double low, double high, std::vector<std::string>& found) {
+  if (!(value >= low && value <= high))
+    found.push_back(fmt::format("{} is {}, not between {} and {}", name, value, low, high));
+}
+
+std::string traceFingerprint(const VenueSettings& settings) {
+  return Fingerprint()
+      .add(settings.name)
+      .add(traceVersion)
+      .add(settings.projector.width)
+      .add(settings.projector.height)
+      .add(settings.camera.width)
+      .add(settings.camera.height)
+      .add(settings.pathsPerPixel)
+      .add(settings.devices.vignetting)
+      .hex();
+}
+
+TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene, const NodeLayout& layout,
+                               const std::filesystem::path& cache, Progress& progress) {
+  std::string fingerprint = traceFingerprint(settings);
+  std::filesystem::path file = cache / fmt::format("{}-{}.venue", settings.name, fingerprint.substr(0, 12));
+  if (!cache.empty()) {
+    createFolder(cache);
+    if (auto kept = readTracedTransport(file, fingerprint, layout.count(), settings.camera.count())) {
+      progress.report(1.0);
+      return *std::move(kept);
+    }
+  }
+  TracerSettings tracer;
+  tracer.pathsPerPixel = settings.pathsPerPixel;
+  Progress part = progress.part(1.0, "tracing the simulated venue");
+  TracedTransport traced = traceTransport(scene, tracer, brightSignalPerSecond, part);
+  if (!cache.empty()) writeTracedTransport(file, fingerprint, traced);
+  return traced;
+}
+
+std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const std::filesystem::path& cache,
+                                          Progress& progress) {
+  std::vector<std::string> found = problems(settings);
+  if (!found.empty())
+    throw Error(ErrorKind::input, found.front(), "change the setting, then try again", "simulated venue");
+  Scene scene = buildScene(settings);
+  std::vector<Size> sizes(scene.projectors.size(), settings.projector);
+  NodeLayout layout{Rasters(sizes)};
+  TracedTransport traced = tracedOrCached(settings, scene, layout, cache, progress);
+  return std::make_shared<VenueLight>(settings, std::move(layout), std::move(traced));
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const VenueSettings& settings) {
+  std::vector<std::string> found;
+  auto named = [&](const VenueDescription& venue) { return venue.name == settings.name; };
+  if (std::none_of(venues().begin(), venues().end(), named)) {
+    std::string names;
+    for (const VenueDescription& venue : venues()) names += (names.empty() ? "" : ", ") + venue.name;
+    found.push_back(fmt::format("there is no simulated venue \"{}\"; there are {}", settings.name, names));
+  }
+  checkSize("projector", settings.projector, found);
+  checkSize("camera", settings.camera, found);
+  checkRange("the number of paths per pixel", settings.pathsPerPixel, 1, 65536, found);
+  const DeviceModelSettings& devices = settings.devices;
+  checkRange("the projector's bits", devices.projectorBits, 1, 16, found);
+  checkRange("the camera's bits", devices.cameraBits, 4, 16, found);
+  checkRange("the projector's contrast", devices.contrast, 1.0, 1e9, found);
+  checkRange("the projector's gamma", devices.gamma, 0.2, 5.0, found);
+  checkRange("the projector's vignetting", devices.vignetting, 0.0, 0.95, found);
+  checkRange("the camera's full well", devices.fullWell, 1.0, 1e9, found);
+  checkRange("the camera's read noise", devices.readElectrons, 0.0, 1e6, found);
+  checkRange("the ambient light", devices.ambient, 0.0, 1e3, found);
+  checkRange("the lamp's drift", devices.drift, -1.0, 1.0, found);
+  checkRange("the lamp's flicker", devices.flicker, 0.0, 0.5, found);
+  checkRange("the camera's gamma", devices.cameraGamma, 0.2, 5.0, found);
+  return found;
+}
+
+SimulatedVenue::SimulatedVenue(const VenueSettings& settings, const std::filesystem::path& cache,
+                               Progress& progress)
+    : light_(lightOf(settings, cache, progress)) {}
+
+SimulatedVenue::~SimulatedVenue() = default;
+
+const VenueSettings& SimulatedVenue::settings() const {
+  return light_->settings();
+}
+
+Rig SimulatedVenue::rig() const {
+  return simulatedRig(light_);
+}
+
+const TransportMatrix& SimulatedVenue::trueTransport() const {
+  return light_->transport();
+}
+
+const Stack& SimulatedVenue::trueBlack() const {
+  return light_->black();
+}
+
+Stack SimulatedVenue::trueRadiance(const std::vector<Image>& encodedDrive) const {
+  Stack radiance = light_->fromProjectors(encodedDrive);
+  for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] += light_->ambient()[i];
+  return radiance;
+}
+
+}  // namespace relucent

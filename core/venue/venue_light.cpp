@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "venue/venue_light.h"
+
+#include <numeric>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+double mean(const Stack& stack) {
+  return std::accumulate(stack.begin(), stack.end(), 0.0) / static_cast<double>(stack.size());
+}
+
+}  // namespace
+
+VenueLight::VenueLight(const VenueSettings& settings, NodeLayout layout, TracedTransport traced)
+    : settings_(settings),
+      layout_(std::move(layout)),
+      projectorModel_(settings.devices),
+      cameraByNode_(std::move(traced.cameraByNode)),
+      ambient_(std::move(traced.roomLight)) {
+  Stack white(3 * layout_.projectors().count(), 1.0f), leak = white;
+  for (std::size_t i = 0; i < leak.size(); ++i) leak[i] = projectorModel_.black()[i % 3];
+  projectorBlack_ = cameraByNode_.multiplyTransposed(layout_.means(leak));
+
+  double flood = mean(cameraByNode_.multiplyTransposed(layout_.means(white)));
+  double roomLight = mean(ambient_);
+  float factor = roomLight > 0.0 ? static_cast<float>(settings_.devices.ambient * flood / roomLight) : 0.0f;
+  black_ = projectorBlack_;
+  for (std::size_t i = 0; i < ambient_.size(); ++i) {
+    ambient_[i] *= factor;
+    black_[i] += ambient_[i];
+  }
+}
+
+Stack VenueLight::fromProjectors(const std::vector<Image>& encodedDrive) const {
+  const Rasters& projectors = layout_.projectors();
+  require(encodedDrive.size() == projectors.devices(), "{} pictures for {} projectors", encodedDrive.size(),
+          projectors.devices());
+  Stack drive;
+  drive.reserve(3 * projectors.count());
+  for (std::size_t i = 0; i < encodedDrive.size(); ++i) {
+    require(encodedDrive[i].size() == projectors.size(i), "a picture of {}x{} pixels for projector {}",
+            encodedDrive[i].width(), encodedDrive[i].height(), i);
+    Stack light = projectorModel_.light(encodedDrive[i]);
+    drive.insert(drive.end(), light.begin(), light.end());
+  }
+  Stack seen = cameraByNode_.multiplyTransposed(layout_.means(drive));
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += projectorBlack_[i];
+  return seen;
+}
+
+const TransportMatrix& VenueLight::transport() const {
+  std::call_once(transportMade_, [&] {
+    transport_ = TransportMatrix(settings_.camera, layout_.projectors(), cameraByNode_.transposed());
+  });
+  return transport_;
+}
+
+}  // namespace relucent

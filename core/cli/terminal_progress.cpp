@@ -26,11 +26,10 @@ void TimeLeft::add(Seconds now, double fraction) {
 
 Seconds TimeLeft::left() const {
   constexpr Seconds leastTime{3.0};
-  constexpr double leastShare = 0.005;
   if (samples_.empty()) return Seconds{-1.0};
   Seconds time = samples_.back().time - samples_.front().time;
   double share = samples_.back().fraction - samples_.front().fraction;
-  if (time < leastTime || share < leastShare) return Seconds{-1.0};
+  if (time < leastTime || share <= 0.0) return Seconds{-1.0};
   return time * ((1.0 - samples_.back().fraction) / share);
 }
 

@@ -16,7 +16,9 @@
 #include <half.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <set>
 
@@ -40,6 +42,10 @@ Size sizeOf(const Imath::Box2i& window) {
 }
 
 Imath::Box2i boxOf(Pixel origin, Size size) {
+  constexpr int farthest = std::numeric_limits<int>::max() / 2;  // OpenEXR's own limit
+  require(std::abs(std::int64_t{origin.x}) + size.width < farthest &&
+              std::abs(std::int64_t{origin.y}) + size.height < farthest,
+          "OpenEXR cannot place {}x{} pixels at {}, {}", size.width, size.height, origin.x, origin.y);
   return {Imath::V2i(origin.x, origin.y), Imath::V2i(origin.x + size.width - 1, origin.y + size.height - 1)};
 }
 

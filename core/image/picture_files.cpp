@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <new>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -82,6 +85,9 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
   try {
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
     picture = cv::imdecode(bytes, flags);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::memory, "there is not enough memory to read the picture",
+                "close other programs, or make the picture smaller", path.string());
   } catch (const cv::Exception&) {
     // Sizes beyond OpenCV's limits end here; told below like everything that cannot be decoded.
   }

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/color.h"
+#include "pipeline/report_charts.h"
+#include "pipeline/report_pictures.h"
+#include "pipeline/report_style.h"
+
+namespace relucent {
+namespace {
+
+constexpr double deltaEScale = 20.0;  // right end of the error maps: far beyond what nobody could miss
+
+std::string section(const std::string& heading, const std::string& lead, const std::string& body) {
+  std::string introduction = lead.empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", escaped(lead));
+  return fmt::format("<section><h2>{}</h2>{}{}</section>\n", escaped(heading), introduction, body);
+}
+
+std::string figure(const Image& encoded, const std::string& name, const std::string& caption,
+                   const std::string& below = {}) {
+  return fmt::format(
+      R"(<figure><img src="{}" width="{}" height="{}" alt="{}: {}">{}<figcaption><b>{}</b> {}</figcaption></figure>)",
+      pngDataUri(encoded), encoded.width(), encoded.height(), escaped(name), escaped(caption), below,
+      escaped(name), escaped(caption));
+}
+
+std::string card(const std::string& name, const std::string& value) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", escaped(name), escaped(value));
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100.0 * share);
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, "\u202f");
+  return digits;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);
+  return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
+}
+
+std::string decibels(double value) {
+  return std::isfinite(value) ? fmt::format("{:.1f} dB", value) : "exact";
+}
+
+double meanOf(const Image& values) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (float value : values.data())
+    if (!std::isnan(value)) {
+      sum += static_cast<double>(value);
+      count += 1.0;
+    }
+  return sum / std::max(count, 1.0);
+}
+
+std::string head(const ReportData& data) {
+  double seconds =
+      data.result.seconds.linearization + data.result.seconds.acquisition + data.result.seconds.inverse;
+  std::string cards =
+      card("Photographs", grouped(static_cast<std::uint64_t>(std::max(0, data.result.exposures)))) +
+      card("Time", duration(seconds)) + card("Connections of light", grouped(data.result.connections)) +
+      card("Pixels flagged", percent(data.result.flaggedShare));
+  if (data.evaluation) cards += card("Can be reached", percent(data.evaluation->reachable));
+  return fmt::format(
+      "<header><h1>{}</h1><p class=\"soft\">{}<br>Projector {} × {}, camera {} × {}. Measured {} by {}.</p>"
+      "<dl class=\"cards\">{}</dl></header>\n",
+      escaped(data.title), escaped(data.venue), data.projector.width, data.projector.height,
+      data.camera.width, data.camera.height, escaped(data.measured), escaped(data.software), cards);
+}
+
+std::string findings(const ReportData& data) {
+  std::string items;
+  for (const std::string& finding : data.result.findings)
+    items += fmt::format("<li class=\"note amber\">{}</li>", escaped(finding));
+  if (items.empty())
+    items = "<li class=\"note good\">Nothing stands out: the measurement is as it should be.</li>";
+  return section("Findings", "", "<ul class=\"notes\">" + items + "</ul>");
+}
+
+std::string comparison(const ReportComparison& shown) {
+  require(
+      shown.wanted.size() == shown.uncompensated.size() && shown.wanted.size() == shown.compensated.size(),
+      "the pictures of '{}' differ in size", shown.name);
+  Image before = deltaEMap(shown.uncompensated, shown.wanted, shown.white, shown.inside);
+  Image after = deltaEMap(shown.compensated, shown.wanted, shown.white, shown.inside);
+  std::string bar =
+      legend(ColorMap::cividis, {"0", "5", "10", "15", "20+"}, "Colour error from 0 to 20, CIEDE2000");
+  std::string how = shown.truth ? "through the true light transport" : "predicted from the measurement";
+
+  std::string body = "<div class=\"pictures\">";
+  body += figure(viewed(shown.wanted, shown.white), "Wanted", "the picture as it should appear.");
+  body += figure(viewed(shown.uncompensated, shown.white), "Uncompensated", "only placed, " + how + ".");
+  body += figure(viewed(shown.compensated, shown.white), "Compensated",
+                 fmt::format("method {}, {}.", shown.method, how));
+  body += figure(painted(before, ColorMap::cividis, 0.0, deltaEScale), "Error uncompensated",
+                 fmt::format("mean colour error ΔE {:.1f}.", meanOf(before)), bar);
+  body += figure(painted(after, ColorMap::cividis, 0.0, deltaEScale), "Error compensated",
+                 fmt::format("mean colour error ΔE {:.1f}.", meanOf(after)), bar);
+  body += "<figure>" +
+          histogram(before.data(), after.data(), deltaEScale, "Colour error ΔE (CIEDE2000)",
+                    "Share of the pixels by colour error, uncompensated and compensated") +
+          "<figcaption><b>Errors</b> further left is better.</figcaption></figure></div>";
+  return section(
+      "Before and after: " + shown.name,
+      fmt::format("{} of the picture can be reached. An error ΔE of 1 is just visible side by side, 5 is "
+                  "plain to see.",
+                  percent(shown.reachable)),
+      body);
+}
+
+/// Means over all images, in the order of the first.
+std::vector<MethodScore> meanScores(const EvaluateResult& evaluation) {
+  std::vector<MethodScore> means;
+  for (const ImageScore& image : evaluation.images)
+    for (const MethodScore& score : image.methods) {
+      auto mean =
+          std::find_if(means.begin(), means.end(), [&](const auto& m) { return m.method == score.method; });
+      if (mean == means.end()) mean = means.insert(means.end(), MethodScore{score.method});
+      auto share = 1.0 / static_cast<double>(evaluation.images.size());
+      mean->psnrReachable += share * score.psnrReachable;
+      mean->psnrAll += share * score.psnrAll;
+      mean->ssim += share * score.ssim;
+      mean->deltaE += share * score.deltaE;
+      mean->seconds += share * score.seconds;
+    }
+  return means;
+}
+
+std::string explained(const std::string& method) {
+  for (const MethodDescription& known : methods())
+    if (known.name == method) return known.sentence;
+  return {};
+}
+
+std::string methodTable(const std::vector<MethodScore>& scores, double best) {
+  std::string rows;
+  for (const MethodScore& score : scores)
+    rows += fmt::format(
+        "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.1f}</td><td>{}</td><td "
+        "style=\"text-align:left;white-space:normal\">{}</td></tr>",
+        score.psnrReachable == best ? " class=\"best\"" : "", escaped(score.method),
+        decibels(score.psnrReachable), decibels(score.psnrAll), score.ssim, score.deltaE,
+        duration(score.seconds), escaped(explained(score.method)));
+  return "<div class=\"scroll\"><table><caption>Mean over the pictures</caption><thead><tr><th "
+         "scope=\"col\">Method</th><th scope=\"col\">PSNR, reachable</th><th scope=\"col\">PSNR, all</th><th "
+         "scope=\"col\">SSIM</th><th scope=\"col\">Colour error ΔE</th><th scope=\"col\">Time a "
+         "picture</th><th "
+         "scope=\"col\" style=\"text-align:left\">What it does</th></tr></thead><tbody>" +
+         rows + "</tbody></table></div>";
+}
+
+std::string methodComparison(const EvaluateResult& evaluation) {
+  std::vector<MethodScore> scores = meanScores(evaluation);
+  double best = -std::numeric_limits<double>::infinity();
+  for (const MethodScore& score : scores) best = std::max(best, score.psnrReachable);
+  std::vector<Bar> bars;
+  for (const MethodScore& score : scores)
+    bars.push_back(
+        {score.method, score.psnrReachable, decibels(score.psnrReachable), score.psnrReachable == best});
+  return section(
+      "Methods compared",
+      "Through the true light transport of the simulated venue, in linear light, where the picture can be "
+      "reached. Three decibels more halve the squared error.",
+      barChart(bars, "PSNR of each method") + methodTable(scores, best));
+}
+
+std::string measuredPictures(const ReportData& data) {
+  if (data.flood.empty()) return {};
+  std::array<float, 3> white =
+      data.comparisons.empty() ? percentileWhite(data.flood, 0.85) : data.comparisons.front().white;
+  Image reach = reachableLight(data.flood, data.black, white);
+  for (float& value : reach.data()) value = value > 0.0f ? std::log2(value) : -100.0f;
+
+  std::string body = "<div class=\"pictures\">";
+  body += figure(viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
+                 "what the camera sees when every pixel of the projector is fully lit.");
+  body += figure(
+      painted(reach, ColorMap::viridis, -4.0, 2.0), "Reachable light",
+      "the brightest that each place can get, in the colour that is hardest there; 1 is the picture's "
+      "white.",
+      legend(ColorMap::viridis, {"1/16", "1/4", "1", "4"}, "Reachable light from 1/16 to 4 times white"));
+  if (!data.black.empty())
+    body += figure(
+        viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
+        "room light and the projector's black, brightened to be seen: nothing can be darker than this.");
+  if (data.flagged.size() == data.flood.pixels()) {
+    Image mask(data.flood.size(), 1);
+    for (std::size_t i = 0; i < data.flagged.size(); ++i) mask.data()[i] = data.flagged[i] != 0 ? 1.0f : 0.0f;
+    body += figure(
+        painted(mask, ColorMap::cividis, 0.0, 1.0), "Flagged pixels",
+        fmt::format("bright: {} of the camera's pixels did not pass the verification and are not relied "
+                    "on.",
+                    percent(data.result.flaggedShare)));
+  }
+  return section("What the camera measured", "", body + "</div>");
+}
+
+std::string responses(const ReportData& data) {
+  if (data.responses.empty()) return {};
+  std::string body = "<div class=\"charts\">";
+  for (std::size_t projector = 0; projector < data.responses.size(); ++projector) {
+    std::string title = fmt::format("Response of projector {}", projector + 1);
+    body += "<div><h3>" + title + "</h3>" + responseChart(data.responses[projector], title);
+    if (projector < data.additivityError.size())
+      body += fmt::format(
+          "<p>Red, green and blue together differ from white by at most {}. Up to 2 % is good; more "
+          "means a white segment or a picture mode in the projector's menu.</p>",
+          percent(data.additivityError[projector]));
+    body += "</div>";
+  }
+  std::string times;
+  for (double exposure : data.exposures)
+    times += (times.empty() ? "" : ", ") + fmt::format("{:.4g} s", exposure);
+  if (!times.empty()) body += "<div><h3>Exposures</h3><p>" + times + "</p></div>";
+  return section("Response of the projector", "How much light each level sent to the projector really gives.",
+                 body + "</div>");
+}
+
+std::string transport(const ReportData& data) {
+  std::vector<Bar> bars;
+  for (std::size_t level = 0; level < data.leavesPerLevel.size(); ++level)
+    bars.push_back({level == 0 ? "single pixels" : fmt::format("{0} × {0}", 1ULL << level),
+                    std::log10(1.0 + static_cast<double>(data.leavesPerLevel[level])),
+                    grouped(data.leavesPerLevel[level]), level == 0});
+  std::string chart = bars.empty() ? ""
+                                   : "<h3>Leaves by block size (logarithmic)</h3>" +
+                                         barChart(bars, "Stored blocks of the light transport by their size");
+  std::string truth;
+  if (data.evaluation)
+    truth = fmt::format(
+        "<p>Compared with the true transport: relative error {}, relighting a photograph {}, relighting "
+        "noise {}.</p>",
+        percent(data.evaluation->transport.frobenius), percent(data.evaluation->transport.relightNatural),
+        percent(data.evaluation->transport.relightRandom));
+  return section(
+      "The light transport",
+      "Every connection from a projector pixel to a camera pixel. Sharp light is kept pixel by pixel, light "
+      "that arrives evenly from a wide area as one block.",
+      fmt::format("<p>{} connections in {} stored blocks. {} of the light could not be attributed; held-out "
+                  "patterns were predicted to within {}.</p>{}{}",
+                  grouped(data.result.connections), grouped(data.result.leaves),
+                  percent(data.result.unresolvedEnergy), percent(data.result.verificationError), truth,
+                  chart));
+}
+
+std::string limits() {
+  return section(
+      "What no compensation can do", "",
+      "<ul><li><b>Not darker than black.</b> Room light and the projector's own black stay. Darken the room, "
+      "or lift the "
+      "blacks of the content.</li>"
+      "<li><b>Not brighter than full.</b> Dark or steep surfaces and the rim of the picture get less light "
+      "than the "
+      "rest. A darker picture reaches more of the surface; more light or a second projector reaches all of "
+      "it.</li>"
+      "<li><b>No light in a shadow.</b> Where the projector does not reach, only bounced light can help.</li>"
+      "<li><b>No colour that the surface swallows.</b> A saturated red wall returns almost no blue.</li>"
+      "<li><b>No detail finer than the projector's pixels</b>, and less where the projector is out of "
+      "focus.</li>"
+      "<li><b>Right for one place.</b> Glossy surfaces look different from elsewhere: the camera's place is "
+      "the sweet "
+      "spot. Nothing may move afterwards.</li></ul>");
+}
+
+void flatten(const Json& json, const std::string& path, std::string& rows) {
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) flatten(value, path.empty() ? key : path + "." + key, rows);
+    return;
+  }
+  rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>", escaped(path),
+                      escaped(json.is_string() ? json.get<std::string>() : json.dump()));
+}
+
+std::string settingsAndTimes(const ReportData& data) {
+  const CalibrateResult& result = data.result;
+  std::string times = fmt::format(
+      "<div class=\"scroll\"><table><caption>Cost</caption><tbody>"
+      "<tr><th scope=\"row\">Linearization</th><td>{}</td></tr><tr><th "
+      "scope=\"row\">Acquisition</th><td>{}</td></tr>"
+      "<tr><th scope=\"row\">Inverse</th><td>{}</td></tr><tr><th scope=\"row\">Patterns</th><td>{}</td></tr>"
+      "<tr><th scope=\"row\">Photographs</th><td>{}</td></tr><tr><th scope=\"row\">Most memory "
+      "used</th><td>{:.0f} MB"
+      "</td></tr></tbody></table></div>",
+      duration(result.seconds.linearization), duration(result.seconds.acquisition),
+      duration(result.seconds.inverse), result.patterns, result.exposures,
+      static_cast<double>(result.peakMemoryBytes) / 1e6);
+  std::string rows;
+  flatten(data.settings, "", rows);
+  std::string settings =
+      rows.empty()
+          ? ""
+          : "<h3>Settings</h3><details><summary>All settings</summary><div class=\"scroll\"><table><tbody>" +
+                rows + "</tbody></table></div></details>";
+  return section("Settings and times", "", times + settings);
+}
+
+}  // namespace
+
+std::string reportHtml(const ReportData& data) {
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\"><title>{} – Relucent "
+      "report</title><style>{}</style></head><body>\n",
+      escaped(data.title), reportStyle);
+  html += head(data) + "<main>\n" + findings(data);
+  for (const ReportComparison& shown : data.comparisons) html += comparison(shown);
+  if (data.evaluation && !data.evaluation->images.empty()) html += methodComparison(*data.evaluation);
+  html += measuredPictures(data) + responses(data) + transport(data) + limits() + settingsAndTimes(data);
+  return html +
+         "</main><footer>Relucent: projection on any surface as if it were a white "
+         "screen.</footer></body></html>\n";
+}
+
+void writeReport(const std::filesystem::path& path, const ReportData& data) {
+  writeFileAtomically(path, reportHtml(data));
+}
+
+}  // namespace relucent

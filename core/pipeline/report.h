@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/json.h"
+#include "image/image.h"
+#include "linearization/linearization.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// One image before and after, as the first camera sees it. Linear, camera signal per second, one size.
+struct ReportComparison {
+  std::string name;    // "Evening hills"
+  std::string method;  // of `compensated`
+  Image wanted;
+  Image uncompensated;
+  Image compensated;
+  std::array<float, 3> white{};      // signal of the content's white
+  std::vector<std::uint8_t> inside;  // per pixel: the content covers it; empty: everywhere
+  double reachable = 0.0;            // share of the content's pixels
+  bool truth = false;                // through a simulated venue's true transport; else predicted from T
+};
+
+/// Everything that a report shows. What is empty is left out.
+struct ReportData {
+  std::string title;     // the calibration's name
+  std::string venue;     // "Simulated venue corner: a glossy V-shaped corner before wallpaper"
+  std::string software;  // that measured
+  std::string measured;  // when, ISO 8601
+  Size projector;
+  Size camera;
+  CalibrateResult result;                     // its findings too
+  std::vector<ProjectorResponse> responses;   // per projector
+  std::vector<double> additivityError;        // per projector
+  std::vector<double> exposures;              // seconds
+  Image flood;                                // T 1, less e: camera signal per second
+  Image black;                                // e
+  std::vector<std::uint8_t> flagged;          // per camera pixel
+  std::vector<std::uint64_t> leavesPerLevel;  // level 0 first: single pixels, then 2x2, ...
+  std::vector<ReportComparison> comparisons;
+  std::optional<EvaluateResult> evaluation;
+  Json settings;
+};
+
+/// The report as one HTML page: styles, pictures and charts inside, nothing fetched from anywhere.
+/// All texts are escaped. Throws: std::logic_error if images of a comparison differ in size.
+std::string reportHtml(const ReportData& data);
+
+/// Writes reportHtml() atomically. Throws: Error{disk}.
+void writeReport(const std::filesystem::path& path, const ReportData& data);
+
+}  // namespace relucent

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <QTest>
+#include <cstdlib>
+
+#include "cli/arguments.h"
+
+using namespace relucent;
+
+namespace {
+
+std::vector<std::string> words(const QByteArray& line) {
+  std::vector<std::string> result;
+  for (const QByteArray& word : line.split(' '))
+    if (!word.isEmpty()) result.push_back(word.toStdString());
+  return result;
+}
+
+template <typename Made>
+Made parsed(const QByteArray& line) {
+  return std::get<Made>(parseArguments(words(line)).command);
+}
+
+}  // namespace
+
+class TestArguments : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void sizes_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<bool>("valid");
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("height");
+    QTest::newRow("usual") << QByteArray("256x192") << true << 256 << 192;
+    QTest::newRow("capital") << QByteArray("1X2") << true << 1 << 2;
+    QTest::newRow("zero is a size, though impossible") << QByteArray("0x0") << true << 0 << 0;
+    for (const char* wrong : {"", "x", "256", "256x", "x192", "256x192x3", "256 x192", "12.5x10", "0x10x",
+                              "axb", "99999999999x1", "256*192"})
+      QTest::newRow(*wrong != '\0' ? wrong : "nothing") << QByteArray(wrong) << false << 0 << 0;
+  }
+  void sizes() {
+    QFETCH(QByteArray, text);
+    QFETCH(bool, valid);
+    QFETCH(int, width);
+    QFETCH(int, height);
+    if (!valid) {
+      QVERIFY_EXCEPTION_THROWN(parseSize(text.toStdString()), WrongUsage);
+      return;
+    }
+    QVERIFY((parseSize(text.toStdString()) == Size{width, height}));
+  }
+
+  void calibrateHasDefaults() {
+    Calibrate command = parsed<Calibrate>("calibrate demo");
+    QCOMPARE(command.calibration, std::filesystem::path("demo"));
+    const auto& venue = std::get<VenueSettings>(command.settings.rig);
+    QCOMPARE(venue.name, std::string("corner"));
+    QVERIFY((venue.projector == Size{256, 192}));
+    QVERIFY((venue.camera == Size{160, 120}));
+    QCOMPARE(venue.devices.cameraBits, DeviceModelSettings().cameraBits);
+    QCOMPARE(command.settings.acquisition.relativeThreshold, AcquisitionSettings().relativeThreshold);
+    QCOMPARE(command.cache, defaultCache());
+  }
+
+  void calibrateTakesEveryOption() {
+    Calibrate command = parsed<Calibrate>(
+        "calibrate d --venue dome --projector 64x48 --camera 32x24 --seed 9 --threshold 0.02 --levels 17 "
+        "--acquisition adaptive --colour rgb --cache /tmp/c --camera-bits 8 --white-segment --drift 0.01 "
+        "--paths 16");
+    const auto& venue = std::get<VenueSettings>(command.settings.rig);
+    QCOMPARE(venue.name, std::string("dome"));
+    QVERIFY((venue.projector == Size{64, 48}));
+    QVERIFY((venue.camera == Size{32, 24}));
+    QCOMPARE(venue.seed, std::uint64_t{9});
+    QCOMPARE(venue.pathsPerPixel, 16);
+    QCOMPARE(venue.devices.cameraBits, 8);
+    QCOMPARE(venue.devices.drift, 0.01);
+    QVERIFY(venue.devices.whiteSegment);
+    QCOMPARE(command.settings.acquisition.relativeThreshold, 0.02);
+    QCOMPARE(command.settings.acquisition.seed, std::uint64_t{9});
+    QCOMPARE(command.settings.linearization.seed, std::uint64_t{9});
+    QCOMPARE(command.settings.linearization.levels, 17);
+    QCOMPARE(command.cache, std::filesystem::path("/tmp/c"));
+  }
+
+  void externalProgramsAreARig() {
+    Calibrate command = parsed<Calibrate>(
+        "calibrate d --projector-command show,{image} --camera-command shoot,{exposure},{output} "
+        "--projector 1024x768 --longest 2");
+    const auto& rig = std::get<CommandRigSettings>(command.settings.rig);
+    QCOMPARE(rig.projectorCommand, std::string("show,{image}"));
+    QCOMPARE(rig.cameraCommand, std::string("shoot,{exposure},{output}"));
+    QVERIFY((rig.projector == Size{1024, 768}));
+    QVERIFY(!rig.camera);
+    QCOMPARE(rig.longestExposure, 2.0);
+  }
+
+  void otherCommandsTakeTheirOptions() {
+    Compensate compensate = parsed<Compensate>(
+        "compensate d --image a.png --out o --method mix --corners 1 2 3 4 5 6 7 8 --black-lift 0.02 "
+        "--dark-share 5");
+    QCOMPARE(compensate.settings.method, std::string("mix"));
+    QCOMPARE(compensate.settings.image, std::filesystem::path("a.png"));
+    QCOMPARE(compensate.settings.target.corners->at(2).at(1), 6.0);
+    QCOMPARE(compensate.settings.target.blackLift, 0.02);
+    QCOMPARE(compensate.settings.target.reachablePercentile, 5.0);
+
+    Evaluate evaluate =
+        parsed<Evaluate>("evaluate d --image a.png --image b.exr --method mix --method refined");
+    QCOMPARE(evaluate.settings.images.size(), std::size_t{2});
+    QCOMPARE(evaluate.settings.methods.size(), std::size_t{2});
+    QVERIFY(parsed<Evaluate>("evaluate d").settings.methods.empty());
+
+    QCOMPARE(parsed<Export>("export d --transport T.npz").settings.transport, std::filesystem::path("T.npz"));
+    QVERIFY(!parsed<Relight>("relight d --image a.png --out o.exr").dual);
+    QVERIFY(parsed<Relight>("dual d --out o.exr").dual);
+    QVERIFY(parsed<Report>("report d").settings.evaluate);
+    QVERIFY(!parsed<Report>("report d --no-evaluate").settings.evaluate);
+    QCOMPARE(parsed<Bench>("bench windows").name, std::string("windows"));
+    QCOMPARE(parsed<Resume>("resume d").calibration, std::filesystem::path("d"));
+  }
+
+  void jsonMayStandAnywhere() {
+    QVERIFY(parseArguments(words("--json venues")).json);
+    QVERIFY(parseArguments(words("venues --json")).json);
+    QVERIFY(parseArguments(words("evaluate d --json --image a.png")).json);
+    QVERIFY(!parseArguments(words("venues")).json);
+  }
+
+  void helpAndVersionArePrinted_data() {
+    QTest::addColumn<QByteArray>("line");
+    QTest::addColumn<QByteArray>("contains");
+    QTest::newRow("help") << QByteArray("--help") << QByteArray("Subcommands");
+    QTest::newRow("version") << QByteArray("--version") << QByteArray("relucent-cli ");
+    for (const char* name : {"venues", "calibrate", "resume", "compensate", "evaluate", "export", "relight",
+                             "dual", "report", "bench"})
+      QTest::newRow(name) << QByteArray(name) + " --help" << QByteArray("relucent-cli ") + name;
+  }
+  void helpAndVersionArePrinted() {
+    QFETCH(QByteArray, line);
+    QFETCH(QByteArray, contains);
+    QByteArray text = QByteArray::fromStdString(parsed<PrintText>(line).text);
+    QVERIFY2(text.contains(contains), text);
+  }
+
+  void wrongUsage_data() {
+    QTest::addColumn<QByteArray>("line");
+    QTest::addColumn<QByteArray>("says");
+    QTest::newRow("nothing") << QByteArray("") << QByteArray("say what to do");
+    QTest::newRow("only an option") << QByteArray("--json") << QByteArray("say what to do");
+    QTest::newRow("unknown") << QByteArray("celebrate d")
+                             << QByteArray("'celebrate' cannot be done: there are venues");
+    QTest::newRow("not built") << QByteArray("import d") << QByteArray("'import' cannot be done");
+    QTest::newRow("no folder") << QByteArray("calibrate") << QByteArray("CALIBRATION is required");
+    QTest::newRow("unknown option") << QByteArray("calibrate d --fast") << QByteArray("--fast");
+    QTest::newRow("no size") << QByteArray("calibrate d --camera big") << QByteArray("'big' is no size");
+    QTest::newRow("no number") << QByteArray("calibrate d --seed one") << QByteArray("--seed");
+    QTest::newRow("mode") << QByteArray("calibrate d --acquisition sen") << QByteArray("adaptive");
+    QTest::newRow("method") << QByteArray("compensate d --image a --out b --method clusters")
+                            << QByteArray("optimum");
+    QTest::newRow("no image") << QByteArray("compensate d --out b") << QByteArray("--image is required");
+    QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
+                                   << QByteArray("--corners");
+    QTest::newRow("nothing to export")
+        << QByteArray("export d") << QByteArray("--transport, --inverse or --maps");
+    QTest::newRow("half a rig") << QByteArray("calibrate d --projector-command a")
+                                << QByteArray("external programs need");
+    QTest::newRow("rig without a size")
+        << QByteArray("calibrate d --projector-command a --camera-command b") << QByteArray("--projector");
+    QTest::newRow("two rigs") << QByteArray(
+                                     "calibrate d --projector-command a --camera-command b --projector 8x8 "
+                                     "--venue corner")
+                              << QByteArray("not both");
+    QTest::newRow("simulated option")
+        << QByteArray("calibrate d --projector-command a --camera-command b --projector 8x8 --drift 0.1")
+        << QByteArray("--drift is for simulated venues only");
+    QTest::newRow("two folders") << QByteArray("resume a b") << QByteArray("b");
+  }
+  void wrongUsage() {
+    QFETCH(QByteArray, line);
+    QFETCH(QByteArray, says);
+    try {
+      parseArguments(words(line));
+      QFAIL("was understood");
+    } catch (const WrongUsage& error) {
+      QVERIFY2(QByteArray(error.what()).contains(says), error.what());
+      QVERIFY2(QByteArray(error.what()).contains("--help`."), error.what());
+      QVERIFY2(!QByteArray(error.what()).contains('\n'), error.what());
+    }
+  }
+
+  void cacheFollowsTheEnvironment() {
+    ::setenv("XDG_CACHE_HOME", "/caches", 1);
+    QCOMPARE(defaultCache(), std::filesystem::path("/caches/relucent"));
+    ::setenv("XDG_CACHE_HOME", "relative/is/ignored", 1);
+    ::setenv("HOME", "/home/me", 1);
+    QCOMPARE(defaultCache(), std::filesystem::path("/home/me/.cache/relucent"));
+    ::unsetenv("XDG_CACHE_HOME");
+    ::unsetenv("HOME");
+    QVERIFY(defaultCache().empty());
+  }
+};
+
+QTEST_APPLESS_MAIN(TestArguments)
+#include "test_arguments.moc"

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <QJsonDocument>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "base/error.h"
+#include "calibration/calibration_folder.h"
+#include "cli/interruption.h"
+
+using namespace relucent;
+
+namespace {
+
+struct Run {
+  int status = -1;
+  QByteArray out, err;
+};
+
+Run run(const QStringList& arguments) {
+  QProcess process;
+  process.start(QString::fromLocal8Bit(qgetenv("RELUCENT_CLI")), arguments);
+  if (!process.waitForFinished(60000)) return {};
+  return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+}  // namespace
+
+/// The program as it is started by people and scripts.
+class TestProgram : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() { QVERIFY2(!qgetenv("RELUCENT_CLI").isEmpty(), "run by ctest, or set RELUCENT_CLI"); }
+
+  void jsonIsOneDocumentAndNothingElse() {
+    Run ran = run({"venues", "--json"});
+    QCOMPARE(ran.status, 0);
+    QCOMPARE(ran.err, QByteArray());
+    QJsonParseError error;
+    QJsonDocument::fromJson(ran.out, &error);
+    QCOMPARE(error.error, QJsonParseError::NoError);
+  }
+
+  void statusAndSentence_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<int>("status");
+    QTest::addColumn<QByteArray>("says");
+    QTest::newRow("wrong usage") << QStringList{"calibrate"} << 2 << QByteArray("CALIBRATION is required");
+    QTest::newRow("small") << QStringList{"calibrate", "d", "--projector", "4x4"} << 1
+                           << QByteArray("4x4 pixels is impossible");
+    QTest::newRow("large") << QStringList{"calibrate", "d", "--camera", "9000x10"} << 1
+                           << QByteArray("8 to 8192");
+    QTest::newRow("empty") << QStringList{"calibrate", "d", "--camera", "0x0"} << 1
+                           << QByteArray("impossible");
+    QTest::newRow("command without its file")
+        << QStringList{"calibrate",           "d",
+                       "--projector-command", "true",
+                       "--camera-command",    "shoot {exposure} {output}",
+                       "--projector",         "64x48"}
+        << 1 << QByteArray("does not say {image}");
+  }
+  void statusAndSentence() {
+    QFETCH(QStringList, arguments);
+    QFETCH(int, status);
+    QFETCH(QByteArray, says);
+    QTemporaryDir folder;
+    if (arguments.size() > 1) arguments[1] = folder.filePath("new");
+    for (bool json : {false, true}) {
+      Run ran = run(json ? arguments + QStringList{"--json"} : arguments);
+      QCOMPARE(ran.status, status);
+      QCOMPARE(ran.out, QByteArray());
+      QVERIFY2(ran.err.startsWith("relucent-cli: ") && ran.err.contains(says), ran.err);
+      QCOMPARE(ran.err.count('\n'), 1);
+      QVERIFY(!QFile::exists(folder.filePath("new")));
+    }
+  }
+
+  void aFullOutputIsAFailure() {
+    QProcess process;
+    process.setStandardOutputFile("/dev/full");
+    process.start(QString::fromLocal8Bit(qgetenv("RELUCENT_CLI")), {"venues"});
+    QVERIFY(process.waitForFinished(60000));
+    QCOMPARE(process.exitCode(), 1);
+    QVERIFY(process.readAllStandardError().contains("standard output"));
+  }
+
+  void theFirstSignalAsksTheSecondEnds_data() {
+    QTest::addColumn<int>("signal");
+    QTest::newRow("Ctrl-C") << SIGINT;
+    QTest::newRow("terminate") << SIGTERM;
+  }
+  void theFirstSignalAsksTheSecondEnds() {
+    QFETCH(int, signal);
+    pid_t child = ::fork();
+    if (child == 0) {
+      Interruption interruption;
+      ::raise(signal);
+      if (interruption.stop().asked() != StopRequest::Kind::cancel) ::_exit(1);
+      ::raise(signal);
+      ::_exit(2);
+    }
+    int status = 0;
+    QCOMPARE(::waitpid(child, &status, 0), child);
+    QVERIFY(WIFEXITED(status));
+    QCOMPARE(WEXITSTATUS(status), 130);
+  }
+
+  void afterwardsSignalsAreHandledAsBefore() {
+    pid_t child = ::fork();
+    if (child == 0) {
+      ::signal(SIGTERM, [](int) { ::_exit(42); });
+      { Interruption interruption; }
+      ::raise(SIGTERM);
+      ::_exit(0);
+    }
+    int status = 0;
+    QCOMPARE(::waitpid(child, &status, 0), child);
+    QVERIFY(WIFEXITED(status));
+    QCOMPARE(WEXITSTATUS(status), 42);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestProgram)
+#include "test_program.moc"

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <QTest>
+#include <sstream>
+
+#include "base/random.h"
+#include "cli/terminal_progress.h"
+
+using namespace relucent;
+using Seconds = std::chrono::duration<double>;
+
+namespace {
+
+/// A terminal of any width with a clock that the test turns.
+struct FakeTerminal {
+  std::ostringstream out;
+  int width = 0;
+  double now = 100.0;
+
+  TerminalProgress::Terminal terminal() {
+    return {&out, [this] { return width; }, [this] { return Seconds(now); }};
+  }
+  QByteArray text() const { return QByteArray::fromStdString(out.str()); }
+};
+
+}  // namespace
+
+class TestTerminalProgress : public QObject {
+  Q_OBJECT
+
+ private slots:
+  /// Law: whatever is shown, the line fits, and the percentage is there as soon as there is room for it.
+  void theLineFitsEveryWidth() {
+    Random random{7};
+    for (int width = 0; width <= 200; ++width) {
+      std::string stage(random.below(60), 's');
+      std::string left = random.below(2) == 0 ? "" : "about 12 min left";
+      double fraction = random.uniform();
+      std::string line = barLine(stage, fraction, left, width);
+      QVERIFY2(static_cast<int>(line.size()) <= std::max(0, width - 1), line.c_str());
+      if (width > 5) QVERIFY2(line.find(" %") != std::string::npos, line.c_str());
+    }
+  }
+
+  void theLineSaysEverythingWhenThereIsRoom() {
+    QCOMPARE(barLine("acquisition", 0.5, "about 2 min left", 80),
+             "acquisition  [" + std::string(19, '=') + std::string(20, ' ') + "]   50 %  about 2 min left");
+    QCOMPARE(barLine("acquisition", 1.0, "", 20), std::string("acquisition  100 %"));
+    QVERIFY(barLine("acquisition", 0.999, "", 80).find(" 99 %") != std::string::npos);
+  }
+
+  void atMostTenDrawingsASecond() {
+    FakeTerminal fake;
+    fake.width = 80;
+    TerminalProgress progress(fake.terminal());
+    for (int i = 0; i < 1000; ++i) {  // two seconds
+      fake.now = 100.0 + 0.002 * i;
+      progress.progressed(i / 1000.0, "acquisition");
+    }
+    qsizetype drawings = fake.text().count('\r');
+    QVERIFY2(drawings >= 18 && drawings <= 21, QByteArray::number(drawings));
+    QVERIFY(!fake.text().contains('\n'));
+  }
+
+  void theBarIsTakenAway() {
+    FakeTerminal fake;
+    fake.width = 80;
+    {
+      TerminalProgress progress(fake.terminal());
+      progress.progressed(0.5, "acquisition");
+    }
+    QVERIFY(fake.text().endsWith("\r\x1b[K"));
+  }
+
+  void elsewhereItWritesPlainLines() {
+    FakeTerminal fake;
+    TerminalProgress progress(fake.terminal());
+    for (int i = 0; i <= 1000; ++i) {
+      fake.now += 0.01;
+      progress.progressed(i / 1000.0, i < 500 ? "linearization" : "acquisition");
+    }
+    QByteArray text = fake.text();
+    QVERIFY2(!text.contains('\r') && !text.contains('\x1b'), text);
+    QVERIFY2(text.contains("  0 %  linearization\n"), text);
+    QVERIFY2(text.contains(" 50 %  acquisition"), text);
+    // Every tenth, and one for the new stage that may fall between two tenths.
+    QVERIFY2(text.count('\n') >= 11 && text.count('\n') <= 12, text);
+  }
+
+  void timeLeftIsThatOfASteadyRate_data() {
+    QTest::addColumn<double>("total");
+    QTest::addColumn<double>("at");
+    QTest::addColumn<QByteArray>("sentence");
+    QTest::newRow("too early to say") << 100.0 << 1.0 << QByteArray("");
+    QTest::newRow("seconds, rounded up to ten") << 60.0 << 25.0 << QByteArray("about 40 s left");
+    QTest::newRow("never less than ten") << 60.0 << 59.0 << QByteArray("about 10 s left");
+    QTest::newRow("minutes, rounded up") << 600.0 << 100.0 << QByteArray("about 9 min left");
+    QTest::newRow("hours") << 7200.0 << 100.5 << QByteArray("about 1 h 59 min left");
+  }
+  void timeLeftIsThatOfASteadyRate() {
+    QFETCH(double, total);
+    QFETCH(double, at);
+    QFETCH(QByteArray, sentence);
+    TimeLeft timeLeft;
+    for (double t = 0.0; t <= at; t += 0.25) timeLeft.add(Seconds(t), t / total);
+    QCOMPARE(QByteArray::fromStdString(timeLeft.sentence()), sentence);
+  }
+
+  /// What was read from the journal went by at once; half a minute later only the true rate counts.
+  void timeLeftForgetsAResumedStart() {
+    TimeLeft timeLeft;
+    timeLeft.add(Seconds(0.0), 0.0);
+    timeLeft.add(Seconds(0.1), 0.5);
+    for (double t = 1.0; t <= 60.0; t += 0.5) timeLeft.add(Seconds(t), 0.5 + t / 2000.0);
+    // From 0.53 on 0.47 are left, at 1/2000 a second: 940 s. The window is kept to one sample's distance.
+    double left = timeLeft.left().count();
+    QVERIFY2(std::abs(left - 940.0) < 10.0, QByteArray::number(left));
+  }
+};
+
+QTEST_APPLESS_MAIN(TestTerminalProgress)
+#include "test_terminal_progress.moc"

@@ -4,13 +4,11 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "compensation/methods.h"
 #include "image/color.h"
 #include "image/metrics.h"
 #include "image/picture_files.h"
 #include "pipeline/devices.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/evaluation.h"
 #include "pipeline/projection.h"
 #include "pipeline/standard_images.h"
 #include "transport/difference.h"
@@ -65,22 +63,28 @@ class Judge {
     return reachable;
   }
 
-  MethodScore score(Method method, const Compensation& compensation, const Target& target,
-                    const std::vector<std::uint8_t>& reachableMask) const {
+  /// What the first camera would see, free of noise.
+  Image seen(const Compensation& compensation) const {
     std::vector<Image> drive = encodedDrive(compensation.projector, measured_.venue.transport.projectors(),
                                             measured_.linearization);
-    Image seen = imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
-    Image wanted = imageFromStack(target.wanted, rasters_, 0);
+    return imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
+  }
+
+  Image wanted(const Target& target) const { return imageFromStack(target.wanted, rasters_, 0); }
+
+  MethodScore score(Method method, const Image& seen, const Target& target,
+                    const std::vector<std::uint8_t>& reachableMask) const {
     std::size_t pixels = rasters_.size(0).count();
     std::span<const std::uint8_t> inside(target.inside.data(), pixels);
     std::span<const std::uint8_t> mask(reachableMask.data(), pixels);
+    Image wantedImage = wanted(target);
 
     MethodScore result;
     result.method = toString(method);
-    result.psnrReachable = psnr(seen, wanted, target.white, mask);
-    result.psnrAll = psnr(seen, wanted, target.white, inside);
+    result.psnrReachable = psnr(seen, wantedImage, target.white, mask);
+    result.psnrAll = psnr(seen, wantedImage, target.white, inside);
     Image seenEncoded = viewed(seen, target.white);
-    Image wantedEncoded = viewed(wanted, target.white);
+    Image wantedEncoded = viewed(wantedImage, target.white);
     result.ssim = ssim(seenEncoded, wantedEncoded, inside);
     result.deltaE = meanDeltaE(seenEncoded, wantedEncoded, inside);
     return result;
@@ -120,25 +124,19 @@ std::vector<Method> methodsOf(const EvaluateSettings& settings) {
 
 }  // namespace
 
-EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,
-                        Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
-  std::vector<NamedImage> content = contentOf(settings);
-  std::vector<Method> methods = methodsOf(settings);
-
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.2, "Reading the calibration");
-  MeasuredCalibration measured = loadCalibration(folder, loading);
+Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
+                     const fs::path& cache, Progress& progress) {
   if (!std::holds_alternative<VenueSettings>(measured.rig))
     throw Error(ErrorKind::input, "only a simulated venue's true light transport is known",
-                "calibrate one with --venue, or look at the prediction: relucent-cli compensate",
-                folder.path().string());
-  Progress opening = progress.part(0.1, "Preparing the venue");
+                "calibrate one with --venue, or look at the prediction: relucent-cli compensate");
+  std::vector<NamedImage> content = contentOf(settings);
+  std::vector<Method> methods = methodsOf(settings);
+  Progress opening = progress.part(0.2, "Preparing the venue");
   OpenedRig devices = openRig(measured.rig, cache, opening);
   const SimulatedVenue& venue = devices.venue.value();
 
-  EvaluateResult result;
+  Evaluation evaluation;
+  EvaluateResult& result = evaluation.result;
   result.venue = venue.settings().name;
   result.projector = venue.settings().projector;
   result.camera = venue.settings().camera;
@@ -146,25 +144,42 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
 
   Judge judge(measured, venue);
   Compensator compensator(measured.venue, measured.inverse);
-  Progress judging = progress.part(0.7, "Comparing the methods");
+  Progress judging = progress.part(0.8, "Comparing the methods");
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
     Target target = fitTarget(image.linear, measured.venue, settings.target);
     std::vector<std::uint8_t> reachable = judge.reachable(target);
     ImageScore score{image.name, shareOf(reachable, target.inside), {}};
+    std::size_t pixels = venue.settings().camera.count();
+    EvaluatedPictures pictures{image.name, judge.wanted(target), {}, target.white, target.inside, score.reachable};
+    pictures.inside.resize(pixels);
     for (Method method : methods) {
       Progress solving = judging.part(share, fmt::format("{}: {}", image.name, toString(method)));
       auto begin = Clock::now();
       Compensation compensation = compensator.solve(method, target, solving);
       double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-      score.methods.push_back(judge.score(method, compensation, target, reachable));
+      Image seen = judge.seen(compensation);
+      score.methods.push_back(judge.score(method, seen, target, reachable));
       score.methods.back().seconds = seconds;
+      pictures.seen.emplace(method, std::move(seen));
     }
     result.reachable += score.reachable / static_cast<double>(content.size());
     result.images.push_back(std::move(score));
+    evaluation.pictures.push_back(std::move(pictures));
   }
   progress.report(1.0);
-  return result;
+  return evaluation;
+}
+
+EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,
+                        Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  Progress loading = progress.part(0.2, "Reading the calibration");
+  MeasuredCalibration measured = loadCalibration(folder, loading);
+  Progress evaluating = progress.part(0.8, "Evaluating");
+  return evaluated(measured, settings, cache, evaluating).result;
 }
 
 }  // namespace relucent

@@ -11,17 +11,36 @@
 
 namespace relucent {
 
-/// How a camera's signal depends on light, and how noisy it is.
-///   linear = response(signal), radiance = linear / seconds
-///   variance of the linear signal = readNoise^2 + gain * linear   (both in units of full scale)
-struct CameraModel {
-  std::array<ResponseCurve, 3> response;  // identity for linear sensors
-  double readNoise = 2e-3;                // standard deviation at black, quantisation included
-  double gain = 1e-4;                     // photon noise: variance per linear signal
-  double saturation = 0.97;               // signals at or above this tell only a lower bound
+/// What an exposure time that a camera reports is worth: true seconds = scale * reported.
+struct ExposureTime {
+  double reported = 0.0;
+  double scale = 1.0;
+  bool operator==(const ExposureTime&) const = default;
 };
 
-/// A merged bracket: linear radiance (camera signal per second) with its variance.
+/// How a camera's signal depends on light, and how noisy it is.
+///   linear = response(signal), radiance = linear / trueSeconds
+///   variance of the linear signal = readNoise^2 + gain * linear + (response'(signal)^2 - 1) q^2,
+/// in units of full scale; q^2 = 1 / (12 (2^bits - 1)^2) is the variance of rounding, which a response
+/// curve stretches; without a curve the last term is zero.
+struct CameraModel {
+  std::array<ResponseCurve, 3> response;  // identity for linear sensors
+  double readNoise = 2e-3;                // standard deviation at black, rounding included
+  double gain = 1e-4;                     // photon noise: variance per linear signal
+  double saturation = 0.97;               // signals at or above this tell only a lower bound
+  std::vector<ExposureTime> times;        // measured, reported times ascending; empty: the camera is believed
+};
+
+/// The true exposure time: exact at the measured ones, scale interpolated over log time between them,
+/// that of the nearest beyond them.
+double trueSeconds(const CameraModel& camera, double reported);
+
+/// Variance of the linear signal, without what a response curve does to rounding.
+inline double linearVariance(const CameraModel& camera, double linear) {
+  return camera.readNoise * camera.readNoise + camera.gain * (linear > 0.0 ? linear : 0.0);
+}
+
+/// A merged bracket: linear radiance (camera signal per true second) with its variance.
 struct HdrFrame {
   Stack radiance;
   Stack variance;
@@ -29,12 +48,25 @@ struct HdrFrame {
 };
 
 /// Inverse-variance weighted mean of the unsaturated exposures,
-///   L = sum_k w_k z_k / t_k / sum_k w_k,   w_k = t_k^2 / (read^2 + gain * z_k).
-/// z_k in the weight is predicted from the current L, so that the weights do not follow the noise.
-/// Shapes: all cameras' pixels, see Rasters.  Source: core/hdr/README.md.
+///   L = sum_k w_k z_k / t_k / sum_k w_k,   w_k = s_k t_k^2 / var(z_k).
+/// z_k in the variance is predicted from the current L, so that the weights do not follow the noise. For the
+/// same reason the trust s_k does not break off at saturation, where only the darker half of a noisy signal
+/// would count: it falls from 1 at 0.7 of saturation to 0 there.
+/// t_k = trueSeconds(camera, time that the frame reports), z_k = response(signal).
+/// Where every exposure is saturated: valid = 0, radiance = the lower bound that the shortest gives,
+/// variance = its square.
+/// Shapes: all cameras' pixels, see Rasters.  Source: core/hdr/README.md, [GRA], [AGU].
 HdrFrame mergeBracket(const Shot& shot, const std::vector<CameraModel>& cameras, const Rasters& rasters);
 
-/// The mean of several frames of the same light; variances of the mean.
+/// The mean of several frames of the same light; variances of the mean. Values count where valid; where no
+/// frame is, the largest lower bound stands.
 HdrFrame meanOf(const std::vector<HdrFrame>& frames);
+
+/// True times of a shot's exposures relative to the first one's, from the light that they share:
+/// between neighbours in time the median, over pixels well exposed in the longer and not dark in the
+/// shorter, of their signals' ratio, then the ratio of sums over what lies close to it.
+/// Where fewer than 50 values can be compared, the reported times are believed.
+/// Shapes: one ratio for each exposure.  Law: scaling all light leaves them as they are.
+std::vector<double> exposureRatios(const Shot& shot, std::size_t camera, const CameraModel& model);
 
 }  // namespace relucent

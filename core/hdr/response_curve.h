@@ -7,22 +7,32 @@ namespace relucent {
 
 /// A strictly increasing curve on [0, 1], monotone cubic between samples (Fritsch & Carlson 1980).
 /// Projector channels: drive -> relative radiance, 0 -> 0, 1 -> 1. Cameras: signal -> linear signal.
+/// Outside [0, 1] it goes on straight, so that noise around black is not cut off.
 class ResponseCurve {
  public:
   /// The identity.
   ResponseCurve();
-  /// Through (x, y), x ascending from 0 to 1, y ascending.
-  /// Throws: Error{numerics} if the samples do not ascend.
+  /// Through (x, y), x ascending from 0 to 1, y ascending. x() and y() are all that is needed to make the
+  /// same curve again, to the bit.
+  /// Throws: Error{numerics} if the samples do not ascend or are not finite.
   ResponseCurve(std::vector<double> x, std::vector<double> y);
 
   double operator()(double x) const;
-  /// The x for which operator() gives y; y is clamped to the curve's range.
+  /// dy/dx.
+  double slope(double x) const;
+  /// The x for which operator() gives y, to 1e-12; y is clamped to the curve's range on [0, 1].
   double inverse(double y) const;
   bool isIdentity() const;
   const std::vector<double>& x() const { return x_; }
   const std::vector<double>& y() const { return y_; }
 
+  bool operator==(const ResponseCurve&) const = default;
+
  private:
+  std::size_t segment(double x) const;
+  double valueIn(std::size_t segment, double x) const;
+  double slopeIn(std::size_t segment, double x) const;
+
   std::vector<double> x_, y_, slope_;
 };
 

@@ -34,7 +34,7 @@ struct ScriptedCamera {
   double gain = 1e-4;       // photon noise: variance per linear signal
   double timeError = 0.0;   // true exposure times are off by up to this, the same for equal times
   double pedestal = 0.0;    // noise below black survives down to minus this; 0: cut at zero
-  Curve response;           // linear signal -> signal; empty: linear
+  Curve response{};         // linear signal -> signal; empty: linear
 };
 
 struct ScriptedSettings {

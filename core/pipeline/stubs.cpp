@@ -39,13 +39,6 @@ BenchResult bench(const std::string&, Progress&) {
   notBuilt();
 }
 
-[[gnu::weak]] const std::vector<VenueDescription>& venues() {
-  static const std::vector<VenueDescription> all{{"corner", "a glossy corner", 1}};
-  return all;
-}
-[[gnu::weak]] std::vector<std::string> problems(const VenueSettings&) {
-  return {};
-}
 [[gnu::weak]] std::vector<std::string> problems(const LinearizationSettings&) {
   return {};
 }

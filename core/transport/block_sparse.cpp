@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -144,14 +145,9 @@ BlockSparseBuilder::BlockSparseBuilder(std::size_t columns, std::vector<float> f
 void BlockSparseBuilder::add(std::size_t row, std::size_t column, const ColourBlock& block) {
   require(row < scale_.size() && column < columns_, "block ({}, {}) is outside {} x {}", row, column,
           scale_.size(), columns_);
-  Entry entry{static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column), {}};
-  bool zero = true;
-  for (std::size_t i = 0; i < 9; ++i) {
-    float code = scale_[row] > 0.0f ? std::round(block.data()[i] / scale_[row]) : 0.0f;
-    entry.code[i] = static_cast<std::int16_t>(std::clamp(code, -largestCode, largestCode));
-    zero = zero && entry.code[i] == 0;
-  }
-  if (!zero) entries_.push_back(entry);
+  Entry entry{static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column),
+              codeOf(block, scale_[row])};
+  if (entry.code != Code{}) entries_.push_back(entry);
 }
 
 BlockSparse BlockSparseBuilder::build() {
@@ -199,6 +195,49 @@ BlockSparse BlockSparseBuilder::build() {
   result.column_.resize(result.rowStart_.back());
   result.code_.resize(result.rowStart_.back());
   return result;
+}
+
+BlockSparseWriter::BlockSparseWriter(std::size_t columns, std::vector<float> fullScale, std::size_t blocks) {
+  require(columns <= std::numeric_limits<std::uint32_t>::max(),
+          "{} block columns are more than 32-bit indices hold", columns);
+  result_.columns_ = columns;
+  result_.scale_ = std::move(fullScale);
+  for (float& scale : result_.scale_) scale /= largestCode;
+  result_.rowStart_.reserve(result_.scale_.size() + 1);
+  result_.column_.reserve(blocks);
+  result_.code_.reserve(blocks);
+}
+
+void BlockSparseWriter::add(std::size_t column, const Code& code) {
+  require(column < result_.columns_, "column {} of {}", column, result_.columns_);
+  if (code == Code{}) return;
+  result_.column_.push_back(static_cast<std::uint32_t>(column));
+  result_.code_.push_back(code);
+}
+
+void BlockSparseWriter::endRow() {
+  require(result_.rows() < result_.scale_.size(), "all {} rows have been written", result_.scale_.size());
+  std::size_t begin = result_.rowStart_.back();
+  std::size_t left = begin + sortAndMerge(result_.column_.data() + begin, result_.code_.data() + begin,
+                                          result_.column_.size() - begin);
+  result_.column_.resize(left);
+  result_.code_.resize(left);
+  result_.rowStart_.push_back(left);
+}
+
+BlockSparse BlockSparseWriter::build() {
+  require(result_.rows() == result_.scale_.size(), "{} of {} rows have been written", result_.rows(),
+          result_.scale_.size());
+  return std::exchange(result_, {});
+}
+
+BlockSparseWriter::Code codeOf(const ColourBlock& block, float scale) {
+  BlockSparseWriter::Code code{};
+  if (scale <= 0.0f) return code;
+  for (std::size_t i = 0; i < 9; ++i)
+    code[i] =
+        static_cast<std::int16_t>(std::clamp(std::round(block.data()[i] / scale), -largestCode, largestCode));
+  return code;
 }
 
 }  // namespace relucent

@@ -54,6 +54,7 @@ class BlockSparse {
 
  private:
   friend class BlockSparseBuilder;
+  friend class BlockSparseWriter;
   friend class TransportFile;
   std::size_t columns_ = 0;
   std::vector<std::size_t> rowStart_{0};
@@ -83,6 +84,28 @@ class BlockSparseBuilder {
   std::vector<float> scale_;
   std::vector<Entry> entries_;
 };
+
+/// Writes a BlockSparse row after row from codes that are already on the rows' scales: nothing is held twice,
+/// which at full scale is a gigabyte.
+class BlockSparseWriter {
+ public:
+  using Code = std::array<std::int16_t, 9>;
+
+  /// `fullScale` as for BlockSparseBuilder; `blocks`: how many are expected, to reserve the memory once.
+  BlockSparseWriter(std::size_t columns, std::vector<float> fullScale, std::size_t blocks);
+
+  /// A block of the row under way, columns in any order. Zeros are left out.
+  void add(std::size_t column, const Code& code);
+  void endRow();
+  /// Contract: every row has been ended.
+  BlockSparse build();
+
+ private:
+  BlockSparse result_;
+};
+
+/// A block as codes on a row's scale (fullScale / 32767), saturating.
+BlockSparseWriter::Code codeOf(const ColourBlock& block, float scale);
 
 template <typename Keep>
 BlockSparse BlockSparse::filtered(const Keep& keep) const {

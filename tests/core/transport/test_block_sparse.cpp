@@ -127,6 +127,22 @@ class TestBlockSparse : public QObject {
     QCOMPARE(blocks.block(0, 0)(0, 0), 1.0f);  // saturates at the row's full scale
   }
 
+  void writingRowsIsBuilding() {
+    RandomBlocks blocks = randomBlocks(40, 30, 0.3, 17);
+    BlockSparseWriter writer(30, std::vector<float>(40, 1.0f), blocks.sparse.blocks());
+    for (std::size_t row = 0; row < 40; ++row) {
+      for (std::size_t entry = blocks.sparse.rowBegin(row + 1); entry-- > blocks.sparse.rowBegin(row);)
+        writer.add(blocks.sparse.column(entry), blocks.sparse.code(entry));
+      writer.add(3, {});
+      writer.endRow();
+    }
+    QVERIFY_EXCEPTION_THROWN(writer.endRow(), std::logic_error);
+    QVERIFY(writer.build() == blocks.sparse);
+    BlockSparseWriter unfinished(30, std::vector<float>(2, 1.0f), 0);
+    unfinished.endRow();
+    QVERIFY_EXCEPTION_THROWN(unfinished.build(), std::logic_error);
+  }
+
   void rowsAreScaledPerCameraChannel() {
     RandomBlocks blocks = randomBlocks(40, 30, 0.3, 13);
     Stack factor = randomStack(40, 14);

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "linearization/linearization.h"
+
+namespace relucent {
+
+/// What one camera pixel needs of a photograph.
+struct Demand {
+  float brightest = -1.0f;  // radiance that it may reach; below zero: the pixel is not needed
+  float expected = 0.0f;    // radiance that it will rather have
+  float deviation = 0.0f;   // standard deviation of its radiance that is good enough
+};
+
+/// Chooses for each pattern the fewest exposures that do justice to the pixels that are needed, and takes
+/// what came out saturated again with shorter ones.
+class Photographer {
+ public:
+  /// Keeps references: both outlive it.
+  Photographer(ShotTaker& shots, const Linearization& linearization);
+
+  const Rasters& cameras() const { return cameras_; }
+  const Rasters& projectors() const { return projectors_; }
+
+  /// Merged radiance under linear binary patterns (a projector stack of zeros and ones: full drive needs no
+  /// projector curve). Demands: one per camera pixel. Pixels with a demand that stay invalid are saturated
+  /// at the shortest exposure.
+  HdrFrame take(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress);
+  /// With every exposure there is.
+  HdrFrame takeAll(const Stack& pattern, const Progress& progress);
+
+  /// Standard deviation of one camera pixel's radiance at an exposure of the list.
+  double deviation(std::size_t row, double radiance, std::size_t exposure) const;
+
+  /// Indices into Linearization::exposures, longest first: the fewest with one for every demanded pixel
+  /// that does not saturate it, and for nearly all of them one that is not too noisy either.
+  std::vector<std::size_t> exposuresFor(const std::vector<Demand>& demands) const;
+
+ private:
+  std::size_t longestUnsaturated(std::size_t row, double radiance) const;
+  Shot shoot(const std::vector<Image>& encoded, const std::vector<std::size_t>& exposures,
+             const Progress& progress);
+  bool needsShorter(const HdrFrame& frame, const std::vector<Demand>& demands) const;
+
+  ShotTaker& shots_;
+  const Linearization& linearization_;
+  Rasters cameras_;
+  Rasters projectors_;
+  std::vector<std::uint8_t> cameraOf_;  // per row
+  std::vector<double> saturation_;      // per camera: linear signal that no channel should reach
+};
+
+}  // namespace relucent

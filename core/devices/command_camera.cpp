@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "devices/command_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "devices/shell_command.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* stem = "photograph";
+
+/// Best first, for programs that write two files at once.
+constexpr std::array<std::string_view, 6> extensions{"exr", "tif", "tiff", "png", "jpg", "jpeg"};
+
+/// How good the kind of a file is: its place in `extensions`, or none at all.
+std::size_t rankOf(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (!extension.empty()) extension.erase(0, 1);
+  return static_cast<std::size_t>(std::find(extensions.begin(), extensions.end(), extension) -
+                                  extensions.begin());
+}
+
+std::vector<fs::path> filesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (!entry.is_directory(code)) files.push_back(entry.path());
+  return files;
+}
+
+/// Throws: Error{disk} if an old photograph cannot be removed: it could be taken for the new one.
+void clear(const fs::path& folder) {
+  for (const fs::path& file : filesIn(folder)) {
+    std::error_code code;
+    if (!fs::remove(file, code) && code)
+      throw Error(ErrorKind::disk, fmt::format("cannot remove the file ({})", code.message()),
+                  "remove it by hand, then try again", file.string());
+  }
+}
+
+/// The picture that the command wrote, whichever extension it chose; empty if there is none.
+fs::path pictureIn(const fs::path& folder) {
+  fs::path best;
+  for (const fs::path& file : filesIn(folder)) {
+    const bool ours = file.filename().string().starts_with(std::string(stem) + ".");
+    if (!ours || rankOf(file) == extensions.size()) continue;
+    if (best.empty() || std::pair(rankOf(file), file) < std::pair(rankOf(best), best)) best = file;
+  }
+  return best;
+}
+
+std::string listOf(const std::vector<fs::path>& files) {
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(file.filename().string());
+  std::sort(names.begin(), names.end());
+  return names.empty() ? "wrote nothing" : fmt::format("wrote {}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const CommandCameraSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.command.find("{exposure}") == std::string::npos)
+    found.push_back("the camera's command does not say {exposure}, the exposure time in seconds");
+  if (settings.command.find("{output}") == std::string::npos)
+    found.push_back("the camera's command does not say {output}, the file that it is to write");
+  if (settings.size && settings.size->empty())
+    found.push_back(
+        fmt::format("a camera of {}x{} pixels is impossible", settings.size->width, settings.size->height));
+  if (rankOf(fs::path("x." + settings.extension)) == extensions.size())
+    found.push_back(fmt::format("photographs are read as {}, not as {}", fmt::join(extensions, ", "),
+                                settings.extension));
+  if (!(settings.exposures.shortest > 0.0) || !std::isfinite(settings.exposures.longest) ||
+      !(settings.exposures.longest >= settings.exposures.shortest))
+    found.push_back("the shortest exposure must be above zero and no longer than the longest");
+  if (settings.timeout.count() <= 0) found.push_back("the camera's command needs time to run");
+  return found;
+}
+
+CommandCamera::CommandCamera(CommandCameraSettings settings) : settings_(std::move(settings)) {
+  require(problems(settings_).empty(), "{}", fmt::join(problems(settings_), "; "));
+  size_ = settings_.size ? *settings_.size
+                         : photograph({{"size", 0}, 0, settings_.exposures.shortest}).signal.size();
+}
+
+RawFrame CommandCamera::capture(const CaptureRequest& request) {
+  RawFrame frame = photograph(request);
+  if (frame.signal.size() != size_)
+    throw Error(ErrorKind::device,
+                fmt::format("the photograph has {}x{} pixels where {}x{} were announced",
+                            frame.signal.width(), frame.signal.height(), size_.width, size_.height),
+                "let the command write that size, or begin again with the size that the camera delivers",
+                name());
+  checkFrame(frame, size_, name());
+  return frame;
+}
+
+RawFrame CommandCamera::photograph(const CaptureRequest& request) {
+  const fs::path output = folder_.path() / (std::string(stem) + "." + settings_.extension);
+  clear(folder_.path());
+
+  const std::string command = substituted(
+      settings_.command,
+      {{"exposure", fmt::format("{}", request.seconds)},
+       {"output", output.string()},
+       {"shot", fmt::format("{}-{}-{}", request.shot.stage, request.shot.number, request.exposure)}});
+  runShellCommand(
+      command, settings_.timeout + std::chrono::milliseconds(std::llround(request.seconds * 1000.0)), name());
+
+  const fs::path picture = pictureIn(folder_.path());
+  if (picture.empty())
+    throw Error(ErrorKind::device,
+                fmt::format("the command ended well but {}, not {}", listOf(filesIn(folder_.path())),
+                            output.filename().string()),
+                fmt::format("let it write the photograph to {{output}}: {}", command), name());
+  try {
+    Picture taken = readPicture(picture);
+    return {std::move(taken.encoded), taken.bits, request.seconds};
+  } catch (const Error& error) {
+    throw error.within(name());
+  }
+}
+
+}  // namespace relucent

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/temporary_folder.h"
+#include "rig/rig.h"
+
+namespace relucent {
+
+struct CommandCameraSettings {
+  /// For /bin/sh. {exposure} becomes the exposure time in seconds, {output} the path of the file to write,
+  /// {shot} a name for the photograph ("acquisition-17-0"), quoted where that is needed.
+  std::string command;
+  std::optional<Size> size;       // none: the size of a first photograph, taken when the camera is made
+  std::string extension = "exr";  // of {output}; the program may write another one under the same name
+  ExposureRange exposures{1e-3, 4.0};
+  std::chrono::milliseconds timeout{60000};  // for one photograph, on top of its exposure time
+  std::string name = "camera command";
+};
+std::vector<std::string> problems(const CommandCameraSettings& settings);
+
+/// A camera behind an external program. It writes float OpenEXR or TIFF (linear, full scale 1), 16-bit PNG or
+/// TIFF, or 8-bit pictures; RawFrame::bits says which. Every photograph has a clean folder, so an old file is
+/// never taken for a new one. The exposure time is reported as it was asked for.
+class CommandCamera : public Camera {
+ public:
+  /// Throws: std::logic_error if problems(settings) finds any; as capture() if a first photograph is taken.
+  explicit CommandCamera(CommandCameraSettings settings);
+
+  std::string name() const override { return settings_.name; }
+  Size size() const override { return size_; }
+  ExposureRange exposures() const override { return settings_.exposures; }
+  /// Throws: Error{device} if the command fails, takes too long, or writes no file or one of another size;
+  /// Error{format} if the file cannot be read, Error{input} if it holds NaN or infinities.
+  RawFrame capture(const CaptureRequest& request) override;
+
+ private:
+  RawFrame photograph(const CaptureRequest& request);
+
+  CommandCameraSettings settings_;
+  TemporaryFolder folder_;
+  Size size_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "devices/command_projector.h"
+
+#include "base/error.h"
+#include "devices/shell_command.h"
+#include "image/picture_files.h"
+
+namespace relucent {
+
+std::vector<std::string> problems(const CommandProjectorSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.command.find("{image}") == std::string::npos)
+    found.push_back("the projector's command does not say {image}, the file that it is to show");
+  if (settings.size.empty())
+    found.push_back(
+        fmt::format("a projector of {}x{} pixels is impossible", settings.size.width, settings.size.height));
+  if (settings.bits != 8 && settings.bits != 16)
+    found.push_back(fmt::format("pictures for the projector have 8 or 16 bits, not {}", settings.bits));
+  if (settings.timeout.count() <= 0) found.push_back("the projector's command needs time to run");
+  return found;
+}
+
+CommandProjector::CommandProjector(CommandProjectorSettings settings) : settings_(std::move(settings)) {
+  require(problems(settings_).empty(), "{}", fmt::join(problems(settings_), "; "));
+}
+
+void CommandProjector::show(const Image& encodedDrive) {
+  require(encodedDrive.size() == settings_.size && encodedDrive.channels() == 3,
+          "a pattern of {}x{} pixels, {} channels for a projector of {}x{}", encodedDrive.width(),
+          encodedDrive.height(), encodedDrive.channels(), settings_.size.width, settings_.size.height);
+  // One name for all patterns, replaced in one step: a viewer that watches the file never sees half of one.
+  const std::filesystem::path image = folder_.path() / "pattern.png";
+  writePng(image, encodedDrive, settings_.bits);
+  runShellCommand(substituted(settings_.command, {{"image", image.string()}}), settings_.timeout, name());
+}
+
+}  // namespace relucent

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "devices/temporary_folder.h"
+#include "rig/rig.h"
+
+namespace relucent {
+
+struct CommandProjectorSettings {
+  /// For /bin/sh; {image} becomes the path of a PNG of drive values, quoted where that is needed. The command
+  /// returns when the picture is out of the projector, and may leave a viewer running in the background.
+  std::string command;
+  Size size;
+  int bits = 8;                              // of the PNG: 8 or 16
+  std::chrono::milliseconds timeout{60000};  // for one picture
+  std::string name = "projector command";
+};
+std::vector<std::string> problems(const CommandProjectorSettings& settings);
+
+/// A projector behind an external program.
+class CommandProjector : public Projector {
+ public:
+  /// Throws: std::logic_error if problems(settings) finds any; Error{disk}.
+  explicit CommandProjector(CommandProjectorSettings settings);
+
+  std::string name() const override { return settings_.name; }
+  Size size() const override { return settings_.size; }
+  int bits() const override { return settings_.bits; }
+  /// Throws: Error{device} with the command's last words if it fails or takes too long; Error{disk}.
+  void show(const Image& encodedDrive) override;
+
+ private:
+  CommandProjectorSettings settings_;
+  TemporaryFolder folder_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "devices/temporary_folder.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  std::error_code code;
+  const fs::path parent = fs::temp_directory_path(code);
+  std::string name = ((code ? fs::path("/tmp") : parent) / "relucent-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw Error(ErrorKind::disk, fmt::format("cannot create a temporary folder ({})", std::strerror(errno)),
+                "free some space there, or let TMPDIR name a folder that you may write to", name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace relucent

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <QTest>
+#include <limits>
+
+#include "base/error.h"
+#include "pipeline/json.h"
+
+using namespace relucent;
+
+/// The documents that scripts rely on: their keys stay.
+class TestJson : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void calibrateDocument() {
+    CalibrateResult result{805,  1551, {1.0, 2.0, 3.0}, 30000000, 2000000, 0.01,
+                           0.02, 0.03, 4000000000,      {"a"}};
+    QCOMPARE(
+        toJson(result).dump(),
+        std::string(R"({"patterns":805,"exposures":1551,"seconds":{"linearization":1.0,"acquisition":2.0,)"
+                    R"("inverse":3.0},"connections":30000000,"leaves":2000000,"unresolved_energy":0.01,)"
+                    R"("flagged_share":0.02,"verification_error":0.03,"peak_memory_bytes":4000000000,)"
+                    R"("findings":["a"]})"));
+  }
+
+  void evaluateDocument() {
+    EvaluateResult result{"corner", {256, 192}, {160, 120}, 0.9, {0.1, 0.2, 0.3, 0.4, 0.5}, {}};
+    result.images = {{"hills", 0.8, {{"none", 14.0, 13.0, 0.4, 18.0, 0.001}}}};
+    QCOMPARE(toJson(result).dump(),
+             std::string(
+                 R"({"venue":"corner","projector":[256,192],"camera":[160,120],"reachable":0.9,)"
+                 R"("transport":{"frobenius":0.1,"row_median":0.2,"row_p95":0.3,"relight_natural":0.4,)"
+                 R"("relight_random":0.5},"images":[{"name":"hills","reachable":0.8,"methods":{"none":)"
+                 R"({"psnr_reachable":14.0,"psnr_all":13.0,"ssim":0.4,"delta_e":18.0,"seconds":0.001}}}]})"));
+  }
+
+  void compensateDocument() {
+    CompensateResult result{"mix", 20.0, 0.1, 0.9, 0.5, {"out/pattern.png"}};
+    QCOMPARE(
+        toJson(result).dump(),
+        std::string(R"({"method":"mix","psnr_predicted":20.0,"clipped":0.1,"reachable":0.9,"seconds":0.5,)"
+                    R"("files":["out/pattern.png"]})"));
+  }
+
+  void benchDocument() {
+    BenchResult result{{"a processor", 2, 1e10}, {{"T p", 0.01, 1e8, 0.5}}};
+    QCOMPARE(
+        toJson(result).dump(),
+        std::string(
+            R"({"machine":{"processor":"a processor","threads":2,"copy_bytes_per_second":10000000000.0},)"
+            R"("benchmarks":[{"name":"T p","seconds":0.01,"bytes":100000000.0,"share_of_copy":0.5}]})"));
+  }
+
+  void whatIsNotFiniteIsNull() {
+    CompensateResult result;
+    result.psnrPredicted = std::numeric_limits<double>::infinity();
+    QVERIFY(toJson(result).dump().find(R"("psnr_predicted":null)") != std::string::npos);
+  }
+
+  void settingsComeBackNumberForNumber() {
+    CalibrateSettings venue;
+    VenueSettings corner;
+    corner.name = "dome";
+    corner.projector = {100, 50};
+    corner.camera = {31, 17};
+    corner.seed = 0xffffffffffffffffULL;
+    corner.pathsPerPixel = 77;
+    corner.devices = {10, 16, 999.5, 2.4, 0.1, 1.0 / 3.0, 5.5, 0.01, 0.02, 0.03, true, 1.8};
+    venue.rig = corner;
+    venue.linearization = {17, 1.5, 2, 0.05, 12};
+    venue.acquisition.relativeThreshold = 0.0123456789012345678;
+    venue.acquisition.seed = 13;
+    venue.windows = {8, 32, 0.3};
+    CalibrateSettings commands;
+    commands.rig =
+        CommandRigSettings{"show {image}", "shoot \"{output}\" {exposure}", {64, 48}, Size{32, 24}, 0.1, 2.0};
+    CalibrateSettings withoutCamera;
+    withoutCamera.rig = CommandRigSettings{"a", "b", {64, 48}, std::nullopt, 0.1, 2.0};
+    for (const CalibrateSettings& settings : {CalibrateSettings{}, venue, commands, withoutCamera}) {
+      Json written = toJson(settings);
+      CalibrateSettings read = calibrateSettingsFromJson(Json::parse(written.dump()));
+      QCOMPARE(toJson(read).dump(), written.dump());
+    }
+    auto read = std::get<VenueSettings>(calibrateSettingsFromJson(toJson(venue)).rig);
+    QCOMPARE(read.seed, corner.seed);
+    QCOMPARE(read.devices.fullWell, corner.devices.fullWell);
+    QVERIFY(read.devices.whiteSegment);
+    QVERIFY(!std::get<CommandRigSettings>(calibrateSettingsFromJson(toJson(withoutCamera)).rig).camera);
+  }
+
+  void damagedSettingsAreAnError_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::newRow("empty") << QByteArray("{}");
+    QTest::newRow("list") << QByteArray("[]");
+    QTest::newRow("kind") << QByteArray(R"({"rig":{"kind":"telescope"}})");
+    QTest::newRow("type") << QByteArray(R"({"rig":{"kind":"simulated","seed":"one"}})");
+    QTest::newRow("size") << QByteArray(R"({"rig":{"kind":"simulated","projector":[1]}})");
+  }
+  void damagedSettingsAreAnError() {
+    QFETCH(QByteArray, text);
+    try {
+      calibrateSettingsFromJson(Json::parse(text.toStdString()));
+      QFAIL("was read");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::format);
+    }
+  }
+};
+
+QTEST_APPLESS_MAIN(TestJson)
+#include "test_json.moc"

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include <QRegularExpression>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QXmlStreamReader>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "pipeline/report.h"
+#include "pipeline/report_charts.h"
+#include "pipeline/report_pictures.h"
+
+using namespace relucent;
+
+namespace {
+
+constexpr Size size{64, 48};
+
+/// A smooth picture; `seed` moves its waves.
+Image waves(double seed, double level) {
+  Image image(size, 3);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = static_cast<float>(level * (0.5 + 0.5 * std::sin(0.1 * x + 0.13 * y + c + seed)));
+  return image;
+}
+
+ReportData fullData() {
+  ReportData data;
+  data.title = "Chapel <niche> & \"altar\"";
+  data.venue = "Simulated venue corner: it's glossy";
+  data.software = "Relucent 0.1.0";
+  data.measured = "2026-01-02T03:04:05Z";
+  data.projector = {256, 192};
+  data.camera = {160, 120};
+  data.result = {805,  1551,       {41.0, 655.5, 4.25},           30123456, 2345678, 0.012, 0.004,
+                 0.03, 3210000000, {"White is <18 %> too bright"}};
+  std::vector<double> x, y;
+  for (int i = 0; i <= 32; ++i) {
+    x.push_back(i / 32.0);
+    y.push_back(std::pow(i / 32.0, 2.2));
+  }
+  ResponseCurve curve(x, y);
+  data.responses = {{{curve, ResponseCurve(), curve}}};
+  data.additivityError = {0.007};
+  data.exposures = {0.25, 0.0625};
+  data.flood = waves(0.0, 1.0);
+  data.black = waves(1.0, 0.01);
+  data.flagged.assign(size.count(), 0);
+  data.flagged[100] = 1;
+  data.leavesPerLevel = {2000000, 300000, 40000, 5000, 600};
+  std::vector<std::uint8_t> inside(size.count(), 1);
+  inside[0] = 0;
+  data.comparisons = {{"Evening",
+                       "refined",
+                       waves(0.0, 0.5),
+                       waves(0.8, 0.4),
+                       waves(0.05, 0.5),
+                       {0.6f, 0.6f, 0.6f},
+                       inside,
+                       0.961,
+                       true}};
+  EvaluateResult evaluation{"corner", {256, 192}, {160, 120}, 0.961, {0.03, 0.02, 0.1, 0.009, 0.02}, {}};
+  evaluation.images = {{"Evening",
+                        0.961,
+                        {{"none", 14.2, 13.0, 0.41, 18.9, 0.001}, {"refined", 28.2, 26.0, 0.92, 2.6, 0.03}}}};
+  data.evaluation = evaluation;
+  data.settings = {{"acquisition", {{"relative_threshold", 0.008}}}, {"rig", {{"name", "<corner>"}}}};
+  return data;
+}
+
+QString html(const ReportData& data) {
+  return QString::fromStdString(reportHtml(data));
+}
+
+}  // namespace
+
+class TestReport : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void nothingIsFetchedFromAnywhere() {
+    QString page = html(fullData());
+    for (const char* forbidden : {"http:", "https:", "<script", "<link", "@import", "url("})
+      QVERIFY2(!page.contains(forbidden), forbidden);
+    QRegularExpression sources("(?:src|href)=\"([^\"]{0,30})");
+    for (const auto& match : sources.globalMatch(page))
+      QVERIFY2(match.captured(1).startsWith("data:image/png;base64,"), qPrintable(match.captured(1)));
+  }
+
+  void everyTextIsEscaped() {
+    QString page = html(fullData());
+    QVERIFY(page.contains("Chapel &lt;niche&gt; &amp; &quot;altar&quot;"));
+    QVERIFY(page.contains("White is &lt;18 %&gt; too bright"));
+    QVERIFY(page.contains("&lt;corner&gt;"));
+    QVERIFY(page.contains("it&#39;s glossy"));
+    QVERIFY(!page.contains("<niche>"));
+    QVERIFY(!page.contains("<18"));
+  }
+
+  /// Every element is closed in its order: a browser has nothing to guess.
+  void theMarkupIsWellFormed() {
+    for (const ReportData& data : {fullData(), ReportData{}}) {
+      QString page = html(data);
+      page.remove(0, page.indexOf("<html"));
+      page.replace(QRegularExpression("<(meta|img|br)([^>]*)>"), "<\\1\\2/>");
+      QXmlStreamReader reader(page);
+      while (!reader.atEnd()) reader.readNext();
+      QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
+    }
+  }
+
+  void everyPictureAndChartSaysWhatItShows() {
+    QString page = html(fullData());
+    QVERIFY(page.count("<img") >= 9);
+    QCOMPARE(page.count(QRegularExpression("<img[^>]* alt=\"[^\"]+\"")), page.count("<img"));
+    QVERIFY(page.count("<svg") >= 5);
+    QCOMPARE(page.count(QRegularExpression("<svg[^>]* aria-label=\"[^\"]+\"")), page.count("<svg"));
+    QCOMPARE(page.count("<h1>"), 1);
+    QVERIFY(page.contains("<html lang=\"en\">"));
+  }
+
+  void whatWasMeasuredIsSaid() {
+    QString page = html(fullData());
+    for (const char* expected :
+         {"28.2 dB", "14.2 dB", "ΔE", "96.1 %", "11 min 41 s", "0.25 s", "method refined",
+          "relative_threshold", "0.008", "Floodlight image", "Reachable light", "3210 MB"})
+      QVERIFY2(page.contains(expected), expected);
+    // Means over one picture are its own; the best method is marked.
+    QVERIFY(page.contains("<tr class=\"best\"><th scope=\"row\">refined"));
+  }
+
+  void whatIsMissingIsLeftOut() {
+    ReportData data;
+    data.title = "empty";
+    QString page = html(data);
+    QVERIFY(!page.contains("<img"));
+    QVERIFY(!page.contains("Methods compared"));
+    QVERIFY(!page.contains("nan"));
+    QVERIFY(page.contains("Nothing stands out"));
+  }
+
+  void picturesOfDifferentSizesAreABreach() {
+    ReportData data = fullData();
+    data.comparisons[0].compensated = Image({8, 8}, 3);
+    QVERIFY_EXCEPTION_THROWN(reportHtml(data), std::logic_error);
+  }
+
+  void isWrittenWhole() {
+    QTemporaryDir folder;
+    std::filesystem::path path = folder.filePath("report.html").toStdString();
+    writeReport(path, fullData());
+    QCOMPARE(readFile(path), reportHtml(fullData()));
+    QVERIFY_EXCEPTION_THROWN(writeReport("/nowhere/report.html", fullData()), Error);
+    // For people who want to look at it.
+    if (qEnvironmentVariableIsSet("RELUCENT_REPORT"))
+      writeReport(qEnvironmentVariable("RELUCENT_REPORT").toStdString(), fullData());
+  }
+
+  /// RFC 4648, section 10.
+  void base64_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::addColumn<QByteArray>("text");
+    QTest::newRow("0") << QByteArray("") << QByteArray("");
+    QTest::newRow("1") << QByteArray("f") << QByteArray("Zg==");
+    QTest::newRow("2") << QByteArray("fo") << QByteArray("Zm8=");
+    QTest::newRow("3") << QByteArray("foo") << QByteArray("Zm9v");
+    QTest::newRow("6") << QByteArray("foobar") << QByteArray("Zm9vYmFy");
+    QTest::newRow("high bytes") << QByteArray("\xff\xfe\x00", 3) << QByteArray("//4A");
+  }
+  void base64() {
+    QFETCH(QByteArray, bytes);
+    QFETCH(QByteArray, text);
+    QCOMPARE(QByteArray::fromStdString(relucent::base64(bytes.toStdString())), text);
+  }
+
+  /// Law of both maps: brighter with every step, so that they can be read without colours.
+  void mapsRiseInBrightness() {
+    for (ColorMap map : {ColorMap::viridis, ColorMap::cividis}) {
+      double before = -1.0;
+      for (int i = 0; i <= 100; ++i) {
+        auto color = colorOf(map, i / 100.0);
+        double brightness = 0.2126 * std::pow(color[0], 2.2) + 0.7152 * std::pow(color[1], 2.2) +
+                            0.0722 * std::pow(color[2], 2.2);
+        QVERIFY2(brightness > before, QByteArray::number(i));
+        before = brightness;
+      }
+    }
+  }
+
+  void errorMapsAreZeroForEqualPicturesAndEmptyOutside() {
+    std::vector<std::uint8_t> inside(size.count(), 1);
+    inside[5] = 0;
+    Image map = deltaEMap(waves(0, 0.5), waves(0, 0.5), {1, 1, 1}, inside);
+    for (std::size_t i = 0; i < map.pixels(); ++i)
+      QVERIFY(i == 5 ? std::isnan(map.data()[i]) : map.data()[i] == 0.0f);
+    Image other = deltaEMap(waves(0, 0.5), waves(1, 0.5), {1, 1, 1}, inside);
+    QVERIFY(*std::max_element(other.data().begin() + 6, other.data().end()) > 5.0f);
+  }
+
+  void reachableLightIsThatOfTheHardestColour() {
+    Image flood({1, 1}, 3, {0.8f, 0.4f, 0.1f});
+    Image black({1, 1}, 3, {0.0f, 0.1f, 0.1f});
+    QCOMPARE(reachableLight(flood, black, {1.0f, 1.0f, 0.1f}).data()[0], 0.5f);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestReport)
+#include "test_report.moc"

@@ -20,12 +20,15 @@ TOOLS = {
     "dpkg-query": 'grep -qxF "${@: -1}" "$STATE/installed" && echo -n "ii "',
     "apt-cache": 'grep -qxF "$2" "$STATE/offered" && echo "  Candidate: 1.0" || echo "  Candidate: (none)"',
     "apt-get": 'echo "$*" >>"$STATE/calls"; [[ $* == *--simulate* ]] && cat "$STATE/plan"; true',
+    "cmake": "true",
     "sudo": '[[ -e $STATE/sudo ]] || exit 1; [[ $1 == -n ]] && shift; exec "$@"',
 }
 NOBODY = 65534
 
 
-class Install(unittest.TestCase):
+class Scripted(unittest.TestCase):
+    """A copy of packaging/ in a folder of its own, where nothing of the system is asked."""
+
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
@@ -45,6 +48,11 @@ class Install(unittest.TestCase):
         for name, text in files.items():
             (self.state / name).write_text("".join(word + "\n" for word in text.split("," if name == "plan" else None)))
 
+    def calls(self):
+        return (self.state / "calls").read_text().split("\n")[:-1]
+
+
+class Install(Scripted):
     def install(self, *sections, root=False):
         """installDependencies SECTIONS, as root or as somebody else."""
         somebody = {}
@@ -57,9 +65,6 @@ class Install(unittest.TestCase):
             ["bash", "-c", "set -euo pipefail; source packaging/common.sh; installDependencies " + " ".join(sections)],
             cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
             **somebody)
-
-    def calls(self):
-        return (self.state / "calls").read_text().split("\n")[:-1]
 
     def test_nothing_to_do_is_silent_and_asks_for_nothing(self):
         self.says(installed="alpha new-name")
@@ -101,6 +106,50 @@ class Install(unittest.TestCase):
         done = self.install("build", root=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(self.calls()[-1], r" alpha old-name$")
+
+
+class Run(Scripted):
+    def setUp(self):
+        super().setUp()
+        self.says(installed="alpha new-name")
+        self.program("relucent-cli", '[[ $1 == calibrate ]] && mkdir -p "$2" && touch "$2/calibration.relucent"; true')
+
+    def program(self, name, body):
+        path = self.folder / "build/release/bin" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f'#!/bin/bash\necho "{name} $*" >>"$STATE/calls"\n{body}\n')
+        path.chmod(0o755)
+
+    def run_it(self, **environment):
+        environment |= {"PATH": f"{self.folder}/tools:/usr/bin:/bin", "STATE": str(self.state)}
+        return subprocess.run([self.folder / "packaging/run"], env=environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, check=False)
+
+    def deeds(self):
+        return [call.split()[1] for call in self.calls()]
+
+    def test_without_a_display_it_rehearses_and_says_where_the_results_are(self):
+        done = self.run_it()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.deeds()[0], "calibrate")
+        self.assertEqual(self.deeds()[-2:], ["evaluate", "report"])
+        self.assertIn(f"{self.folder}/build/rehearsal/report.html", done.stdout)
+
+    def test_again_it_goes_on_from_the_calibration_that_is_there(self):
+        self.run_it()
+        self.says(calls="")
+        self.assertEqual(self.run_it().returncode, 0)
+        self.assertEqual(self.deeds()[0], "resume")
+
+    def test_a_failure_is_passed_on(self):
+        self.program("relucent-cli", "exit 1")
+        self.assertEqual(self.run_it().returncode, 1)
+        self.assertEqual(len(self.deeds()), 1)
+
+    def test_with_a_display_the_desktop_program_opens(self):
+        self.program("relucent", "true")
+        self.assertEqual(self.run_it(DISPLAY=":0").returncode, 0)
+        self.assertEqual([call.split()[0] for call in self.calls()], ["relucent"])
 
 
 class TheList(unittest.TestCase):

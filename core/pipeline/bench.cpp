@@ -155,7 +155,8 @@ BenchResult bench(const std::string& name, Progress& progress) {
     Progress running = progress.part(0.7 / static_cast<double>(wanted.size()), benchmark->name);
     if (benchmark->name == "windows/apply") {
       if (windows.bytes() == 0) prepareWindows();
-      benchmark->bytes = static_cast<double>(windows.bytes()) + floats(cameraValues) + floats(projectorValues);
+      benchmark->bytes =
+          static_cast<double>(windows.bytes()) + floats(cameraValues) + floats(projectorValues);
     }
     double seconds = secondsOf(benchmark->run);
     result.benchmarks.push_back({benchmark->name, seconds, benchmark->bytes,

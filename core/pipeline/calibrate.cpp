@@ -28,16 +28,6 @@ std::uint64_t peakMemory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// Pairs of a camera pixel and a projector pixel that the leaves connect; nested leaves count once each.
-std::uint64_t connectionsOf(const TransportMatrix& transport) {
-  std::uint64_t connections = 0;
-  const BlockSparse& leaves = transport.leaves();
-  const NodeLayout& layout = transport.layout();
-  for (std::size_t entry = 0; entry < leaves.blocks(); ++entry)
-    connections += static_cast<std::uint64_t>(layout.block(layout.node(leaves.column(entry))).count());
-  return connections;
-}
-
 /// The stages of a calibration, each taken from the folder where it is done already.
 class Calibrating {
  public:
@@ -45,16 +35,19 @@ class Calibrating {
       : folder_(folder), devices_(devices), journal_(folder.shotFolder()), settings_(settingsOf(folder)) {}
 
   CalibrateResult run(Progress& progress) {
+    MeasuredCalibration measured;
+    measured.rig = settings_.rig;
     Progress linearizing = progress.part(0.15, "Linearizing");
-    Linearization linearization = linearized(linearizing);
+    measured.linearization = linearized(linearizing);
     linearizing.report(1.0);
     Progress acquiring = progress.part(0.75, "Measuring the light transport");
-    Acquisition acquisition = acquired(linearization, acquiring);
+    measured.acquisition = acquired(measured.linearization, acquiring);
     acquiring.report(1.0);
     Progress inverting = progress.part(0.1, "Inverting the light transport");
-    CalibrateResult result = summary(linearization, acquisition);
-    inverted(acquisition, inverting, result);
+    measured.venue = takeMeasuredVenue(measured.acquisition, settings_.threshold);
+    inverted(measured.venue, inverting);
     progress.report(1.0);
+    CalibrateResult result = summaryOf(folder_, measured);
     result.peakMemoryBytes = peakMemory();
     return result;
   }
@@ -90,41 +83,12 @@ class Calibrating {
 
   /// The operator itself is not stored: making it again is quicker than reading it. What is kept is that it
   /// can be made, and how long it took.
-  void inverted(Acquisition& acquisition, Progress& progress, CalibrateResult& result) {
+  void inverted(const MeasuredVenue& venue, Progress& progress) {
     std::string inputs = inverseFingerprint(settings_);
-    if (!folder_.isCurrent(stage::inverse, inputs)) {
-      auto begin = Clock::now();
-      MeasuredVenue venue = takeMeasuredVenue(acquisition, settings_.threshold);
-      WindowInverse inverse = computeWindows(venue.transport, venue.usable, settings_.windows, progress);
-      folder_.store(stage::inverse, inputs, Json{{"cost", cost(begin, nullptr)}, {"bytes", inverse.bytes()}});
-    }
-    result.seconds.inverse = costOf(stage::inverse, "seconds");
-  }
-
-  /// A figure that cost() kept.
-  double costOf(const char* stageName, const char* key) const {
-    std::optional<StageResult> stored = folder_.latest(stageName);
-    return stored ? stored->values.at("cost").value(key, 0.0) : 0.0;
-  }
-
-  CalibrateResult summary(const Linearization& linearization, const Acquisition& acquisition) const {
-    CalibrateResult result;
-    for (const char* stageName : {stage::linearization, stage::acquisition}) {
-      result.patterns += static_cast<int>(costOf(stageName, "patterns"));
-      result.exposures += static_cast<int>(costOf(stageName, "exposures"));
-    }
-    result.seconds.linearization = costOf(stage::linearization, "seconds");
-    result.seconds.acquisition = costOf(stage::acquisition, "seconds");
-    result.leaves = acquisition.transport.leaves().blocks();
-    result.connections = connectionsOf(acquisition.transport);
-    result.unresolvedEnergy = acquisition.unresolvedEnergy;
-    std::size_t flagged = 0;
-    for (std::uint8_t flag : acquisition.flagged) flagged += flag != 0;
-    result.flaggedShare = static_cast<double>(flagged) / static_cast<double>(acquisition.flagged.size());
-    result.verificationError = acquisition.verificationError;
-    result.findings = linearization.findings;
-    result.findings.insert(result.findings.end(), acquisition.findings.begin(), acquisition.findings.end());
-    return result;
+    if (folder_.isCurrent(stage::inverse, inputs)) return;
+    auto begin = Clock::now();
+    WindowInverse inverse = computeWindows(venue.transport, venue.usable, settings_.windows, progress);
+    folder_.store(stage::inverse, inputs, Json{{"cost", cost(begin, nullptr)}, {"bytes", inverse.bytes()}});
   }
 
   CalibrationFolder& folder_;
@@ -148,8 +112,7 @@ CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& setting
                           Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
-  CalibrationFolder folder =
-      CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  CalibrationFolder folder = CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
   return runStages(folder, cache, progress);
 }
 

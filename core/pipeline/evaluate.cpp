@@ -21,7 +21,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// |T p - R p| / |R p|
-double relightError(const TransportMatrix& transport, const TransportMatrix& reference, const Stack& pattern) {
+double relightError(const TransportMatrix& transport, const TransportMatrix& reference,
+                    const Stack& pattern) {
   Stack relit = transport.apply(pattern);
   Stack truth = reference.apply(pattern);
   double apart = 0.0;
@@ -65,8 +66,8 @@ class Judge {
 
   /// What the first camera would see, free of noise.
   Image seen(const Compensation& compensation) const {
-    std::vector<Image> drive = encodedDrive(compensation.projector, measured_.venue.transport.projectors(),
-                                            measured_.linearization);
+    std::vector<Image> drive =
+        encodedDrive(compensation.projector, measured_.venue.transport.projectors(), measured_.linearization);
     return imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
   }
 
@@ -151,7 +152,8 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
     std::vector<std::uint8_t> reachable = judge.reachable(target);
     ImageScore score{image.name, shareOf(reachable, target.inside), {}};
     std::size_t pixels = venue.settings().camera.count();
-    EvaluatedPictures pictures{image.name, judge.wanted(target), {}, target.white, target.inside, score.reachable};
+    EvaluatedPictures pictures{image.name,   judge.wanted(target), {},
+                               target.white, target.inside,        score.reachable};
     pictures.inside.resize(pixels);
     for (Method method : methods) {
       Progress solving = judging.part(share, fmt::format("{}: {}", image.name, toString(method)));

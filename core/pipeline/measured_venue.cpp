@@ -44,7 +44,8 @@ std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition) {
   std::size_t pixels = acquisition.flood.size() / 3;
   std::vector<float> darkest(pixels);
   for (std::size_t i = 0; i < pixels; ++i)
-    darkest[i] = std::min({acquisition.flood[3 * i], acquisition.flood[3 * i + 1], acquisition.flood[3 * i + 2]});
+    darkest[i] =
+        std::min({acquisition.flood[3 * i], acquisition.flood[3 * i + 1], acquisition.flood[3 * i + 2]});
   std::vector<float> sorted = darkest;
   auto p95 = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 95 / 100);
   std::nth_element(sorted.begin(), p95, sorted.end());
@@ -69,6 +70,50 @@ MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSetting
   return venue;
 }
 
+namespace {
+
+/// Pairs of a camera pixel and a projector pixel that the leaves connect; nested leaves count once each.
+std::uint64_t connectionsOf(const TransportMatrix& transport) {
+  std::uint64_t connections = 0;
+  const BlockSparse& leaves = transport.leaves();
+  const NodeLayout& layout = transport.layout();
+  for (std::size_t entry = 0; entry < leaves.blocks(); ++entry)
+    connections += static_cast<std::uint64_t>(layout.block(layout.node(leaves.column(entry))).count());
+  return connections;
+}
+
+/// A figure that a stage cost.
+double costOf(const CalibrationFolder& folder, const char* stageName, const char* figure) {
+  std::optional<StageResult> stored = folder.latest(stageName);
+  if (!stored || !stored->values.contains("cost")) return 0.0;
+  return stored->values["cost"].value(figure, 0.0);
+}
+
+}  // namespace
+
+CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibration& measured) {
+  CalibrateResult result;
+  for (const char* stageName : {stage::linearization, stage::acquisition}) {
+    result.patterns += static_cast<int>(costOf(folder, stageName, "patterns"));
+    result.exposures += static_cast<int>(costOf(folder, stageName, "exposures"));
+  }
+  result.seconds.linearization = costOf(folder, stage::linearization, "seconds");
+  result.seconds.acquisition = costOf(folder, stage::acquisition, "seconds");
+  result.seconds.inverse = costOf(folder, stage::inverse, "seconds");
+  const Acquisition& acquisition = measured.acquisition;
+  result.leaves = measured.venue.transport.leaves().blocks();
+  result.connections = connectionsOf(measured.venue.transport);
+  result.unresolvedEnergy = acquisition.unresolvedEnergy;
+  result.verificationError = acquisition.verificationError;
+  auto flagged = static_cast<double>(
+      acquisition.flagged.size() -
+      static_cast<std::size_t>(std::count(acquisition.flagged.begin(), acquisition.flagged.end(), 0)));
+  result.flaggedShare = flagged / static_cast<double>(acquisition.flagged.size());
+  result.findings = measured.linearization.findings;
+  result.findings.insert(result.findings.end(), acquisition.findings.begin(), acquisition.findings.end());
+  return result;
+}
+
 MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progress) {
   return loadMeasurements(folder, progress).venue;
 }
@@ -77,8 +122,8 @@ MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& p
   Progress reading = progress.part(0.5, "Reading the calibration");
   MeasuredCalibration measured = loadMeasurements(folder, reading);
   Progress inverting = progress.part(0.5, "Inverting the light transport");
-  measured.inverse = computeWindows(measured.venue.transport, measured.venue.usable,
-                                    settingsOf(folder).windows, inverting);
+  measured.inverse =
+      computeWindows(measured.venue.transport, measured.venue.usable, settingsOf(folder).windows, inverting);
   return measured;
 }
 

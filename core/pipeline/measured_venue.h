@@ -34,4 +34,7 @@ MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progr
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
 MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress);
 
+/// What the stages found and cost, as calibrate() returns it; without peak memory.
+CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibration& measured);
+
 }  // namespace relucent

@@ -12,7 +12,8 @@ std::vector<Image> encodedDrive(const Stack& linear, const Rasters& projectors,
           linearization.projectors.size(), projectors.devices());
   std::vector<Image> drive;
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector)
-    drive.push_back(linearization.projectors[projector].encode(imageFromStack(linear, projectors, projector)));
+    drive.push_back(
+        linearization.projectors[projector].encode(imageFromStack(linear, projectors, projector)));
   return drive;
 }
 

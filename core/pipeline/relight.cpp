@@ -36,7 +36,8 @@ void writePicture(const fs::path& path, const Image& linear, const std::string& 
 }
 
 /// One picture per device; the second and later ones are numbered.
-WrittenFiles writeAll(const fs::path& out, const Stack& stack, const Rasters& rasters, const std::string& units) {
+WrittenFiles writeAll(const fs::path& out, const Stack& stack, const Rasters& rasters,
+                      const std::string& units) {
   WrittenFiles written;
   for (std::size_t device = 0; device < rasters.devices(); ++device) {
     fs::path path = out;

@@ -94,8 +94,9 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.exposures = measured.linearization.exposures;
   data.flood = imageFromStack(measured.venue.flood, transport.cameras(), 0);
   data.black = imageFromStack(measured.venue.black, transport.cameras(), 0);
-  data.flagged.assign(measured.acquisition.flagged.begin(),
-                      measured.acquisition.flagged.begin() + static_cast<std::ptrdiff_t>(data.flood.pixels()));
+  data.flagged.assign(
+      measured.acquisition.flagged.begin(),
+      measured.acquisition.flagged.begin() + static_cast<std::ptrdiff_t>(data.flood.pixels()));
   data.leavesPerLevel = leavesPerLevel(transport);
   data.settings = folder.settings();
 
@@ -104,7 +105,8 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
     EvaluateSettings evaluation;
     evaluation.images = settings.images;
     Evaluation judged = evaluated(measured, evaluation, cache, comparing);
-    for (const EvaluatedPictures& pictures : judged.pictures) data.comparisons.push_back(comparisonOf(pictures));
+    for (const EvaluatedPictures& pictures : judged.pictures)
+      data.comparisons.push_back(comparisonOf(pictures));
     data.evaluation = std::move(judged.result);
   } else {
     std::vector<NamedImage> content;

@@ -67,7 +67,8 @@ RigSettings rigFromJson(const Json& json) {
     std::string kind = sorted.at("kind");
     if (kind == "simulated") return sorted.at("venue").get<VenueSettings>();
     if (kind == "commands") return commandRigFromJson(sorted.at("commands"));
-    throw Error(ErrorKind::format, fmt::format("the calibration was made with devices of the kind \"{}\"", kind),
+    throw Error(ErrorKind::format,
+                fmt::format("the calibration was made with devices of the kind \"{}\"", kind),
                 "open it with the version of Relucent that made it");
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
@@ -93,6 +94,8 @@ void stagesFromJson(const Json& json, CalibrateSettings& settings) {
   }
 }
 
-std::string fingerprintOf(const Json& json) { return Fingerprint().add(json.dump()).hex(); }
+std::string fingerprintOf(const Json& json) {
+  return Fingerprint().add(json.dump()).hex();
+}
 
 }  // namespace relucent

@@ -52,7 +52,7 @@ Caustics::Caustics(const Scene& scene, const SceneRays& rays, int perPixel, floa
                          std::fmod(0.7548777f * static_cast<float>(y), 1.0f));
           Vector2f place =
               Vector2f(static_cast<float>(x), static_cast<float>(y)) + samples.point(sample, 0, shift);
-          Emission emission = projector.emit(place, samples.point(sample, 1, shift));
+          Emission emission = projector.emission(place, samples.point(sample, 1, shift));
           Photon photon = follow(rays, emission.ray, samples, sample, shift);
           if (photon.power <= 0.0f) continue;
           photon.power = emission.power / static_cast<float>(perPixel);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -57,9 +58,9 @@ void Caustics::gather(const Eigen::Vector3f& position, const Eigen::Vector3f& no
         if (cell == cells_.end()) continue;
         for (std::uint32_t i = cell->second.first; i < cell->second.second; ++i) {
           const Photon& photon = photons_[i];
-          if (photon.direction.dot(normal) >= 0.0f) continue;
-          float distance = (photon.position - position).norm();
-          if (distance >= radius_) continue;
+          float squared = (photon.position - position).squaredNorm();
+          if (squared >= radius_ * radius_ || photon.direction.dot(normal) >= 0.0f) continue;
+          float distance = std::sqrt(squared);
           visit(photon, photon.power * 3.0f * (1.0f - distance / radius_) / (pi * radius_ * radius_));
         }
       }

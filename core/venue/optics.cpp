@@ -75,7 +75,7 @@ std::optional<Connection> ProjectorOptics::connect(const Vector3f& point, const 
   return connection;
 }
 
-Emission ProjectorOptics::emit(const Vector2f& place, const Vector2f& lens) const {
+Emission ProjectorOptics::emission(const Vector2f& place, const Vector2f& lens) const {
   float width = static_cast<float>(raster.width), height = static_cast<float>(raster.height);
   Vector2f tangents((place.x() - 0.5f * width) / (throwRatio * width),
                     (0.5f * height - place.y()) / (throwRatio * width));

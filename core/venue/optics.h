@@ -64,7 +64,7 @@ struct ProjectorOptics {
   /// Empty where the path does not come from the picture.
   std::optional<Connection> connect(const Eigen::Vector3f& point, const Eigen::Vector2f& lens) const;
   /// From a place on the raster through a place on the lens.
-  Emission emit(const Eigen::Vector2f& place, const Eigen::Vector2f& lens) const;
+  Emission emission(const Eigen::Vector2f& place, const Eigen::Vector2f& lens) const;
 
  private:
   Eigen::Vector3f onLens(const Eigen::Vector2f& lens) const;

@@ -30,7 +30,7 @@ ProjectorModel::ProjectorModel(const DeviceModelSettings& settings)
 double ProjectorModel::response(std::size_t channel, double drive) const {
   // A power law bent by an S: its toe and shoulder differ from channel to channel, as panels' do.
   constexpr std::array<double, 3> exponent = {0.95, 1.02, 1.08};
-  constexpr std::array<double, 3> bend = {0.12, 0.06, 0.18};
+  constexpr std::array<double, 3> bend = {0.26, 0.18, 0.12};
   double power = std::pow(drive, gamma_ * exponent[channel]);
   double s = drive * drive * (3.0 - 2.0 * drive);
   return (1.0 - bend[channel]) * power + bend[channel] * s;

@@ -39,8 +39,8 @@ Scene cornerScene(const VenueSettings& settings) {
   float half = 47.5f / 180.0f * pi;
   Vector3f left(-0.74f * std::sin(half), 0.0f, 0.74f * std::cos(half));
   Vector3f right(0.74f * std::sin(half), 0.0f, 0.74f * std::cos(half));
-  Material glossy{cardboard({0.74f, 0.40f, 0.20f}), 0.06f, 40.0f};
-  Material matt{cardboard({0.36f, 0.55f, 0.70f})};
+  Material glossy{cardboard({0.76f, 0.30f, 0.10f}), 0.06f, 40.0f};
+  Material matt{cardboard({0.18f, 0.42f, 0.66f})};
   scene.surfaces.push_back({rectangle(crease + left, -left, up), glossy});
   scene.surfaces.push_back({rectangle(crease, right, up), matt});
   placeDevices(scene, settings, {0.0f, -0.05f, -0.15f}, 8.0f);
@@ -119,7 +119,7 @@ void placeDevices(Scene& scene, const VenueSettings& settings, const Vector3f& t
   ProjectorOptics projector;
   projector.raster = settings.projector;
   projector.pose = Pose::lookingAt({0.35f, 0.20f, 2.4f}, target);
-  projector.throwRatio = 1.6f;
+  projector.throwRatio = 1.5f;
   projector.focus = (target - projector.pose.position).norm();
   // The blur at depth d has aperture * |d - focus| / focus metres, a pixel there pixelPitch() * d / focus:
   // their quotient tends to aperture / pixelPitch(). So the picture is the same at every resolution.
@@ -129,7 +129,7 @@ void placeDevices(Scene& scene, const VenueSettings& settings, const Vector3f& t
 
   scene.camera.raster = settings.camera;
   scene.camera.pose = Pose::lookingAt({-0.40f, 0.12f, 2.5f}, target);
-  scene.camera.throwRatio = 1.52f;
+  scene.camera.throwRatio = 1.68f;
 }
 
 Scene buildScene(const VenueSettings& settings) {

@@ -26,11 +26,11 @@ Rasters projectorRasters(const Scene& scene) {
   return Rasters(std::move(sizes));
 }
 
-/// Photons are gathered within about a camera pixel.
+/// Photons are gathered within less than a camera pixel.
 float causticRadius(const Scene& scene) {
   float widest = 0.0f;
   for (const ProjectorOptics& projector : scene.projectors) widest = std::max(widest, projector.focus);
-  return 1.2f * widest / (scene.camera.throwRatio * static_cast<float>(scene.camera.raster.width));
+  return 0.8f * widest / (scene.camera.throwRatio * static_cast<float>(scene.camera.raster.width));
 }
 
 }  // namespace
@@ -138,9 +138,10 @@ bool Tracer::bounce(Path& path) const {
   Bounce bounce = drawBounce(path.scattering, direction, choices.x());
   path.throughput *= bounce.weight;
 
-  // Paths that carry little end early, the others carry their share on. Means stay as they are.
+  // Paths that carry little end early, the others carry their share on; means stay as they are. Not at the
+  // first bounce, which decides how smooth a picture is.
   float carried = path.throughput.maxCoeff() * static_cast<float>(samples_.count()) / pi;
-  float survival = std::min(1.0f, 1.5f * carried);
+  float survival = path.bounces == 0 && carried > 0.0f ? 1.0f : std::min(1.0f, 1.5f * carried);
   if (choices.y() >= survival) return false;
   path.throughput /= survival;
 

@@ -17,7 +17,7 @@ struct TracerSettings {
   int pathsPerPixel = 256;
   int longestPath = 16;         // diffuse bounces
   int finestIndirectLevel = 3;  // of the pyramid, for light that arrives by diffuse bounces
-  int photonsPerPixel = 32;     // per projector pixel that meets glass
+  int photonsPerPixel = 16;     // per projector pixel that meets glass
   std::uint64_t seed = 1;
 };
 

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <QTemporaryDir>
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "venue/venue.h"
+
+using namespace relucent;
+
+namespace {
+
+VenueSettings smallVenue(const std::string& name) {
+  VenueSettings settings;
+  settings.name = name;
+  settings.projector = {64, 48};
+  settings.camera = {40, 30};
+  settings.pathsPerPixel = 16;
+  return settings;
+}
+
+std::vector<Image> flood(const SimulatedVenue& venue) {
+  std::vector<Image> pictures;
+  for (const auto& projector : venue.rig().projectors) pictures.emplace_back(projector->size(), 3, 1.0f);
+  return pictures;
+}
+
+std::filesystem::path onlyFile(const std::filesystem::path& folder) {
+  std::filesystem::path found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (!found.empty()) return {};
+    found = entry.path();
+  }
+  return found;
+}
+
+void forEachVenue() {
+  QTest::addColumn<QString>("name");
+  for (const VenueDescription& venue : venues())
+    QTest::newRow(venue.name.c_str()) << QString::fromStdString(venue.name);
+}
+
+}  // namespace
+
+class TestVenue : public QObject {
+  Q_OBJECT
+ private slots:
+  void looksLikeAPhotograph_data() { forEachVenue(); }
+  /// Most of the view is lit, its bright parts reach full scale in 1/60 s, nothing is negative or broken.
+  void looksLikeAPhotograph() {
+    QFETCH(QString, name);
+    Progress progress;
+    SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
+    Stack seen = venue.trueRadiance(flood(venue));
+    for (float value : seen) QVERIFY(std::isfinite(value) && value >= 0.0f);
+    std::vector<float> brightest;
+    for (std::size_t i = 0; i < seen.size(); i += 3)
+      brightest.push_back(std::max({seen[i], seen[i + 1], seen[i + 2]}));
+    std::sort(brightest.begin(), brightest.end());
+    QVERIFY(std::abs(brightest[brightest.size() * 99 / 100] / 60.0f - 1.0f) < 0.02f);
+    auto lit = brightest.end() - std::upper_bound(brightest.begin(), brightest.end(), 4.0f);
+    QVERIFY2(lit > 0.6 * static_cast<double>(brightest.size()), qPrintable(QString::number(lit)));
+  }
+
+  void rowsAreCompact_data() { forEachVenue(); }
+  void rowsAreCompact() {
+    QFETCH(QString, name);
+    Progress progress;
+    SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
+    double perRow = static_cast<double>(venue.trueTransport().leaves().blocks()) / (40.0 * 30.0);
+    qInfo("%.1f blocks a row", perRow);
+    QVERIFY(perRow < 100.0);
+  }
+
+  /// camera = T * projector + e
+  void transportPredictsRadiance_data() { forEachVenue(); }
+  void transportPredictsRadiance() {
+    QFETCH(QString, name);
+    Progress progress;
+    SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
+    Stack predicted = venue.trueTransport().floodlight();
+    Stack seen = venue.trueRadiance(flood(venue));
+    float largest = *std::max_element(seen.begin(), seen.end());
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      // Both ways of storing T round to 16 bits: some hundred blocks, each within 2e-5 of its row's largest.
+      QVERIFY(std::abs(predicted[i] + venue.trueBlack()[i] - seen[i]) < 1e-4f * largest);
+  }
+
+  void blackIsOneOverContrast() {
+    VenueSettings settings = smallVenue("plain");
+    settings.devices.ambient = 0.0;
+    settings.devices.contrast = 500.0;
+    Progress progress;
+    SimulatedVenue venue(settings, {}, progress);
+    Stack white = venue.trueTransport().floodlight();
+    double black = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < white.size(); ++i) {
+      black += static_cast<double>(venue.trueBlack()[i]);
+      sum += static_cast<double>(white[i]);
+    }
+    // Black has a tint: channels from 0.9 to 1.15 of the mean.
+    QVERIFY(sum / black > 450.0 && sum / black < 550.0);
+  }
+
+  void ambientIsAShareOfTheFloodImage() {
+    VenueSettings settings = smallVenue("corner");
+    settings.devices.ambient = 0.01;
+    settings.devices.contrast = 1e9;
+    Progress progress;
+    SimulatedVenue venue(settings, {}, progress);
+    Stack white = venue.trueTransport().floodlight();
+    double black = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < white.size(); ++i) {
+      black += static_cast<double>(venue.trueBlack()[i]);
+      sum += static_cast<double>(white[i]);
+    }
+    QVERIFY(std::abs(black / sum / 0.01 - 1.0) < 1e-3);
+  }
+
+  void devicesOutliveTheVenue() {
+    Rig rig;
+    {
+      Progress progress;
+      rig = SimulatedVenue(smallVenue("plain"), {}, progress).rig();
+    }
+    rig.projectors[0]->show(Image(rig.projectors[0]->size(), 3, 1.0f));
+    RawFrame frame = rig.cameras[0]->capture({{"later", 0}, 0, 0.01});
+    checkFrame(frame, {40, 30}, "camera");
+  }
+
+  /// From the cache, without it, and after the cache was damaged: the same bits.
+  void cacheChangesNothing() {
+    QTemporaryDir folder;
+    std::filesystem::path cache = std::filesystem::path(folder.path().toStdString()) / "venues";
+    VenueSettings settings = smallVenue("corner");
+    Progress progress;
+    SimulatedVenue fresh(settings, {}, progress), traced(settings, cache, progress),
+        cached(settings, cache, progress);
+    std::filesystem::path file = onlyFile(cache);
+    QVERIFY(!file.empty());
+    Stack truth = fresh.trueRadiance(flood(fresh));
+    QVERIFY(truth == traced.trueRadiance(flood(traced)));
+    QVERIFY(truth == cached.trueRadiance(flood(cached)));
+    QVERIFY(fresh.trueTransport().leaves() == cached.trueTransport().leaves());
+    QVERIFY(fresh.trueBlack() == cached.trueBlack());
+  }
+
+  void damagedCacheIsReplaced_data() {
+    QTest::addColumn<int>("damage");
+    QTest::newRow("empty") << 0;
+    QTest::newRow("truncated") << 1;
+    QTest::newRow("one bit") << 2;
+    QTest::newRow("foreign") << 3;
+  }
+  void damagedCacheIsReplaced() {
+    QFETCH(int, damage);
+    QTemporaryDir folder;
+    std::filesystem::path cache = folder.path().toStdString();
+    VenueSettings settings = smallVenue("plain");
+    Progress progress;
+    SimulatedVenue first(settings, cache, progress);
+    std::filesystem::path file = onlyFile(cache);
+    std::string good = readFile(file), bad = good;
+    if (damage == 0) bad.clear();
+    if (damage == 1) bad.resize(good.size() / 2);
+    if (damage == 2) bad[good.size() / 2] = static_cast<char>(bad[good.size() / 2] ^ 4);
+    if (damage == 3) bad = "PNG";
+    writeFileAtomically(file, bad);
+    SimulatedVenue second(settings, cache, progress);
+    QVERIFY(readFile(file) == good);
+    QVERIFY(first.trueRadiance(flood(first)) == second.trueRadiance(flood(second)));
+  }
+
+  void otherSettingsAreTracedAnew() {
+    QTemporaryDir folder;
+    std::filesystem::path cache = folder.path().toStdString();
+    VenueSettings settings = smallVenue("plain");
+    Progress progress;
+    SimulatedVenue first(settings, cache, progress);
+    settings.seed = 77;  // of the noise: the scene stays
+    SimulatedVenue sameScene(settings, cache, progress);
+    QVERIFY(!onlyFile(cache).empty());
+    settings.devices.vignetting = 0.0;
+    SimulatedVenue other(settings, cache, progress);
+    QVERIFY(onlyFile(cache).empty());
+    QVERIFY(first.trueRadiance(flood(first)) == sameScene.trueRadiance(flood(sameScene)));
+    QVERIFY(!(first.trueRadiance(flood(first)) == other.trueRadiance(flood(other))));
+  }
+
+  void unusableSettings_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("paths");
+    QTest::addColumn<QString>("says");
+    QTest::newRow("unknown") << "cellar" << 64 << 16
+                             << "there is no simulated venue \"cellar\"; there are corner";
+    QTest::newRow("no name") << "" << 64 << 16 << "there is no simulated venue";
+    QTest::newRow("no size") << "plain" << 0 << 16 << "projector of 0x48 pixels is not possible";
+    QTest::newRow("negative") << "plain" << -64 << 16 << "is not possible";
+    QTest::newRow("huge") << "plain" << 100000 << 16 << "is not possible";
+    QTest::newRow("no paths") << "plain" << 64 << 0 << "paths per pixel";
+  }
+  void unusableSettings() {
+    QFETCH(QString, name);
+    QFETCH(int, width);
+    QFETCH(int, paths);
+    QFETCH(QString, says);
+    VenueSettings settings = smallVenue(name.toStdString());
+    settings.projector.width = width;
+    settings.pathsPerPixel = paths;
+    Progress progress;
+    try {
+      SimulatedVenue venue(settings, {}, progress);
+      QFAIL("no error");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::input);
+      QVERIFY2(QString(error.what()).contains(says), error.what());
+    }
+  }
+
+  void unwritableCacheIsAnError() {
+    QTemporaryDir folder;
+    std::filesystem::path file = std::filesystem::path(folder.path().toStdString()) / "file";
+    writeFileAtomically(file, "in the way");
+    Progress progress;
+    QVERIFY_THROWS_EXCEPTION(Error, SimulatedVenue(smallVenue("plain"), file, progress));
+    QVERIFY(readFile(file) == "in the way");
+  }
+
+  void tracingCanBeCancelled() {
+    struct Silent : ProgressSink {
+      void progressed(double, std::string_view) override {}
+    } sink;
+    StopRequest stop;
+    stop.ask(StopRequest::Kind::cancel);
+    Progress progress(sink, stop);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, SimulatedVenue(smallVenue("corner"), {}, progress));
+  }
+};
+
+QTEST_APPLESS_MAIN(TestVenue)
+#include "test_venue.moc"

@@ -2,6 +2,7 @@
 #include "base/progress.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 
@@ -18,21 +19,25 @@ Progress::Progress() = default;
 
 Progress::Progress(ProgressSink& sink, StopRequest& stop) : sink_(&sink), stop_(&stop) {}
 
-Progress::Progress(ProgressSink* sink, StopRequest* stop, double begin, double length, std::string stage)
-    : sink_(sink), stop_(stop), begin_(begin), length_(length), stage_(std::move(stage)) {}
+Progress::Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, std::string stage)
+    : sink_(sink), stop_(stop), begin_(begin), end_(end), stage_(std::move(stage)) {}
+
+double Progress::place() const {
+  return std::lerp(begin_, end_, done_);
+}
 
 Progress Progress::part(double share, std::string stage) {
   require(share >= 0.0 && share <= 1.0, "a part is between 0 and 1 of its whole, not {}", share);
-  share = std::min(share, 1.0 - done_);
-  Progress child(sink_, stop_, begin_ + done_ * length_, share * length_, std::move(stage));
-  done_ += share;
+  const double begin = place();
+  done_ = std::min(done_ + share, 1.0);
+  Progress child(sink_, stop_, begin, place(), std::move(stage));
   child.report(0.0);
   return child;
 }
 
 void Progress::report(double fraction) {
   done_ = std::clamp(fraction, done_, 1.0);
-  if (sink_ != nullptr) sink_->progressed(begin_ + done_ * length_, stage_);
+  if (sink_ != nullptr) sink_->progressed(place(), stage_);
   checkpoint();
 }
 

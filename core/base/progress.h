@@ -71,12 +71,15 @@ class Progress {
   const std::string& stage() const { return stage_; }
 
  private:
-  Progress(ProgressSink* sink, StopRequest* stop, double begin, double length, std::string stage);
+  /// Where `done_` stands in the whole. Exact at both ends, so that a part ends on the bit where the next
+  /// begins.
+  double place() const;
+  Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, std::string stage);
 
   ProgressSink* sink_ = nullptr;
   StopRequest* stop_ = nullptr;
   double begin_ = 0.0;
-  double length_ = 1.0;
+  double end_ = 1.0;
   double done_ = 0.0;
   std::string stage_;
 };

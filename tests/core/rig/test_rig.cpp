@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <QtTest>
+#include <limits>
+
+#include "base/error.h"
+#include "rig/rig.h"
+
+using namespace relucent;
+
+namespace {
+
+class StillProjector : public Projector {
+ public:
+  explicit StillProjector(Size size) : size_(size) {}
+  std::string name() const override { return "still"; }
+  Size size() const override { return size_; }
+  int bits() const override { return 8; }
+  void show(const Image&) override {}
+
+ private:
+  Size size_;
+};
+
+std::string sentenceOf(const RawFrame& frame, Size size) {
+  try {
+    checkFrame(frame, size, "camera 2");
+  } catch (const Error& error) {
+    return error.kind() == ErrorKind::input ? error.what() : "wrong kind";
+  }
+  return {};
+}
+
+}  // namespace
+
+class TestRig : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void devicesAreNumberedThrough() {
+    Rig rig;
+    QCOMPARE(rig.projectorRasters().devices(), std::size_t{0});
+    rig.projectors.push_back(std::make_unique<StillProjector>(Size{4, 3}));
+    rig.projectors.push_back(std::make_unique<StillProjector>(Size{2, 5}));
+    QCOMPARE(rig.projectorRasters(), Rasters({{4, 3}, {2, 5}}));
+    QCOMPARE(rig.cameraRasters().count(), std::size_t{0});
+  }
+
+  void aGoodFramePasses() {
+    RawFrame frame{Image({4, 3}, 3, 0.5f), 12, 0.1};
+    frame.signal.at(0, 0, 0) = -0.01f;  // a black pixel's noise
+    frame.signal.at(1, 0, 0) = 1.5f;
+    QCOMPARE(sentenceOf(frame, {4, 3}), std::string());
+  }
+
+  void aBadFrameIsExplained_data() {
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("channels");
+    QTest::addColumn<float>("value");
+    QTest::addColumn<QString>("part");
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    QTest::newRow("size") << 5 << 3 << 0.0f
+                          << "camera 2: the photograph has 5x3 pixels where 4x3 were announced; ";
+    QTest::newRow("channels") << 4 << 1 << 0.0f << "has 1 channels; set the camera to colour";
+    QTest::newRow("NaN") << 4 << 3 << nan << "holds nan at pixel 2, 1; ";
+    QTest::newRow("infinity") << 4 << 3 << inf << "holds inf at pixel 2, 1; ";
+  }
+  void aBadFrameIsExplained() {
+    QFETCH(int, width);
+    QFETCH(int, channels);
+    QFETCH(float, value);
+    QFETCH(QString, part);
+    RawFrame frame{Image({width, 3}, channels), 8, 0.1};
+    frame.signal.at(2, 1, channels - 1) = value;
+    const QString sentence = QString::fromStdString(sentenceOf(frame, {4, 3}));
+    QVERIFY2(sentence.contains(part), qPrintable(sentence));
+  }
+};
+
+QTEST_APPLESS_MAIN(TestRig)
+#include "test_rig.moc"

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t binCount = 32;
 constexpr double darkestBin = 1e-4;
-constexpr double leastValues = 100.0;  // in a bin, for its variance to be good to 15 %
+constexpr double brightestShare = 0.95;  // of saturation, of the signals that are used
+constexpr double leastValues = 100.0;    // in a bin, for its variance to be good to 15 %
 
 double roundingVariance(int bits) {
   if (bits <= 0) return 0.0;
@@ -37,7 +38,7 @@ void forPairs(const RawFrame& first, const RawFrame& second, const CameraModel& 
   for (std::size_t at = 0; at < first.signal.data().size(); ++at) {
     double a = static_cast<double>(first.signal.data()[at]),
            b = static_cast<double>(second.signal.data()[at]);
-    if (std::max(a, b) >= 0.95 * model.saturation || std::min(a, b) <= 0.0) continue;
+    if (std::max(a, b) >= brightestShare * model.saturation || std::min(a, b) <= 0.0) continue;
     const ResponseCurve& response = model.response[at % 3];
     use(response(a), response(b), 0.5 * (a + b), at % 3);
   }
@@ -72,17 +73,47 @@ struct Point {
   double mean, variance, relativeError;
 };
 
-std::vector<Point> pointsOf(const Bins& bins) {
+/// From the brightest bin down, as far as signals are 5 deviations clear of zero: there, both being cut off
+/// and being sorted by their own noise make values look calmer than they are. The deviation is taken from
+/// the bin above, which has been found sound. `brightest`: the same at the upper end, where signals were
+/// left out.
+std::vector<Point> pointsOf(const Bins& bins, double brightest) {
   std::vector<Point> points;
-  for (const Bin& bin : bins) {
-    if (bin.count < leastValues) continue;
-    double mean = bin.mean / bin.count, spread = bin.squares / bin.count;
-    if (mean < 4.0 * std::sqrt(spread)) continue;
-    double variance = spread - bin.extra / bin.count;
+  double deviationAbove = 0.0;
+  for (auto bin = bins.rbegin(); bin != bins.rend(); ++bin) {
+    if (bin->count < leastValues) continue;
+    double mean = bin->mean / bin->count, spread = bin->squares / bin->count;
+    if (mean + 5.0 * std::sqrt(spread) > brightest) continue;
+    if (mean < 5.0 * std::max(deviationAbove, std::sqrt(spread))) break;
+    deviationAbove = std::sqrt(spread);
+    double variance = spread - bin->extra / bin->count;
     // Beyond some thousand values the model, not the statistics, limits the fit.
-    if (variance > 0.0) points.push_back({mean, variance, std::max(0.03, std::sqrt(2.0 / bin.count))});
+    if (variance > 0.0) points.push_back({mean, variance, std::max(0.03, std::sqrt(2.0 / bin->count))});
   }
   return points;
+}
+
+/// Half the mean square of differences in the darkest pair of frames, if it is dark: cut at zero or not, the
+/// read noise is at least that.
+double spreadInTheDark(const std::vector<ShotPair>& pairs, const CameraModel& model, std::size_t camera) {
+  double darkest = 1e30, spread = 0.0;
+  for (const auto& [first, second] : pairs) {
+    for (std::size_t exposure = 0; exposure < first.frames.size(); ++exposure) {
+      const std::vector<float>& a = first.frames[exposure][camera].signal.data();
+      const std::vector<float>& b = second.frames[exposure][camera].signal.data();
+      double sum = 0.0, squares = 0.0, count = static_cast<double>(a.size());
+      for (std::size_t at = 0; at < a.size(); ++at) {
+        const ResponseCurve& response = model.response[at % 3];
+        double linearA = response(static_cast<double>(a[at])), linearB = response(static_cast<double>(b[at]));
+        sum += 0.5 * (linearA + linearB);
+        squares += 0.5 * (linearA - linearB) * (linearA - linearB);
+      }
+      if (sum / count >= darkest) continue;
+      darkest = sum / count;
+      spread = squares / count;
+    }
+  }
+  return darkest < 3.0 * std::sqrt(spread) ? spread : 0.0;
 }
 
 struct Line {
@@ -131,11 +162,15 @@ CameraModel withMeasuredNoise(CameraModel model, const std::vector<ShotPair>& pa
       rounding = roundingVariance(first.frames[exposure][camera].bits);
     }
   }
-  if (std::optional<Line> line = robustLine(pointsOf(bins))) {
+  double brightest = 1.0;
+  for (const ResponseCurve& response : model.response)
+    brightest = std::min(brightest, response(brightestShare * model.saturation));
+  if (std::optional<Line> line = robustLine(pointsOf(bins, brightest))) {
     model.readNoise = std::sqrt(line->offset);
     model.gain = line->slope;
   }
-  model.readNoise = std::max({model.readNoise, std::sqrt(rounding), 1e-5});
+  model.readNoise = std::max(
+      {model.readNoise, std::sqrt(spreadInTheDark(pairs, model, camera)), std::sqrt(rounding), 1e-5});
   model.gain = std::max(model.gain, 1e-7);
   return model;
 }

@@ -72,6 +72,17 @@ class Estimate {
     }
     for (int k = 0; k < static_cast<int>(frames_.size()); ++k)
       add({{3 * knots + k, 0, 0}, {1.0, 0.0, 0.0}, 0.0, 1.0 / (timeDeviation * timeDeviation)});
+    addGauge();
+  }
+
+  /// No power law among the time errors: sum_k d_k (ln t_k - mean) = 0. It would fit as well as an exponent
+  /// of the response, and noise, which flattens what is fitted over it, would decide between the two.
+  void addGauge() {
+    int count = static_cast<int>(frames_.size());
+    Eigen::VectorXd logTime(count);
+    for (int k = 0; k < count; ++k) logTime[k] = std::log(frames_[static_cast<std::size_t>(k)]->seconds);
+    logTime.array() -= logTime.mean();
+    normal_.bottomRightCorner(count, count) += 1e12 * logTime * logTime.transpose();
   }
 
   void addPixels(std::size_t channel) {

@@ -18,8 +18,8 @@ struct CameraResponse {
 /// Least squares over pixels i and exposures k, in logarithms, after Debevec & Malik 1997:
 ///   u(z_ik) - ln t_k - d_k = l_i,
 /// u = ln response, linear between knots that are even in ln z, so that a linear camera and every power law
-/// are represented exactly; d_k are errors of the nominal exposure times (0.03 a priori), l_i the light,
-/// eliminated. Second differences of u are held small where the data say nothing.
+/// are represented exactly; d_k are errors of the nominal exposure times (0.03 a priori, no power law
+/// among them), l_i the light, eliminated. Second differences of u are held small where the data say nothing.
 /// A camera counts as linear unless its exponent is off by more than 0.04 (what errors of 5 % in the times
 /// can feign) or its shape by more than 0.03.  Source: core/linearization/README.md, [DEB].
 CameraResponse cameraResponse(const Shot& bracket, std::size_t camera, double saturation);

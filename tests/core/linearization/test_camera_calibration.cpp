@@ -81,8 +81,12 @@ class TestCameraCalibration : public QObject {
           std::abs(linearVariance(model, linear) / expected - 1.0) < 0.1,
           qPrintable(QString("%1: %2 for %3").arg(linear).arg(linearVariance(model, linear)).arg(expected)));
     }
-    // At black the line is extended beyond the data.
-    QVERIFY2(std::abs(model.readNoise / truth - 1.0) < 0.35,
+    // At black the line is extended beyond the data, which end 5 deviations above zero; where photon noise
+    // rules there already, the read noise is known from below only.
+    double clear = 25.0 * gain;
+    double share = truth * truth / (truth * truth + gain * clear);
+    double tolerance = share > 0.2 ? 0.25 : 0.6;
+    QVERIFY2(std::abs(model.readNoise / truth - 1.0) < tolerance,
              qPrintable(QString("%1 for %2").arg(model.readNoise).arg(truth)));
   }
 

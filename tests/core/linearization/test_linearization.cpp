@@ -91,11 +91,12 @@ class TestLinearization : public QObject {
     QTest::addColumn<quint64>("seed");
     quint64 seed = 1;
     for (int shape = 0; shape < 5; ++shape)
-      for (int bits : {8, 12})
-        for (bool imperfect : {false, true})
-          QTest::addRow("shape %d, %d bits%s, seed %llu", shape, bits, imperfect ? ", imperfect" : "", seed)
-              << shape << bits << imperfect << seed,
-              ++seed;
+      for (bool imperfect : {false, true}) {
+        int bits = seed % 3 == 0 ? 8 : 12;
+        QTest::addRow("shape %d, %d bits%s, seed %llu", shape, bits, imperfect ? ", imperfect" : "", seed)
+            << shape << bits << imperfect << seed;
+        ++seed;
+      }
   }
   void projectorCurvesAreRecovered() {
     QFETCH(int, shape);
@@ -232,7 +233,7 @@ class TestLinearization : public QObject {
       run(venue, setup.settings);
       QFAIL("a blind camera was accepted");
     } catch (const Error& error) {
-      QCOMPARE(error.kind(), ErrorKind::input);
+      QVERIFY(error.kind() == ErrorKind::input);
       QVERIFY(QString(error.what()).contains("no difference"));
     }
   }

@@ -12,16 +12,17 @@ namespace relucent {
 namespace {
 
 /// One channel of one frame, ready to be read: signal -> linear signal and the variance of rounding.
-/// Signals in whole codes go through tables that are exact; others through the curve.
+/// Whole codes go through tables where those are the smaller work; the rest through the curve.
 class Decoder {
  public:
-  Decoder(const CameraModel& camera, std::size_t channel, int bits)
+  Decoder(const CameraModel& camera, std::size_t channel, int bits, std::size_t pixels)
       : curve_(&camera.response[channel]), identity_(curve_->isIdentity()) {
     if (bits > 0) {
       codes_ = std::ldexp(1.0, bits) - 1.0;
       rounding_ = 1.0 / (12.0 * codes_ * codes_);
     }
-    if (identity_ || bits <= 0 || bits > 16) return;
+    bool worthATable = bits > 0 && codes_ < static_cast<double>(pixels);
+    if (identity_ || !worthATable) return;
     for (double code = 0.0; code <= codes_; ++code) {
       linear_.push_back((*curve_)(code / codes_));
       extra_.push_back(extraAt(code / codes_));
@@ -88,7 +89,8 @@ std::vector<Exposure> exposuresOf(const Shot& shot, std::size_t device, const Ca
     exposures.push_back(
         {&frame.signal,
          trueSeconds(camera, frame.seconds),
-         {Decoder(camera, 0, frame.bits), Decoder(camera, 1, frame.bits), Decoder(camera, 2, frame.bits)}});
+         {Decoder(camera, 0, frame.bits, size.count()), Decoder(camera, 1, frame.bits, size.count()),
+          Decoder(camera, 2, frame.bits, size.count())}});
   }
   std::stable_sort(exposures.begin(), exposures.end(),
                    [](const Exposure& a, const Exposure& b) { return a.seconds < b.seconds; });

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "hdr/response_curve.h"
+#include "rig/shot.h"
+
+namespace relucent {
+
+/// A camera's response from one light at several exposures, as its signals tell it.
+struct CameraResponse {
+  std::array<ResponseCurve, 3> curves;  // the identity where the camera is linear
+  double exponent = 1.0;                // of the power law closest to the measured curve, worst channel
+  double deviation = 0.0;               // largest relative deviation from that power law
+};
+
+/// Least squares over pixels i and exposures k, in logarithms, after Debevec & Malik 1997:
+///   u(z_ik) - ln t_k - d_k = l_i,
+/// u = ln response, linear between knots that are even in ln z, so that a linear camera and every power law
+/// are represented exactly; d_k are errors of the nominal exposure times (0.03 a priori, no power law
+/// among them), l_i the light, eliminated. Second differences of u are held small where the data say nothing.
+/// A camera counts as linear unless its exponent is off by more than 0.04 (what errors of 5 % in the times
+/// can feign) or its shape by more than 0.03.  Source: core/linearization/README.md, [DEB].
+CameraResponse cameraResponse(const Shot& bracket, std::size_t camera, double saturation);
+
+}  // namespace relucent

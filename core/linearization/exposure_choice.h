@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "rig/shot.h"
+
+namespace relucent {
+
+/// Exposures that suit a venue.
+struct ExposureChoice {
+  std::vector<double> seconds;     // longest first
+  std::vector<double> saturation;  // per camera: the signal from which on nothing is told
+  std::vector<std::string> findings;
+};
+
+/// Photographs full white over the cameras' whole range, black at one exposure, and closes in on the exposure
+/// at which the 99.5th percentile of what the projectors light is 0.8 of saturation.
+/// Several cameras share their exposures: the brightest view decides the shortest, the darkest the longest.
+/// Throws: Error{input} for a camera that sees no difference between white and black.
+ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress);
+
+}  // namespace relucent

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "linearization/linearization.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "linearization/additivity.h"
+#include "linearization/camera_noise.h"
+#include "linearization/camera_response.h"
+#include "linearization/exposure_choice.h"
+#include "linearization/projector_ramp.h"
+#include "linearization/test_light.h"
+
+namespace relucent {
+namespace {
+
+constexpr double flickerLimit = 0.01;  // of the light between photographs, relative
+
+/// Exposures from the longest in steps of 2 to a quarter of the shortest, within the cameras' range.
+std::vector<double> responseBracket(const Rig& rig, const std::vector<double>& exposures) {
+  double least = exposures.back() / 4.0, longest = exposures.front();
+  for (const auto& camera : rig.cameras) {
+    least = std::max(least, camera->exposures().shortest);
+    longest = std::min(camera->exposures().longest, longest);
+  }
+  std::vector<double> seconds;
+  for (double time = longest; time >= 0.999 * least; time /= 2.0) seconds.push_back(time);
+  return seconds;
+}
+
+std::vector<ShotPair> takePairs(ShotTaker& shots, const LinearizationSettings& settings,
+                                const std::vector<double>& exposures, Progress& progress) {
+  // Full and half light, and what lies in the dark, so that all signals occur.
+  constexpr std::array<float, 4> drives{1.0f, 0.75f, 0.5f, 0.0f};
+  std::vector<ShotPair> pairs;
+  for (int i = 0; i < settings.noisePairs; ++i) {
+    float drive = drives[static_cast<std::size_t>(i) % drives.size()];
+    std::vector<Image> patterns = evenPatterns(shots.rig(), {drive, drive, drive});
+    Shot first = shots.take(patterns, exposures, progress);
+    progress.report((i + 0.5) / settings.noisePairs);
+    pairs.emplace_back(std::move(first), shots.take(patterns, exposures, progress));
+    progress.report((i + 1.0) / settings.noisePairs);
+  }
+  return pairs;
+}
+
+/// Step 2 of linearize().
+void calibrateCameras(ShotTaker& shots, const LinearizationSettings& settings,
+                      const std::vector<double>& saturation, Linearization& result, Progress& progress) {
+  const Rig& rig = shots.rig();
+  Shot bracket = shots.take(evenPatterns(rig, {1, 1, 1}), responseBracket(rig, result.exposures), progress);
+  progress.report(0.3);
+  Progress rest = progress.part(0.7, progress.stage());
+  std::vector<ShotPair> pairs = takePairs(shots, settings, result.exposures, rest);
+
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
+    progress.checkpoint();
+    CameraModel model;
+    model.saturation = saturation[camera];
+    model.response = cameraResponse(bracket, camera, model.saturation).curves;
+    model = withMeasuredNoise(std::move(model), pairs, camera);
+    model = withMeasuredTimes(std::move(model), pairs, camera);
+    double flicker = flickerOf(model, pairs, camera);
+    if (flicker > flickerLimit)
+      result.findings.push_back(fmt::format(
+          "{}: the light changes by {:.1f} % from one photograph to the next; switch off the projector's "
+          "dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of "
+          "the mains period.",
+          rig.cameras[camera]->name(), 100.0 * flicker));
+    result.cameras.push_back(std::move(model));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const LinearizationSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.levels < 5 || settings.levels > 1025)
+    found.push_back(fmt::format("a ramp has 5 to 1025 levels, not {}", settings.levels));
+  if (!(settings.shadowPower >= 0.5 && settings.shadowPower <= 4.0))
+    found.push_back(fmt::format("the shadow power is between 0.5 and 4, not {}", settings.shadowPower));
+  if (settings.noisePairs < 1 || settings.noisePairs > 100)
+    found.push_back(
+        fmt::format("the camera's noise takes 1 to 100 pairs of shots, not {}", settings.noisePairs));
+  if (!(settings.additivityLimit > 0.0 && settings.additivityLimit < 1.0))
+    found.push_back(fmt::format("the additivity limit is between 0 and 1, not {}", settings.additivityLimit));
+  return found;
+}
+
+Linearization linearize(ShotTaker& shots, const LinearizationSettings& settings, Progress& progress) {
+  for (const std::string& problem : problems(settings)) require(false, "{}", problem);
+  const Rig& rig = shots.rig();
+  require(!rig.projectors.empty() && !rig.cameras.empty(), "{} projectors and {} cameras make no rig",
+          rig.projectors.size(), rig.cameras.size());
+
+  Linearization result;
+  Progress exposing = progress.part(0.1, "Finding the exposure");
+  ExposureChoice choice = chooseExposures(shots, exposing);
+  result.exposures = choice.seconds;
+  result.findings = choice.findings;
+
+  Progress calibrating = progress.part(0.1, "Measuring the camera");
+  calibrateCameras(shots, settings, choice.saturation, result, calibrating);
+
+  LightMeter meter(shots, result.cameras, result.exposures);
+  double share = 0.8 / static_cast<double>(rig.projectors.size());
+  for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
+    const std::string name = rig.projectors[projector]->name();
+    Progress adding = progress.part(0.1 * share, "Checking that the colours of " + name + " add up");
+    Additivity additivity = measureAdditivity(meter, projector, settings.seed, adding);
+    result.additivityError.push_back(
+        std::max(std::abs(additivity.white), std::abs(additivity.superposition)));
+    for (std::string& finding : additivityFindings(additivity, name, settings.additivityLimit))
+      result.findings.push_back(std::move(finding));
+
+    Progress ramps = progress.part(0.9 * share, "Measuring the brightness curves of " + name);
+    result.projectors.push_back(measureRamps(meter, projector, additivity, settings, ramps));
+  }
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

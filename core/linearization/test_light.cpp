@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "linearization/test_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relucent {
+
+std::vector<Image> evenPatterns(const Rig& rig, Drive drive) {
+  std::vector<Image> patterns;
+  for (const auto& projector : rig.projectors) {
+    Image& pattern = patterns.emplace_back(projector->size(), 3);
+    for (std::size_t i = 0; i < pattern.pixels(); ++i)
+      std::copy(drive.begin(), drive.end(), pattern.pixel(i).begin());
+  }
+  return patterns;
+}
+
+std::vector<Image> evenPatterns(const Rig& rig, std::size_t projector, Drive drive) {
+  std::vector<Image> patterns = evenPatterns(rig, drive);
+  for (std::size_t other = 0; other < patterns.size(); ++other)
+    if (other != projector) patterns[other] = Image(patterns[other].size(), 3);
+  return patterns;
+}
+
+LightMeter::LightMeter(ShotTaker& shots, std::vector<CameraModel> cameras, std::vector<double> exposures)
+    : shots_(shots),
+      cameras_(std::move(cameras)),
+      exposures_(std::move(exposures)),
+      rasters_(shots.rig().cameraRasters()) {}
+
+HdrFrame LightMeter::measure(const std::vector<Image>& encodedPatterns, const Progress& progress) const {
+  return mergeBracket(shots_.take(encodedPatterns, exposures_, progress), cameras_, rasters_);
+}
+
+LightWeights::LightWeights(const HdrFrame& lit, const HdrFrame& black) {
+  std::vector<float> difference(lit.radiance.size());
+  for (std::size_t at = 0; at < difference.size(); ++at)
+    difference[at] = lit.radiance[at] - black.radiance[at];
+  std::vector<float> sorted = difference;
+  auto high = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 99 / 100);
+  std::nth_element(sorted.begin(), high, sorted.end());
+  double limit = 0.1 * static_cast<double>(*high);
+
+  for (std::size_t at = 0; at < difference.size(); ++at) {
+    double light = difference[at], variance = static_cast<double>(lit.variance[at] + black.variance[at]);
+    bool stands = light > limit && light > 5.0 * std::sqrt(variance);
+    if (stands && lit.valid[at] != 0 && black.valid[at] != 0) terms_.push_back({at, light / variance});
+  }
+}
+
+double LightWeights::of(const HdrFrame& frame) const {
+  double sum = 0.0;
+  for (const Term& term : terms_) sum += term.weight * static_cast<double>(frame.radiance[term.at]);
+  return sum;
+}
+
+double LightWeights::varianceOf(const HdrFrame& frame) const {
+  double sum = 0.0;
+  for (const Term& term : terms_)
+    sum += term.weight * term.weight * static_cast<double>(frame.variance[term.at]);
+  return sum;
+}
+
+}  // namespace relucent

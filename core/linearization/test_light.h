@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hdr/hdr.h"
+#include "rig/shot.h"
+
+namespace relucent {
+
+using Drive = std::array<float, 3>;
+
+/// Every pixel of every projector at `drive`.
+std::vector<Image> evenPatterns(const Rig& rig, Drive drive);
+/// Every pixel of one projector at `drive`, the others black.
+std::vector<Image> evenPatterns(const Rig& rig, std::size_t projector, Drive drive);
+
+/// Takes shots at the chosen exposures and merges them.
+class LightMeter {
+ public:
+  LightMeter(ShotTaker& shots, std::vector<CameraModel> cameras, std::vector<double> exposures);
+
+  const Rig& rig() const { return shots_.rig(); }
+  HdrFrame measure(const std::vector<Image>& encodedPatterns, const Progress& progress) const;
+
+ private:
+  ShotTaker& shots_;
+  std::vector<CameraModel> cameras_;
+  std::vector<double> exposures_;
+  Rasters rasters_;
+};
+
+/// A fixed weighted sum over the values that a light reaches well: how much of it a frame holds.
+///   sum_i a_i L_i,   a_i = D_i / variance(D_i) where D = lit - black is above a tenth of its 99th percentile
+/// Linear in the frame, so it may be applied to frames first and their numbers be subtracted afterwards.
+class LightWeights {
+ public:
+  LightWeights() = default;
+  LightWeights(const HdrFrame& lit, const HdrFrame& black);
+
+  /// No value stands out: the cameras do not see this light.
+  bool empty() const { return terms_.empty(); }
+  double of(const HdrFrame& frame) const;
+  double varianceOf(const HdrFrame& frame) const;
+
+ private:
+  struct Term {
+    std::size_t at;
+    double weight;
+  };
+  std::vector<Term> terms_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include <QtTest>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "linearization/linearization.h"
+#include "support/scripted_rig.h"
+
+using namespace relucent;
+using namespace relucent::test;
+
+namespace {
+
+struct Setup {
+  SyntheticSettings scene;
+  ScriptedSettings devices;
+  LinearizationSettings settings;
+
+  ScriptedVenue venue() const {
+    TransportMatrix transport = syntheticTransport(scene);
+    Stack black = syntheticBlack(transport);
+    return ScriptedVenue(std::move(transport), std::move(black), devices);
+  }
+};
+
+Linearization run(const ScriptedVenue& venue, const LinearizationSettings& settings) {
+  Rig rig = venue.rig();
+  NoShotLog log;
+  ShotTaker taker(rig, log, "linearization");
+  Progress progress;
+  return linearize(taker, settings, progress);
+}
+
+/// Largest deviation of a found curve from the truth at the projector's own codes, relative to white.
+double worstError(const ResponseCurve& found, const Curve& truth) {
+  double worst = 0.0;
+  for (int code = 0; code <= 255; ++code)
+    worst = std::max(worst, std::abs(found(code / 255.0) - truth(code / 255.0) / truth(1.0)));
+  return worst;
+}
+
+/// Remembers shots, for resuming.
+class MemoryLog : public ShotLog {
+ public:
+  std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override {
+    auto found = shots_.find(id.number);
+    if (found == shots_.end() || found->second.fingerprint != fingerprint) return std::nullopt;
+    return found->second;
+  }
+  void keep(const Shot& shot) override { shots_[shot.id.number] = shot; }
+  std::size_t size() const { return shots_.size(); }
+
+ private:
+  std::map<int, Shot> shots_;
+};
+
+class Watcher : public ProgressSink {
+ public:
+  void progressed(double fraction, std::string_view stage) override {
+    ascends_ = ascends_ && fraction >= last_ - 1e-12;
+    last_ = fraction;
+    if (stages_.empty() || stages_.back() != stage) stages_.emplace_back(stage);
+  }
+  bool ascends_ = true;
+  double last_ = 0.0;
+  std::vector<std::string> stages_;
+};
+
+bool same(const Linearization& a, const Linearization& b) {
+  bool equal =
+      a.exposures == b.exposures && a.additivityError == b.additivityError && a.findings == b.findings;
+  for (std::size_t p = 0; equal && p < a.projectors.size(); ++p)
+    equal = a.projectors[p].channels == b.projectors[p].channels;
+  for (std::size_t c = 0; equal && c < a.cameras.size(); ++c)
+    equal = a.cameras[c].readNoise == b.cameras[c].readNoise && a.cameras[c].gain == b.cameras[c].gain &&
+            a.cameras[c].times == b.cameras[c].times && a.cameras[c].response == b.cameras[c].response;
+  return equal;
+}
+
+}  // namespace
+
+class TestLinearization : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void projectorCurvesAreRecovered_data() {
+    QTest::addColumn<int>("shape");
+    QTest::addColumn<int>("cameraBits");
+    QTest::addColumn<bool>("imperfect");
+    QTest::addColumn<quint64>("seed");
+    quint64 seed = 1;
+    for (int shape = 0; shape < 5; ++shape)
+      for (bool imperfect : {false, true}) {
+        int bits = seed % 3 == 0 ? 8 : 12;
+        QTest::addRow("shape %d, %d bits%s, seed %llu", shape, bits, imperfect ? ", imperfect" : "", seed)
+            << shape << bits << imperfect << seed;
+        ++seed;
+      }
+  }
+  void projectorCurvesAreRecovered() {
+    QFETCH(int, shape);
+    QFETCH(int, cameraBits);
+    QFETCH(bool, imperfect);
+    QFETCH(quint64, seed);
+    const std::vector<std::array<Curve, 3>> shapes{
+        {gammaCurve(2.2), gammaCurve(2.0), gammaCurve(2.5)},
+        {identityCurve(), gammaCurve(1.4), gammaCurve(3.0)},
+        {sCurve(), sCurve(0.2), sCurve(0.9)},
+        // Crushed shadows, clipped lights, and a kink.
+        {[](double x) { return std::pow(std::max(0.0, (x - 0.08) / 0.92), 2.2); },
+         [](double x) { return std::pow(std::min(1.0, x / 0.92), 2.2); },
+         [](double x) { return x < 0.5 ? 0.5 * x : 0.25 + 1.5 * (x - 0.5); }},
+        {gammaCurve(2.4), sCurve(), identityCurve()}};
+    Setup setup;
+    setup.scene.seed = seed;
+    setup.scene.cameras = {{static_cast<int>(37 + 2 * seed), 41}};
+    setup.scene.interreflection = 0.1;
+    ScriptedProjector projector;
+    projector.curves = shapes[static_cast<std::size_t>(shape)];
+    setup.devices.projectors = {projector};
+    ScriptedCamera camera;
+    camera.bits = cameraBits;
+    camera.timeError = imperfect ? 0.05 : 0.0;
+    setup.devices.cameras = {camera};
+    setup.devices.drift = imperfect ? 0.3 : 0.0;
+    setup.devices.seed = seed;
+    setup.settings.seed = seed;
+    Linearization found = run(setup.venue(), setup.settings);
+
+    // Noise: some 1500 pixels, each good to 1 %, leave 3e-4 at white; 4 sigma over 99 levels 1e-3. A level's
+    // interpolation misses smooth curves by less, a kink between levels h = 0.05 apart by slope * h / 8.
+    bool kinks = shape == 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double error = worstError(found.projectors[0].channels[c], projector.curves[c]);
+      QVERIFY2(error < (kinks ? 0.015 : 0.003), qPrintable(QString("channel %1: %2").arg(c).arg(error)));
+    }
+    QVERIFY2(found.findings.empty(), found.findings.empty() ? "" : found.findings.front().c_str());
+    QVERIFY(found.additivityError[0] < setup.settings.additivityLimit);
+  }
+
+  void twoProjectorsAndTwoCameras() {
+    Setup setup;
+    setup.scene.projectors = {{32, 24}, {27, 19}};
+    setup.scene.cameras = {{40, 30}, {33, 35}};
+    setup.scene.brightness = 8.0;
+    ScriptedProjector first, second;
+    second.curves = {gammaCurve(1.8), sCurve(), gammaCurve(2.6)};
+    second.bits = 10;
+    setup.devices.projectors = {first, second};
+    ScriptedCamera curved;
+    curved.bits = 16;
+    curved.response = [](double x) { return std::pow(x, 1.0 / 1.8); };
+    curved.readNoise = 3e-3;
+    setup.devices.cameras = {ScriptedCamera(), curved};
+    setup.settings.levels = 25;
+    Linearization found = run(setup.venue(), setup.settings);
+
+    QCOMPARE(found.projectors.size(), std::size_t{2});
+    QCOMPARE(found.cameras.size(), std::size_t{2});
+    QCOMPARE(found.additivityError.size(), std::size_t{2});
+    QVERIFY(found.cameras[0].response[0].isIdentity());
+    QVERIFY(!found.cameras[1].response[0].isIdentity());
+    QVERIFY(std::abs(found.cameras[0].readNoise - 1e-3) < 4e-4);
+    // The curved camera's residual, up to 3 % of its own, is shared with the linear one's.
+    for (std::size_t c = 0; c < 3; ++c) {
+      QVERIFY2(worstError(found.projectors[0].channels[c], first.curves[c]) < 0.01, "first projector");
+      QVERIFY2(worstError(found.projectors[1].channels[c], second.curves[c]) < 0.01, "second projector");
+    }
+  }
+
+  void aCurvedCameraAloneWillDo() {
+    Setup setup;
+    ScriptedCamera camera;
+    camera.bits = 8;
+    camera.response = [](double x) {
+      return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    };
+    setup.devices.cameras = {camera};
+    Linearization found = run(setup.venue(), setup.settings);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double error = worstError(found.projectors[0].channels[c], gammaCurve(2.2));
+      QVERIFY2(error < 0.02, qPrintable(QString::number(error)));
+    }
+  }
+
+  void brokenAdditivityIsFound_data() {
+    QTest::addColumn<double>("whiteSegment");
+    QTest::addColumn<bool>("finding");
+    QTest::newRow("none") << 0.0 << false;
+    QTest::newRow("1 %, below the limit") << 0.01 << false;
+    QTest::newRow("5 %") << 0.05 << true;
+    QTest::newRow("60 %") << 0.6 << true;
+  }
+  void brokenAdditivityIsFound() {
+    QFETCH(double, whiteSegment);
+    QFETCH(bool, finding);
+    Setup setup;
+    ScriptedProjector projector;
+    projector.whiteSegment = whiteSegment;
+    setup.devices.projectors = {projector};
+    setup.settings.levels = 9;
+    Linearization found = run(setup.venue(), setup.settings);
+    QCOMPARE(!found.findings.empty(), finding);
+    QVERIFY2(std::abs(found.additivityError[0] - whiteSegment) < 0.005,
+             qPrintable(QString::number(found.additivityError[0])));
+    if (finding) QVERIFY(QString::fromStdString(found.findings.front()).contains("white segment"));
+  }
+
+  void flickerIsFound() {
+    Setup setup;
+    setup.devices.flicker = 0.03;
+    setup.settings.levels = 9;
+    Linearization found = run(setup.venue(), setup.settings);
+    bool said = false;
+    for (const std::string& finding : found.findings)
+      said = said || QString::fromStdString(finding).contains("from one photograph to the next");
+    QVERIFY(said);
+  }
+
+  void blindCamerasAreRefused_data() {
+    QTest::addColumn<double>("ambient");
+    QTest::newRow("in the dark") << 0.0;
+    QTest::newRow("in room light") << 5.0;
+  }
+  void blindCamerasAreRefused() {
+    QFETCH(double, ambient);
+    Setup setup;
+    setup.scene.brightness = 1e-7;
+    setup.devices.ambient = Stack(3 * 40 * 30, static_cast<float>(ambient));
+    ScriptedVenue venue = setup.venue();
+    try {
+      run(venue, setup.settings);
+      QFAIL("a blind camera was accepted");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::input);
+      QVERIFY(QString(error.what()).contains("no difference"));
+    }
+  }
+
+  void aDarkChannelIsRefused() {
+    Setup setup;
+    ScriptedProjector projector;
+    projector.curves[2] = [](double) { return 0.0; };
+    setup.devices.projectors = {projector};
+    try {
+      run(setup.venue(), setup.settings);
+      QFAIL("a projector without blue was accepted");
+    } catch (const Error& error) {
+      QVERIFY(QString(error.what()).contains("blue"));
+    }
+  }
+
+  void cancellingAtAnyShotEndsAsCancelledAndResumes() {
+    Setup setup;
+    setup.scene.projectors = {{12, 9}};
+    setup.scene.cameras = {{13, 11}};
+    setup.settings.levels = 6;
+    Linearization whole = run(setup.venue(), setup.settings);
+
+    int captures = 0;
+    {
+      ScriptedVenue venue = setup.venue();
+      run(venue, setup.settings);
+      captures = venue.captures();
+    }
+    QVERIFY(captures > 60);
+    for (int stopAt = 0; stopAt < captures; stopAt += 3) {
+      StopRequest stop;
+      int count = 0;
+      Setup stopping = setup;
+      stopping.devices.beforeCapture = [&](const CaptureRequest&) {
+        if (count++ == stopAt) stop.ask(StopRequest::Kind::cancel);
+      };
+      ScriptedVenue venue = stopping.venue();
+      Rig rig = venue.rig();
+      MemoryLog log;
+      Watcher watcher;
+      {
+        ShotTaker taker(rig, log, "linearization");
+        Progress progress(watcher, stop);
+        QVERIFY_EXCEPTION_THROWN(linearize(taker, setup.settings, progress), Cancelled);
+      }
+      // Going on from what was kept ends in the same bits.
+      if (stopAt % 15 != 0) continue;
+      ScriptedVenue again = setup.venue();
+      Rig freshRig = again.rig();
+      ShotTaker taker(freshRig, log, "linearization");
+      Progress progress;
+      QVERIFY(same(linearize(taker, setup.settings, progress), whole));
+      QVERIFY(again.captures() < captures || stopAt == 0);
+    }
+  }
+
+  void progressIsReported() {
+    Setup setup;
+    setup.settings.levels = 6;
+    ScriptedVenue venue = setup.venue();
+    Rig rig = venue.rig();
+    NoShotLog log;
+    ShotTaker taker(rig, log, "linearization");
+    Watcher watcher;
+    StopRequest stop;
+    Progress progress(watcher, stop);
+    linearize(taker, setup.settings, progress);
+    QVERIFY(watcher.ascends_);
+    QCOMPARE(watcher.last_, 1.0);
+    QVERIFY(watcher.stages_.size() >= 4);
+  }
+
+  void shotsStayModerate() {
+    Setup setup;
+    ScriptedVenue venue = setup.venue();
+    Rig rig = venue.rig();
+    NoShotLog log;
+    ShotTaker taker(rig, log, "linearization");
+    Progress progress;
+    linearize(taker, setup.settings, progress);
+    QVERIFY2(taker.shots() <= 3 * setup.settings.levels + 70, qPrintable(QString::number(taker.shots())));
+  }
+
+  void badSettingsAreNamed() {
+    QVERIFY(problems(LinearizationSettings()).empty());
+    QCOMPARE(problems({.levels = 2}).size(), std::size_t{1});
+    QCOMPARE(problems({.shadowPower = std::nan("")}).size(), std::size_t{1});
+    QCOMPARE(problems({.noisePairs = 0}).size(), std::size_t{1});
+    QCOMPARE(problems({.additivityLimit = 0.0}).size(), std::size_t{1});
+  }
+};
+
+QTEST_APPLESS_MAIN(TestLinearization)
+#include "test_linearization.moc"

@@ -20,6 +20,8 @@ using Code = BlockSparseWriter::Code;
 constexpr int quadrants = 4;
 // A child is at most as bright as its parent, but for the noise of both.
 constexpr float brighterThanParent = 1.1f;
+// Standard deviation of what the unevenness of lit leaves does to a frame, as a share of tau.
+constexpr float unevenness = 0.25f;
 
 /// The child of `parent` in a quadrant, 0 to 3 row by row, if it is not cut off by the border.
 bool childOf(const NodeLayout& layout, const Node& parent, int quadrant, Node& child) {
@@ -50,6 +52,13 @@ bool matters(const ColourBlock& value, const ColourBlock& variance, float strong
     if (value.data()[i] > std::max(relative, noise)) return true;
   }
   return false;
+}
+
+/// Standard deviations as codes, never zero: they stand beside an active pair's value.
+Code spreadCode(const ColourBlock& variance, float scale) {
+  Code code = codeOf(variance.cwiseMax(0.0f).cwiseSqrt(), scale);
+  for (std::int16_t& value : code) value = std::max<std::int16_t>(1, value);
+  return code;
 }
 
 /// A camera pixel and the one of its active nodes that a colour lights.
@@ -136,15 +145,16 @@ ColourBlock underPattern(const std::vector<BlockSparse>& leaves, std::size_t row
 /// The children of all active pairs while they are being measured.
 class Children {
  public:
-  explicit Children(std::size_t pairs) : code_(quadrants * pairs), active_(pairs, 0) {}
+  Children(std::size_t pairs, bool mayDivide)
+      : code_(quadrants * pairs), spread_(mayDivide ? quadrants * pairs : 0), active_(pairs, 0) {}
 
-  void set(std::size_t pair, int quadrant, const Code& code, bool active) {
-    code_[quadrants * pair + static_cast<std::size_t>(quadrant)] = code;
-    if (active) active_[pair] = static_cast<std::uint8_t>(active_[pair] | (1 << quadrant));
+  void set(std::size_t pair, int quadrant, const Code& code) { code_[at(pair, quadrant)] = code; }
+  void activate(std::size_t pair, int quadrant, const Code& spread) {
+    spread_[at(pair, quadrant)] = spread;
+    active_[pair] = static_cast<std::uint8_t>(active_[pair] | (1 << quadrant));
   }
-  const Code& code(std::size_t pair, int quadrant) const {
-    return code_[quadrants * pair + static_cast<std::size_t>(quadrant)];
-  }
+  const Code& code(std::size_t pair, int quadrant) const { return code_[at(pair, quadrant)]; }
+  const Code& spread(std::size_t pair, int quadrant) const { return spread_[at(pair, quadrant)]; }
   bool active(std::size_t pair, int quadrant) const { return (active_[pair] >> quadrant & 1) != 0; }
   std::size_t actives() const {
     std::size_t count = 0;
@@ -159,48 +169,63 @@ class Children {
   }
 
  private:
-  std::vector<Code> code_;
+  static std::size_t at(std::size_t pair, int quadrant) {
+    return quadrants * pair + static_cast<std::size_t>(quadrant);
+  }
+  std::vector<Code> code_, spread_;
   std::vector<std::uint8_t> active_;  // per pair, a bit a quadrant
 };
 
-/// Measures one quadrant of one colour in red, green and blue.
-class Quadrant {
- public:
-  Quadrant(Tree& tree, std::span<const Seen> seen, int quadrant, const References& references,
-           const AcquisitionSettings& settings)
-      : tree_(tree), seen_(seen), quadrant_(quadrant), references_(references), settings_(settings) {}
+/// A value with its variance, for all nine channel pairs.
+struct Estimate {
+  ColourBlock value = ColourBlock::Zero();
+  ColourBlock variance = ColourBlock::Zero();
+};
 
-  void measure(const std::vector<std::uint8_t>& lit, Photographer& photographer, const Progress& progress) {
+/// Makes measured children agree with their measured parent: the least squares solution of
+///   sum of children = parent,
+/// each side trusted by its variance. Without it the noise of a row's sum grows with its leaves, and an
+/// error that all children share, such as that of e, adds up.
+void reconcile(const Estimate& parent, std::span<Estimate> children) {
+  ColourBlock sum = ColourBlock::Zero(), variance = parent.variance;
+  for (const Estimate& child : children) {
+    sum += child.value;
+    variance += child.variance;
+  }
+  for (Estimate& child : children) {
+    for (int i = 0; i < 9; ++i) {
+      if (variance.data()[i] <= 0.0f) continue;
+      float gain = child.variance.data()[i] / variance.data()[i];
+      child.value.data()[i] += gain * (parent.value.data()[i] - sum.data()[i]);
+      child.variance.data()[i] *= 1.0f - gain;
+    }
+  }
+}
+
+/// Measures the four quadrants of one colour in red, green and blue.
+class ColourClass {
+ public:
+  ColourClass(Tree& tree, std::span<const Seen> seen, const References& references,
+              const AcquisitionSettings& settings)
+      : tree_(tree),
+        seen_(seen),
+        references_(references),
+        settings_(settings),
+        predicted_(seen.size()),
+        measured_(quadrants * seen.size()) {}
+
+  void measure(int quadrant, const std::vector<std::uint8_t>& lit, Photographer& photographer,
+               const Progress& progress) {
     std::vector<float> shares = litShares(lit, tree_.layout);
-    predicted_.resize(seen_.size());
     parallelFor(0, seen_.size(), 256,
                 [&](std::size_t i) { predicted_[i] = underPattern(tree_.leaves, seen_[i].row, shares); });
     for (std::size_t channel = 0; channel < 3; ++channel)
-      frames_[channel] = photographer.take(inChannel(lit, channel), demands(channel), progress);
+      extract(quadrant, channel, photographer.take(inChannel(lit, channel), demands(channel), progress));
   }
 
-  void extract(Children& children) const {
-    parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
-      Node child;
-      if (!childOf(tree_.layout, tree_.layout.node(tree_.active.column(seen_[i].pair)), quadrant_, child))
-        return;
-      std::size_t row = seen_[i].row;
-      if (!valid(row)) {
-        tree_.unknown[row] = 1;
-        return;
-      }
-      ColourBlock value, variance;
-      for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t p = 0; p < 3; ++p) {
-          std::size_t at = 3 * row + c;
-          value.data()[3 * c + p] =
-              frames_[p].radiance[at] - references_.black.radiance[at] - predicted_[i].data()[3 * c + p];
-          variance.data()[3 * c + p] = frames_[p].variance[at] + references_.black.variance[at];
-        }
-      }
-      bool active = child.level > 0 && matters(value, variance, references_.strongest[row], settings_);
-      children.set(seen_[i].pair, quadrant_, codeOf(value, tree_.active.scale(row)), active);
-    });
+  /// To be called when all quadrants have been measured.
+  void settle(Children& children) {
+    parallelFor(0, seen_.size(), 256, [&](std::size_t i) { settle(i, children); });
   }
 
  private:
@@ -222,40 +247,91 @@ class Quadrant {
     return demands;
   }
 
-  bool valid(std::size_t row) const {
-    for (const HdrFrame& frame : frames_)
-      if (!frame.valid[3 * row] || !frame.valid[3 * row + 1] || !frame.valid[3 * row + 2]) return false;
-    return true;
+  void extract(int quadrant, std::size_t channel, const HdrFrame& frame) {
+    parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
+      std::size_t row = seen_[i].row;
+      Estimate& child = measured_[quadrants * i + static_cast<std::size_t>(quadrant)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::size_t at = 3 * row + c, place = 3 * c + channel;
+        child.value.data()[place] =
+            frame.radiance[at] - references_.black.radiance[at] - predicted_[i].data()[place];
+        child.variance.data()[place] = frame.variance[at] + references_.black.variance[at];
+        // Too bright for every exposure: the whole camera pixel is in doubt.
+        if (!frame.valid[at]) tree_.unknown[row] = 1;
+      }
+    });
+  }
+
+  void settle(std::size_t i, Children& children) const {
+    auto [row, pair] = seen_[i];
+    if (tree_.unknown[row]) return;
+    float strongest = references_.strongest[row];
+    auto relative = static_cast<float>(settings_.relativeThreshold) * strongest;
+
+    std::array<Estimate, quadrants> estimate;
+    std::array<Node, quadrants> node;
+    std::array<int, quadrants> quadrant;
+    std::array<ColourBlock, quadrants> noise;
+    std::size_t count = 0;
+    Node parent = tree_.layout.node(tree_.active.column(pair));
+    for (int q = 0; q < quadrants; ++q) {
+      if (!childOf(tree_.layout, parent, q, node[count])) continue;
+      estimate[count] = measured_[quadrants * i + static_cast<std::size_t>(q)];
+      noise[count] = estimate[count].variance;
+      // Leaves that are lit in part were taken off as if they were even.
+      estimate[count].variance.array() += std::pow(unevenness * relative, 2.0f);
+      quadrant[count++] = q;
+    }
+    ColourBlock spread = tree_.spread.block(row, pair);
+    reconcile({tree_.active.block(row, pair), spread.cwiseProduct(spread)}, {estimate.data(), count});
+
+    float scale = tree_.active.scale(row);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (node[k].level > 0 && matters(estimate[k].value, noise[k], strongest, settings_)) {
+        children.set(pair, quadrant[k], codeOf(estimate[k].value, scale));
+        children.activate(pair, quadrant[k], spreadCode(estimate[k].variance, scale));
+        continue;
+      }
+      ColourBlock rounded = estimate[k].value + tree_.rounding[row];
+      Code code = codeOf(rounded, scale);
+      for (std::size_t c = 0; c < 9; ++c) rounded.data()[c] -= scale * static_cast<float>(code[c]);
+      tree_.rounding[row] = rounded;
+      children.set(pair, quadrant[k], code);
+    }
   }
 
   Tree& tree_;
   std::span<const Seen> seen_;
-  int quadrant_;
   const References& references_;
   const AcquisitionSettings& settings_;
-  std::vector<ColourBlock> predicted_;  // as seen_
-  std::array<HdrFrame, 3> frames_;      // per projector channel
+  std::vector<ColourBlock> predicted_;  // as seen_, in the quadrant under way
+  std::vector<Estimate> measured_;      // as seen_, four each
 };
 
 /// Sorts measured children into leaves and the next level's active nodes.
 void adopt(Tree& tree, const Children& children, const References& references) {
   BlockSparseWriter leaves(tree.layout.count(), references.fullScale, children.leaves());
   BlockSparseWriter active(tree.layout.count(), references.fullScale, children.actives());
+  BlockSparseWriter spread(tree.layout.count(), references.fullScale, children.actives());
   for (std::size_t row = 0; row < tree.active.rows(); ++row) {
     for (std::size_t pair = tree.active.rowBegin(row); pair < tree.active.rowBegin(row + 1); ++pair) {
       Node parent = tree.layout.node(tree.active.column(pair));
       for (int quadrant = 0; quadrant < quadrants; ++quadrant) {
         Node child;
         if (!childOf(tree.layout, parent, quadrant, child)) continue;
-        BlockSparseWriter& to = children.active(pair, quadrant) ? active : leaves;
-        to.add(tree.layout.index(child), children.code(pair, quadrant));
+        std::size_t node = tree.layout.index(child);
+        bool divided = children.active(pair, quadrant);
+        (divided ? active : leaves).add(node, children.code(pair, quadrant));
+        if (divided) spread.add(node, children.spread(pair, quadrant));
       }
     }
     leaves.endRow();
     active.endRow();
+    spread.endRow();
   }
   tree.leaves.push_back(leaves.build());
   tree.active = active.build();
+  tree.spread = spread.build();
 }
 
 BlockSparse noPairs(const NodeLayout& layout, const References& references) {
@@ -267,7 +343,12 @@ BlockSparse noPairs(const NodeLayout& layout, const References& references) {
 }  // namespace
 
 Tree emptyTree(const NodeLayout& layout, const References& references) {
-  return {layout, {}, noPairs(layout, references), std::vector<std::uint8_t>(references.fullScale.size(), 0)};
+  return {layout,
+          {},
+          noPairs(layout, references),
+          noPairs(layout, references),
+          std::vector<ColourBlock>(references.fullScale.size(), ColourBlock::Zero()),
+          std::vector<std::uint8_t>(references.fullScale.size(), 0)};
 }
 
 void plantRoots(Tree& tree, int level, const References& references, const AcquisitionSettings& settings) {
@@ -279,27 +360,34 @@ void plantRoots(Tree& tree, int level, const References& references, const Acqui
   std::size_t rows = references.fullScale.size();
   BlockSparseWriter leaves(tree.layout.count(), references.fullScale, rows);
   BlockSparseWriter active(tree.layout.count(), references.fullScale, tree.active.blocks() + rows);
+  BlockSparseWriter spread(tree.layout.count(), references.fullScale, tree.active.blocks() + rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t pair = tree.active.rowBegin(row); pair < tree.active.rowBegin(row + 1); ++pair)
+    for (std::size_t pair = tree.active.rowBegin(row); pair < tree.active.rowBegin(row + 1); ++pair) {
       active.add(tree.active.column(pair), tree.active.code(pair));
+      spread.add(tree.spread.column(pair), tree.spread.code(pair));
+    }
     for (std::size_t projector : ending) {
       if (!references.usable[row]) continue;
       const ColourBlock& value = references.root[projector][row];
       bool divided = level > 0 && matters(value, references.rootVariance[projector][row],
                                           references.strongest[row], settings);
       std::size_t node = tree.layout.index({static_cast<int>(projector), level, 0, 0});
-      (divided ? active : leaves).add(node, codeOf(value, tree.active.scale(row)));
+      float scale = tree.active.scale(row);
+      (divided ? active : leaves).add(node, codeOf(value, scale));
+      if (divided) spread.add(node, spreadCode(references.rootVariance[projector][row], scale));
     }
     leaves.endRow();
     active.endRow();
+    spread.endRow();
   }
   tree.leaves.push_back(leaves.build());
   tree.active = active.build();
+  tree.spread = spread.build();
 }
 
 void stopDividing(Tree& tree) {
-  BlockSparse none = tree.active.filtered([](std::size_t, std::size_t) { return false; });
-  tree.leaves.push_back(std::exchange(tree.active, std::move(none)));
+  tree.spread = tree.active.filtered([](std::size_t, std::size_t) { return false; });
+  tree.leaves.push_back(std::exchange(tree.active, tree.spread));
 }
 
 int patternsOf(const Schedule& schedule, const NodeLayout& layout, int level) {
@@ -320,17 +408,17 @@ void divide(Tree& tree, int level, const Schedule& schedule, Photographer& photo
   require(tree.active.blocks() <= std::numeric_limits<std::uint32_t>::max(), "{} active pairs",
           tree.active.blocks());
   PairsByColour pairs(tree.active, schedule);
-  Children children(tree.active.blocks());
+  Children children(tree.active.blocks(), level > 1);
   double total = patternsOf(schedule, tree.layout, level), done = 0.0;
   for (std::uint32_t colour = 0; colour < schedule.colours; ++colour) {
+    ColourClass blocks(tree, pairs.of(colour), references, settings);
     for (int quadrant = 0; quadrant < quadrants; ++quadrant) {
       std::vector<std::uint8_t> lit = litPixels(schedule, tree.layout, colour, quadrant);
       if (lit.empty()) continue;
-      Quadrant measured(tree, pairs.of(colour), quadrant, references, settings);
-      measured.measure(lit, photographer, progress);
-      measured.extract(children);
+      blocks.measure(quadrant, lit, photographer, progress);
       progress.report((done += 3.0) / total);
     }
+    blocks.settle(children);
   }
   adopt(tree, children, references);
 }

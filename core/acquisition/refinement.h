@@ -12,8 +12,12 @@ namespace relucent {
 /// leaves, which are done, and its active nodes, which are to be divided.
 struct Tree {
   NodeLayout layout;
-  std::vector<BlockSparse> leaves;    // one matrix a level measured, all rows x all nodes, one scale a row
-  BlockSparse active;                 // (camera pixel, node) pairs of the level under way, with their values
+  std::vector<BlockSparse> leaves;  // one matrix a level measured, all rows x all nodes, one scale a row
+  BlockSparse active;               // (camera pixel, node) pairs of the level under way, with their values
+  BlockSparse spread;               // their standard deviations
+  // What rounding the row's leaves has left over so far, handed on to the next: many leaves below half a
+  // code would otherwise all be lost.
+  std::vector<ColourBlock> rounding;
   std::vector<std::uint8_t> unknown;  // per row: some light was too bright for every exposure
 };
 
@@ -32,6 +36,8 @@ int patternsOf(const Schedule& schedule, const NodeLayout& layout, int level);
 /// Measures the children of all active nodes of `level`. One frame lights, in one channel, the same
 /// quadrant of all blocks of a colour; for a camera pixel i that has the block b active,
 ///   child = frame_i - e_i - sum over i's leaves of (value * share of the leaf's block that is lit).
+/// Then the four children and their parent, which was measured a level before, are reconciled by their
+/// variances: sum of children = parent.
 /// A child above tau_i = max(relative * F_i, noise) in any of its nine values becomes active; the others,
 /// and all at level 0, become leaves with their signed value: cutting them off would add energy.
 /// Throws: Error; Cancelled.

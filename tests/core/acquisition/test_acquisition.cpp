@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include <tbb/global_control.h>
+
+#include <QtTest>
+#include <cmath>
+#include <map>
+
+#include "acquisition/acquisition.h"
+#include "base/random.h"
+#include "support/scripted_rig.h"
+#include "transport/difference.h"
+
+using namespace relucent;
+using namespace relucent::test;
+
+namespace {
+
+constexpr double pi = 3.14159265358979;
+
+struct Venue {
+  SyntheticSettings synthetic;
+  double noise = 0.0;  // standard deviation of the read noise; photon noise goes with it
+  double drift = 0.0;
+  double black = 1e-3;
+  std::function<void(const CaptureRequest&)> beforeCapture;
+  std::vector<double> exposures{0.2, 0.05};
+  AcquisitionSettings settings;
+};
+
+/// One run of acquisition in a scripted venue.
+class Run {
+ public:
+  explicit Run(const Venue& venue) : truth(syntheticTransport(exposedWell(venue.synthetic))) {
+    ScriptedCamera camera;
+    camera.bits = venue.noise > 0.0 ? 14 : 0;
+    camera.readNoise = venue.noise;
+    camera.gain = venue.noise / 20.0;
+    camera.pedestal = 0.05;
+    ScriptedSettings scripted;
+    scripted.cameras = {camera};
+    scripted.drift = venue.drift;
+    scripted.beforeCapture = venue.beforeCapture;
+    ScriptedVenue devices(truth, syntheticBlack(truth, venue.black), scripted);
+    rig_ = devices.rig();
+    settings_ = venue.settings;
+    linearization_.exposures = venue.exposures;
+    linearization_.cameras.resize(rig_.cameras.size());
+    for (CameraModel& model : linearization_.cameras) {
+      model.readNoise = std::max(1e-7, venue.noise);
+      model.gain = camera.gain;
+    }
+  }
+  Acquisition operator()(ShotLog& log, Progress progress = {}) {
+    ShotTaker shots(rig_, log, "acquisition");
+    return acquire(shots, linearization_, settings_, progress);
+  }
+  Acquisition operator()() {
+    NoShotLog log;
+    return (*this)(log);
+  }
+
+  TransportMatrix truth;
+
+ private:
+  /// Two projectors and the far field on top of white: still below saturation at 0.05 s.
+  static SyntheticSettings exposedWell(SyntheticSettings synthetic) {
+    synthetic.brightness =
+        16.0 / (1.0 + synthetic.interreflection) / static_cast<double>(synthetic.projectors.size());
+    return synthetic;
+  }
+
+  Rig rig_;
+  Linearization linearization_;
+  AcquisitionSettings settings_;
+};
+
+class MemoryLog : public ShotLog {
+ public:
+  std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override {
+    auto found = shots.find(id.number);
+    if (found == shots.end() || found->second.fingerprint != fingerprint) return std::nullopt;
+    return found->second;
+  }
+  void keep(const Shot& shot) override { shots[shot.id.number] = shot; }
+  std::map<int, Shot> shots;
+};
+
+double relativeError(const Stack& a, const Stack& b) {
+  double apart = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    apart += std::pow(static_cast<double>(a[i]) - static_cast<double>(b[i]), 2);
+    whole += std::pow(static_cast<double>(b[i]), 2);
+  }
+  return std::sqrt(apart / whole);
+}
+
+double energyOf(const TransportMatrix& transport) {
+  double sum = 0.0;
+  for (float value : transport.floodlight()) sum += static_cast<double>(value);
+  return sum;
+}
+
+/// A smooth picture with edges.
+Stack naturalPattern(const Rasters& projectors) {
+  Stack pattern(3 * projectors.count());
+  for (std::size_t device = 0; device < projectors.devices(); ++device) {
+    Size size = projectors.size(device);
+    for (std::size_t i = 0; i < size.count(); ++i) {
+      Pixel at = pixelAt(size, i);
+      double u = 2.0 * pi * at.x / size.width, v = 2.0 * pi * at.y / size.height;
+      for (std::size_t c = 0; c < 3; ++c) {
+        double value =
+            0.5 + 0.3 * std::sin(u + static_cast<double>(c)) * std::cos(2.0 * v) + (u > v ? 0.2 : 0.0);
+        pattern[3 * (projectors.offset(device) + i) + c] = static_cast<float>(value);
+      }
+    }
+  }
+  return pattern;
+}
+
+Stack randomPattern(const Rasters& projectors) {
+  Random random{99};
+  Stack pattern(3 * projectors.count());
+  for (float& value : pattern) value = random.uniformFloat();
+  return pattern;
+}
+
+std::size_t flaggedIn(const Acquisition& acquisition) {
+  return static_cast<std::size_t>(std::count(acquisition.flagged.begin(), acquisition.flagged.end(), 1));
+}
+
+int finestLevel(const TransportMatrix& transport) {
+  int finest = transport.layout().levels();
+  for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry)
+    finest = std::min(finest, transport.layout().node(transport.leaves().column(entry)).level);
+  return finest;
+}
+
+Venue smallVenue() {
+  Venue venue;
+  venue.synthetic.projectors = {{29, 19}};
+  venue.synthetic.cameras = {{20, 15}};
+  venue.synthetic.interreflection = 0.2;
+  return venue;
+}
+
+QString shown(const Acquisition& a, const TransportMatrix& truth) {
+  return QString(
+             "frobenius %1, energy %2, unresolved %3, verification %4, %5 patterns, %6 exposures, %7 flagged")
+      .arg(difference(a.transport, truth).frobenius)
+      .arg(energyOf(a.transport) / energyOf(truth) - 1.0)
+      .arg(a.unresolvedEnergy)
+      .arg(a.verificationError)
+      .arg(a.patterns)
+      .arg(a.exposures)
+      .arg(flaggedIn(a));
+}
+
+}  // namespace
+
+class TestAcquisition : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void noiselessRecoveryIsExact_data() {
+    QTest::addColumn<QList<QSize>>("projectors");
+    QTest::addColumn<QList<QSize>>("cameras");
+    QTest::addColumn<double>("interreflection");
+    QTest::newRow("powers of two") << QList<QSize>{{32, 32}} << QList<QSize>{{16, 16}} << 0.0;
+    QTest::newRow("odd sizes, far field") << QList<QSize>{{29, 19}} << QList<QSize>{{20, 15}} << 0.3;
+    QTest::newRow("a row of pixels") << QList<QSize>{{17, 2}} << QList<QSize>{{9, 3}} << 0.0;
+    QTest::newRow("two projectors, two cameras")
+        << QList<QSize>{{24, 16}, {9, 13}} << QList<QSize>{{12, 9}, {7, 10}} << 0.2;
+  }
+  /// What stays is the threshold: a leaf above pixels holds at most tau, which its block may hold unevenly.
+  /// With at most some dozen such leaves a row (three a level), each wrong by tau at most, and a row's
+  /// norm about F over its footprint: 40 * tau / (F / 4) = 160 times the relative threshold.
+  void noiselessRecoveryIsExact() {
+    QFETCH(QList<QSize>, projectors);
+    QFETCH(QList<QSize>, cameras);
+    QFETCH(double, interreflection);
+    Venue venue;
+    venue.synthetic.projectors.clear();
+    venue.synthetic.cameras.clear();
+    for (QSize size : projectors) venue.synthetic.projectors.push_back({size.width(), size.height()});
+    for (QSize size : cameras) venue.synthetic.cameras.push_back({size.width(), size.height()});
+    venue.synthetic.interreflection = interreflection;
+    venue.settings.relativeThreshold = 1e-4;
+    venue.settings.references = 1;
+    Run run(venue);
+    Acquisition a = run();
+    QVERIFY2(difference(a.transport, run.truth).frobenius < 160 * 1e-4, qPrintable(shown(a, run.truth)));
+    QVERIFY2(a.verificationError < 160 * 1e-4, qPrintable(shown(a, run.truth)));
+    QVERIFY2(std::abs(a.unresolvedEnergy) < 1e-3, qPrintable(shown(a, run.truth)));
+    QVERIFY(relativeError(a.flood, run.truth.floodlight()) < 1e-4);
+    QCOMPARE(flaggedIn(a), std::size_t{0});
+    QVERIFY(a.findings.empty());
+  }
+
+  void noiseAndThresholdBoundTheError_data() {
+    QTest::addColumn<double>("noise");
+    QTest::addColumn<double>("interreflection");
+    QTest::newRow("quiet") << 2e-4 << 0.0;
+    QTest::newRow("quiet, far field") << 2e-4 << 0.3;
+    QTest::newRow("noisy, far field") << 2e-3 << 0.3;
+  }
+  /// Per value the noise of a frame against its light: sigma / (t F), the bright pixels' F t being about 0.3;
+  /// a row sums some dozen values. To that comes the threshold, a few times 0.008.
+  void noiseAndThresholdBoundTheError() {
+    QFETCH(double, noise);
+    QFETCH(double, interreflection);
+    Venue venue = smallVenue();
+    venue.noise = noise;
+    venue.synthetic.interreflection = interreflection;
+    Run run(venue);
+    Acquisition a = run();
+    double bound = 0.03 + 30.0 * noise;
+    QVERIFY2(difference(a.transport, run.truth).frobenius < bound, qPrintable(shown(a, run.truth)));
+    QVERIFY2(a.verificationError < bound, qPrintable(shown(a, run.truth)));
+    for (const Stack& pattern :
+         {naturalPattern(run.truth.projectors()), randomPattern(run.truth.projectors())}) {
+      double error = relativeError(a.transport.apply(pattern), run.truth.apply(pattern));
+      QVERIFY2(error < bound, qPrintable(QString("relighting %1; ").arg(error) + shown(a, run.truth)));
+    }
+  }
+
+  void energyIsUnbiased_data() {
+    QTest::addColumn<double>("interreflection");
+    QTest::addColumn<double>("threshold");
+    QTest::newRow("no far field") << 0.0 << 0.008;
+    QTest::newRow("far field") << 0.3 << 0.008;
+    QTest::newRow("strong far field") << 1.5 << 0.008;
+    QTest::newRow("strong far field, coarse") << 1.5 << 0.03;
+  }
+  /// 300 pixels with a noise of some per cent each: the mean is known to a few tenths of a per cent.
+  void energyIsUnbiased() {
+    QFETCH(double, interreflection);
+    QFETCH(double, threshold);
+    Venue venue = smallVenue();
+    venue.noise = 1e-3;
+    venue.synthetic.interreflection = interreflection;
+    venue.settings.relativeThreshold = threshold;
+    Run run(venue);
+    Acquisition a = run();
+    QVERIFY2(std::abs(energyOf(a.transport) / energyOf(run.truth) - 1.0) < 0.01,
+             qPrintable(shown(a, run.truth)));
+    QVERIFY2(std::abs(a.unresolvedEnergy) < 0.01, qPrintable(shown(a, run.truth)));
+  }
+
+  void killedAtAnyShotAndResumedIsIdentical_data() {
+    QTest::addColumn<int>("shot");
+    for (int shot : {0, 5, 40, 100}) QTest::addRow("shot %d", shot) << shot;
+  }
+  void killedAtAnyShotAndResumedIsIdentical() {
+    QFETCH(int, shot);
+    Venue venue = smallVenue();
+    venue.noise = 1e-3;
+    Acquisition whole = Run(venue)();
+
+    struct Silent : ProgressSink {
+      void progressed(double, std::string_view) override {}
+    } sink;
+    StopRequest stop;
+    MemoryLog log;
+    Venue killed = venue;
+    killed.beforeCapture = [&](const CaptureRequest& request) {
+      if (request.shot.number == shot) stop.ask(StopRequest::Kind::cancel);
+    };
+    Run first(killed);
+    QVERIFY_EXCEPTION_THROWN(first(log, Progress(sink, stop)), Cancelled);
+    QVERIFY(static_cast<int>(log.shots.size()) <= shot + 1);
+
+    int taken = 0;
+    Venue resumed = venue;
+    resumed.beforeCapture = [&](const CaptureRequest& request) { taken += request.exposure == 0; };
+    Acquisition again = Run(resumed)(log);
+    QVERIFY(again.transport.leaves() == whole.transport.leaves());
+    QVERIFY(again.black == whole.black && again.flood == whole.flood && again.flagged == whole.flagged);
+    QCOMPARE(again.patterns, whole.patterns);
+    QCOMPARE(again.exposures, whole.exposures);
+    QVERIFY(taken >= whole.patterns - shot - 1 && taken <= whole.patterns);
+  }
+
+  void stopAndKeepIsAValidCoarserTransport_data() {
+    QTest::addColumn<QString>("stage");
+    QTest::newRow("before the tree") << "black";
+    QTest::newRow("in level 1") << "level 1";
+    QTest::newRow("in level 3") << "level 3";
+  }
+  void stopAndKeepIsAValidCoarserTransport() {
+    QFETCH(QString, stage);
+    Venue venue = smallVenue();
+    venue.synthetic.projectors.push_back({5, 3});  // its tree begins later
+    Run run(venue);
+    Acquisition whole = run();
+
+    struct Sink : ProgressSink {
+      void progressed(double fraction, std::string_view name) override {
+        if (QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).startsWith(stage))
+          stop->ask(StopRequest::Kind::keep);
+        ordered = ordered && fraction >= last;
+        last = fraction;
+      }
+      QString stage;
+      StopRequest* stop = nullptr;
+      double last = 0.0;
+      bool ordered = true;
+    } sink;
+    StopRequest stop;
+    sink.stage = stage;
+    sink.stop = &stop;
+    NoShotLog log;
+    Acquisition kept = run(log, Progress(sink, stop));
+    QVERIFY(kept.patterns < whole.patterns);
+    QVERIFY(finestLevel(kept.transport) > finestLevel(whole.transport));
+    QVERIFY2(std::abs(kept.unresolvedEnergy) < 0.01, qPrintable(shown(kept, run.truth)));
+    QVERIFY(difference(kept.transport, run.truth).frobenius >
+            difference(whole.transport, run.truth).frobenius);
+    QVERIFY(sink.ordered);
+    QVERIFY(sink.last > 0.999);
+  }
+
+  void resultsAreTheSameForEveryNumberOfThreads() {
+    Venue venue = smallVenue();
+    venue.noise = 1e-3;
+    Acquisition many = Run(venue)();
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    Acquisition one = Run(venue)();
+    QVERIFY(one.transport.leaves() == many.transport.leaves());
+    QVERIFY(one.flagged == many.flagged);
+  }
+
+  void whatIsOverexposedIsFlaggedAndNeverStored() {
+    Venue venue = smallVenue();
+    venue.exposures = {0.2};
+    Run run(venue);
+    Acquisition a = run();
+    std::size_t empty = 0;
+    for (std::size_t row = 0; row < a.flagged.size(); ++row) {
+      if (a.transport.leaves().rowBegin(row) != a.transport.leaves().rowBegin(row + 1)) continue;
+      ++empty;
+      QVERIFY(a.flagged[row]);
+    }
+    QVERIFY(empty > 0 && empty < a.flagged.size());
+    QVERIFY(!a.findings.empty());
+    QVERIFY(QString::fromStdString(a.findings.front()).contains("overexposed"));
+  }
+
+  void driftIsFound() {
+    Venue venue = smallVenue();
+    venue.drift = -0.3;
+    Acquisition a = Run(venue)();
+    QVERIFY(!a.findings.empty());
+    QVERIFY2(QString::fromStdString(a.findings.front()).contains("light changed"),
+             a.findings.front().c_str());
+  }
+
+  void settingsAreChecked() {
+    QVERIFY(problems(AcquisitionSettings{}).empty());
+    AcquisitionSettings wrong;
+    wrong.relativeThreshold = 0.0;
+    wrong.noiseSigmas = -1.0;
+    wrong.references = 0;
+    wrong.verificationPatterns = -1;
+    wrong.dimShare = 2.0;
+    wrong.flagSigmas = 0.0;
+    QCOMPARE(problems(wrong).size(), std::size_t{6});
+    Venue venue = smallVenue();
+    venue.settings = wrong;
+    Run run(venue);
+    QVERIFY_EXCEPTION_THROWN(run(), std::logic_error);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestAcquisition)
+#include "test_acquisition.moc"

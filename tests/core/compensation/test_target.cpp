@@ -99,6 +99,22 @@ class TestTarget : public QObject {
              qPrintable(QString("%1 %2").arg(placedMean / inside).arg(mean)));
   }
 
+  /// A ramp's mean over any area is its value in the middle, so each pixel must show its own place.
+  void everythingIsInItsPlace() {
+    Image ramp({240, 240}, 3);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 240; ++x) {
+        ramp.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / 240.0f;
+        ramp.at(x, y, 1) = (static_cast<float>(y) + 0.5f) / 240.0f;
+      }
+    Placed placed = place(ramp, uprightCorners(4, 6, 24, 20), {32, 32});
+    for (int y = 7; y < 25; ++y)
+      for (int x = 5; x < 27; ++x) {
+        QVERIFY(std::abs(placed.image.at(x, y, 0) - (static_cast<float>(x) - 3.5f) / 24.0f) < 1e-4f);
+        QVERIFY(std::abs(placed.image.at(x, y, 1) - (static_cast<float>(y) - 5.5f) / 20.0f) < 1e-4f);
+      }
+  }
+
   void greyStaysGreyAndWhiteIsReachable_data() {
     QTest::addColumn<double>("percentile");
     for (double percentile : {0.0, 15.0, 50.0}) QTest::addRow("%g", percentile) << percentile;

@@ -18,7 +18,9 @@ constexpr std::array<std::pair<Method, std::string_view>, 6> methodNames{{{Metho
                                                                           {Method::refined, "refined"},
                                                                           {Method::optimum, "optimum"}}};
 
-float clamp01(float value) { return std::clamp(value, 0.0f, 1.0f); }
+float clamp01(float value) {
+  return std::clamp(value, 0.0f, 1.0f);
+}
 
 Stack difference(const Stack& a, const Stack& b) {
   Stack result(a.size());
@@ -67,6 +69,7 @@ std::optional<Method> methodFromName(std::string_view name) {
 
 std::vector<std::string> problems(const CompensatorSettings& settings) {
   std::vector<std::string> found = problems(settings.optimum);
+  if (settings.corrections < 0) found.push_back("the corrections of the windows cannot be fewer than none");
   for (float step : settings.steps)
     if (!(step > 0.0f)) found.push_back("the steps of the refined method must be above 0");
   return found;
@@ -112,14 +115,16 @@ std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transpo
   return brightest;
 }
 
-Compensator::Compensator(const MeasuredVenue& venue, const WindowInverse& inverse, CompensatorSettings settings)
+Compensator::Compensator(const MeasuredVenue& venue, const WindowInverse& inverse,
+                         CompensatorSettings settings)
     : venue_(venue),
       inverse_(inverse),
       settings_(std::move(settings)),
       brightest_(brightestCorrespondence(venue.transport, venue.usable)),
       mixing_(venue.transport.rowSums()) {
-  require(inverse.cameras() == venue.transport.cameras() && inverse.projectors() == venue.transport.projectors(),
-          "the inverse belongs to another venue");
+  require(
+      inverse.cameras() == venue.transport.cameras() && inverse.projectors() == venue.transport.projectors(),
+      "the inverse belongs to another venue");
   auto wrong = problems(settings_);
   require(wrong.empty(), "compensator settings: {}", fmt::join(wrong, "; "));
 }
@@ -153,8 +158,21 @@ Stack Compensator::perPixel(Method method, const Target& target) const {
   return p;
 }
 
-Stack Compensator::windows(const Target& target) const {
-  return inverse_.apply(difference(target.wanted, venue_.black));
+Compensation Compensator::windows(const Target& target, const std::vector<std::uint8_t>& free,
+                                  const Progress& progress) const {
+  Stack wantedLessBlack = difference(target.wanted, venue_.black);
+  Compensation result;
+  result.projector = inverse_.apply(wantedLessBlack);
+  result.clipped = finish(result.projector, free);
+  for (; result.iterations < settings_.corrections; ++result.iterations) {
+    progress.checkpoint();
+    Stack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
+    parallelFor(0, residual.size(), 4096, [&](std::size_t i) { residual[i] *= target.weight[i / 3]; });
+    Stack change = inverse_.apply(residual);
+    parallelFor(0, change.size(), 4096, [&](std::size_t j) { result.projector[j] += change[j]; });
+    result.clipped = finish(result.projector, free);
+  }
+  return result;
 }
 
 Compensation Compensator::solve(Method method, const Target& target, Progress& progress) const {
@@ -169,14 +187,13 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
     return result;
   }
 
-  result.projector = windows(target);
-  result.clipped = finish(result.projector, free);
+  result = windows(target, free, progress);
   Stack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{venue_.transport, wantedLessBlack, target.weight, free};
   if (method == Method::refined) {
     Stack c = diagonalPreconditioner(problem);
     for (float step : settings_.steps) {
-      progress.report(static_cast<double>(result.iterations) / static_cast<double>(settings_.steps.size()));
+      progress.checkpoint();
       Stack g = gradient(problem, result.projector);
       parallelFor(0, g.size(), 4096, [&](std::size_t j) { result.projector[j] -= step * c[j] * g[j]; });
       result.clipped = finish(result.projector, free);
@@ -186,7 +203,7 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   if (method == Method::optimum) {
     SolveResult solved = solveConstrained(problem, result.projector, settings_.optimum, progress);
     result.projector = std::move(solved.x);
-    result.iterations = solved.iterations;
+    result.iterations += solved.iterations;
   }
   progress.report(1.0);
   return result;

@@ -26,6 +26,7 @@ std::string_view toString(Method method);
 std::optional<Method> methodFromName(std::string_view name);
 
 struct CompensatorSettings {
+  int corrections = 1;                      // times that `windows` sends its error through T and M again
   std::vector<float> steps = {1.0f, 3.0f};  // a_k of `refined`
   SolverSettings optimum;
 };
@@ -33,9 +34,9 @@ std::vector<std::string> problems(const CompensatorSettings& settings);
 
 /// What to project.
 struct Compensation {
-  Stack projector;      // linear drive, 0 to 1
-  double clipped = 0;   // share of the content's projector values that the projector's limits cut off
-  int iterations = 0;   // products with T and T^T that it took, in pairs
+  Stack projector;     // linear drive, 0 to 1
+  double clipped = 0;  // share of the content's projector values that the projector's limits cut off
+  int iterations = 0;  // products with T and T^T that it took, in pairs
 };
 
 /// Turns targets into projector images. Prepared once for a venue.
@@ -50,7 +51,9 @@ class Compensator {
   ///   none     content at i*(j) as drive: geometric warp only
   ///   scalar   (o - e) / flood at i*(j), channel by channel                    [Bimber et al. 2005]
   ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
-  ///   windows  clamp01(M (o - e))
+  ///   windows  p = clamp01(M (o - e)), then `corrections` times p <- clamp01(p + M W (o - e - T p)): a
+  ///   window knows
+  ///            the light of its own neighbourhood, T that of the whole venue
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does.
@@ -61,7 +64,9 @@ class Compensator {
 
  private:
   Stack perPixel(Method method, const Target& target) const;
-  Stack windows(const Target& target) const;
+  /// Projects what windows() and its corrections give; `free`: projector pixels of the content.
+  Compensation windows(const Target& target, const std::vector<std::uint8_t>& free,
+                       const Progress& progress) const;
 
   const MeasuredVenue& venue_;
   const WindowInverse& inverse_;
@@ -71,7 +76,8 @@ class Compensator {
 };
 
 /// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,
-/// sum over all channels. Leaves below 1 % of their row's brightest do not count: far-field light has no place.
+/// sum over all channels. Leaves below 1 % of their row's brightest do not count: far-field light has no
+/// place.
 std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
                                                   const std::vector<std::uint8_t>& usable);
 

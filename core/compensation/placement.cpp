@@ -24,14 +24,17 @@ class MaskSums {
                                   sums_[at(x + 1, y)] - sums_[at(x, y)];
   }
   int count(int x, int y, int width, int height) const {
-    return sums_[at(x + width, y + height)] - sums_[at(x, y + height)] - sums_[at(x + width, y)] + sums_[at(x, y)];
+    return sums_[at(x + width, y + height)] - sums_[at(x, y + height)] - sums_[at(x + width, y)] +
+           sums_[at(x, y)];
   }
   bool mostlyUsable(int x, int y, int width, int height) const {
     return count(x, y, width, height) >= usableShare * width * height;
   }
 
  private:
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x); }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
   int width_;
   std::vector<int> sums_;
 };
@@ -114,7 +117,8 @@ std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, S
     for (int y = 0; y + height <= size.height; ++y) {
       for (int x = 0; x + width <= size.width; ++x) {
         if (!sums.mostlyUsable(x, y, width, height) || !sums.mostlyUsable(x, y, width, strip) ||
-            !sums.mostlyUsable(x, y + height - strip, width, strip) || !sums.mostlyUsable(x, y, strip, height) ||
+            !sums.mostlyUsable(x, y + height - strip, width, strip) ||
+            !sums.mostlyUsable(x, y, strip, height) ||
             !sums.mostlyUsable(x + width - strip, y, strip, height))
           continue;
         int count = sums.count(x, y, width, height);
@@ -137,7 +141,9 @@ Placed place(const Image& content, const Corners& corners, Size view) {
   // Content pixels along one view pixel at the quadrilateral's most crowded side.
   double acrossView = std::min(edge(corners[0], corners[1]), edge(corners[3], corners[2]));
   double downView = std::min(edge(corners[0], corners[3]), edge(corners[1], corners[2]));
-  auto crowding = [&](const Image& image) { return std::max(image.width() / acrossView, image.height() / downView); };
+  auto crowding = [&](const Image& image) {
+    return std::max(image.width() / acrossView, image.height() / downView);
+  };
   Image source = content;
   while (crowding(source) > 8.0 && source.width() > 1 && source.height() > 1) source = halved(source);
   int samples = std::clamp(static_cast<int>(std::ceil(2.0 * crowding(source))), 2, 16);
@@ -151,7 +157,8 @@ Placed place(const Image& content, const Corners& corners, Size view) {
     int y = static_cast<int>(row);
     for (int x = 0; x < view.width; ++x) {
       Eigen::Vector3d centre = contentFromView * Eigen::Vector3d(x + 0.5, y + 0.5, 1.0);
-      if (!(centre[2] > 0.0) || centre[0] < 0.0 || centre[1] < 0.0 || centre[0] > centre[2] || centre[1] > centre[2])
+      if (!(centre[2] > 0.0) || centre[0] < 0.0 || centre[1] < 0.0 || centre[0] > centre[2] ||
+          centre[1] > centre[2])
         continue;
       std::size_t index = indexOf(view, {x, y});
       placed.inside[index] = 1;

@@ -25,9 +25,9 @@ bool isConvex(const Corners& corners);
 /// Contract: isConvex(corners).
 Eigen::Matrix3d unitSquareFrom(const Corners& corners);
 
-/// The largest upright rectangle of shape `aspect` (width / height) that lies in usable pixels. Small holes do
-/// not count: 90 % of the rectangle, and 90 % of a strip along each of its sides, must be usable. Of equally
-/// large ones the one with most usable pixels, then the one nearest to the middle of the view.
+/// The largest upright rectangle of shape `aspect` (width / height) that lies in usable pixels. Small holes
+/// do not count: 90 % of the rectangle, and 90 % of a strip along each of its sides, must be usable. Of
+/// equally large ones the one with most usable pixels, then the one nearest to the middle of the view.
 /// Nothing if no rectangle at least 4 pixels high fits.
 std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, Size size, double aspect);
 

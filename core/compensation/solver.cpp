@@ -32,7 +32,21 @@ Stack stackOf(std::size_t count, const Value& value) {
   return stack;
 }
 
-float clamp01(float value) { return std::clamp(value, 0.0f, 1.0f); }
+float clamp01(float value) {
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
+/// grad f from T x.
+Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit) {
+  Stack residual = stackOf(lit.size(), [&](std::size_t i) {
+    return problem.weight[i / 3] * (lit[i] - problem.wantedLessBlack[i]);
+  });
+  Stack g = problem.transport.applyTransposed(residual);
+  parallelFor(0, g.size(), 4096, [&](std::size_t j) {
+    if (!problem.free[j / 3]) g[j] = 0.0f;
+  });
+  return g;
+}
 
 /// Products with T and sums that both algorithms need, in the metric of the preconditioner.
 class Iteration {
@@ -57,25 +71,18 @@ class Iteration {
       return 0.5 * static_cast<double>(problem_.weight[i / 3]) * r * r;
     });
     if (!std::isfinite(f))
-      throw Error(ErrorKind::numerics, "the light transport or the wanted image holds values that are not finite",
+      throw Error(ErrorKind::numerics,
+                  "the light transport or the wanted image holds values that are not finite",
                   "measure the venue again");
     return f;
   }
   /// grad f from T x.
-  Stack gradientAt(const Stack& lit) const {
-    Stack residual = stackOf(lit.size(), [&](std::size_t i) {
-      return problem_.weight[i / 3] * (lit[i] - problem_.wantedLessBlack[i]);
-    });
-    Stack g = problem_.transport.applyTransposed(residual);
-    parallelFor(0, g.size(), 4096, [&](std::size_t j) {
-      if (!problem_.free[j / 3]) g[j] = 0.0f;
-    });
-    return g;
-  }
+  Stack gradientAt(const Stack& lit) const { return gradientFrom(problem_, lit); }
   /// clamp01(x - step C g).
   Stack projectedStep(const Stack& x, const Stack& g, double step) const {
     auto length = static_cast<float>(step);
-    return stackOf(x.size(), [&](std::size_t j) { return clamp01(x[j] - length * preconditioner_[j] * g[j]); });
+    return stackOf(x.size(),
+                   [&](std::size_t j) { return clamp01(x[j] - length * preconditioner_[j] * g[j]); });
   }
   /// <a - b, C^-1 (c - d)>.
   double metric(const Stack& a, const Stack& b, const Stack& c, const Stack& d) const {
@@ -108,7 +115,8 @@ class Iteration {
 };
 
 /// Progress of something that ends when a norm has fallen below a tolerance or after so many steps.
-void reportDescent(Progress& progress, double norm, double firstNorm, int iteration, const SolverSettings& settings) {
+void reportDescent(Progress& progress, double norm, double firstNorm, int iteration,
+                   const SolverSettings& settings) {
   double fallen = 0.0;
   if (firstNorm > settings.tolerance && norm > 0.0)
     fallen = std::log(firstNorm / norm) / std::log(firstNorm / settings.tolerance);
@@ -117,7 +125,8 @@ void reportDescent(Progress& progress, double norm, double firstNorm, int iterat
 }
 
 /// Beck & Teboulle's FISTA in the metric of C, restarted where momentum points uphill (O'Donoghue & Candes).
-SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings, Progress& progress) {
+SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings,
+                       Progress& progress) {
   SolveResult result;
   Stack x = at.feasible(start), lit = at.light(x);
   Stack y = x, litY = lit;
@@ -128,7 +137,8 @@ SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSett
     if (result.iterations == 0) firstNorm = norm;
     result.converged = norm <= settings.tolerance;
 
-    // The bound of one holds for transport without negative entries; measured noise may ask for a little more.
+    // The bound of one holds for transport without negative entries; measured noise may ask for a little
+    // more.
     Stack next, litNext;
     for (;; bound *= 1.5) {
       next = at.projectedStep(y, g, 1.0 / bound);
@@ -139,7 +149,8 @@ SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSett
     double tNext = uphill ? 1.0 : 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     auto momentum = static_cast<float>(uphill ? 0.0 : (t - 1.0) / tNext);
     y = stackOf(next.size(), [&](std::size_t j) { return next[j] + momentum * (next[j] - x[j]); });
-    litY = stackOf(litNext.size(), [&](std::size_t i) { return litNext[i] + momentum * (litNext[i] - lit[i]); });
+    litY =
+        stackOf(litNext.size(), [&](std::size_t i) { return litNext[i] + momentum * (litNext[i] - lit[i]); });
     x = std::move(next);
     lit = std::move(litNext);
     t = tNext;
@@ -150,8 +161,8 @@ SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSett
   return result;
 }
 
-/// Barzilai & Borwein's step lengths along the projected gradient (Birgin, Martinez & Raydan); f is quadratic,
-/// so the best point of every step is known in closed form and f never rises.
+/// Barzilai & Borwein's step lengths along the projected gradient (Birgin, Martinez & Raydan); f is
+/// quadratic, so the best point of every step is known in closed form and f never rises.
 SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const SolverSettings& settings,
                                  Progress& progress) {
   SolveResult result;
@@ -189,11 +200,12 @@ SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const 
 }
 
 void checkShapes(const ConstrainedProblem& problem) {
-  std::size_t cameras = problem.transport.cameras().count(), projectors = problem.transport.projectors().count();
+  std::size_t cameras = problem.transport.cameras().count(),
+              projectors = problem.transport.projectors().count();
   require(problem.wantedLessBlack.size() == 3 * cameras && problem.weight.size() == cameras &&
               problem.free.size() == projectors,
-          "{} values, {} weights and {} flags for {} camera and {} projector pixels", problem.wantedLessBlack.size(),
-          problem.weight.size(), problem.free.size(), cameras, projectors);
+          "{} values, {} weights and {} flags for {} camera and {} projector pixels",
+          problem.wantedLessBlack.size(), problem.weight.size(), problem.free.size(), cameras, projectors);
 }
 
 }  // namespace
@@ -207,9 +219,8 @@ std::vector<std::string> problems(const SolverSettings& settings) {
 
 Stack diagonalPreconditioner(const ConstrainedProblem& problem) {
   checkShapes(problem);
-  Stack lit = problem.transport.apply(stackOf(3 * problem.free.size(), [&](std::size_t j) {
-    return problem.free[j / 3] ? 1.0f : 0.0f;
-  }));
+  Stack lit = problem.transport.apply(
+      stackOf(3 * problem.free.size(), [&](std::size_t j) { return problem.free[j / 3] ? 1.0f : 0.0f; }));
   Stack row = stackOf(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; });
   Stack bound = problem.transport.applyTransposed(row);
   float largest = *std::max_element(bound.begin(), bound.end());
@@ -221,16 +232,16 @@ Stack diagonalPreconditioner(const ConstrainedProblem& problem) {
 
 Stack gradient(const ConstrainedProblem& problem, const Stack& p) {
   checkShapes(problem);
-  return Iteration(problem).gradientAt(problem.transport.apply(p));
+  return gradientFrom(problem, problem.transport.apply(p));
 }
 
-SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
-                             Progress& progress) {
+SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
+                             const SolverSettings& settings, Progress& progress) {
   auto wrong = problems(settings);
   require(wrong.empty(), "solver settings: {}", fmt::join(wrong, "; "));
   checkShapes(problem);
-  require(start.size() == 3 * problem.free.size(), "a start of {} values for {} projector pixels", start.size(),
-          problem.free.size());
+  require(start.size() == 3 * problem.free.size(), "a start of {} values for {} projector pixels",
+          start.size(), problem.free.size());
 
   Iteration at(problem);
   SolveResult result = settings.algorithm == SolverSettings::Algorithm::fista

@@ -14,9 +14,9 @@ namespace relucent {
 ///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= 1,   b = wanted - e.
 struct ConstrainedProblem {
   const TransportMatrix& transport;
-  const Stack& wantedLessBlack;            // b, camera stack
-  const std::vector<float>& weight;        // w per camera pixel
-  const std::vector<std::uint8_t>& free;   // per projector pixel: 0 is held at 0
+  const Stack& wantedLessBlack;           // b, camera stack
+  const std::vector<float>& weight;       // w per camera pixel
+  const std::vector<std::uint8_t>& free;  // per projector pixel: 0 is held at 0
 };
 
 struct SolverSettings {
@@ -26,7 +26,7 @@ struct SolverSettings {
   };
   Algorithm algorithm = Algorithm::fista;
   int mostIterations = 200;
-  double tolerance = 1e-3;  // of the projected gradient, see SolveResult
+  double tolerance = 5e-4;  // of the projected gradient, see SolveResult
 };
 std::vector<std::string> problems(const SolverSettings& settings);
 
@@ -49,7 +49,7 @@ Stack gradient(const ConstrainedProblem& problem, const Stack& p);
 
 /// Solves from `start` (clamped first). Never ends worse than it began. Stop and keep: the best so far.
 /// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite.
-SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
-                             Progress& progress);
+SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
+                             const SolverSettings& settings, Progress& progress);
 
 }  // namespace relucent

@@ -10,13 +10,16 @@
 namespace relucent {
 namespace {
 
-Size firstCamera(const MeasuredVenue& venue) { return venue.transport.cameras().size(0); }
+Size firstCamera(const MeasuredVenue& venue) {
+  return venue.transport.cameras().size(0);
+}
 
 void checkShapes(const Image& content, const MeasuredVenue& venue) {
   std::size_t pixels = venue.transport.cameras().count();
-  require(venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels && venue.usable.size() == pixels,
-          "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(), venue.flood.size(),
-          venue.usable.size(), pixels);
+  require(
+      venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels && venue.usable.size() == pixels,
+      "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(), venue.flood.size(),
+      venue.usable.size(), pixels);
   require(!content.empty() && content.channels() == 3, "content of {} channels; three are needed",
           content.channels());
 }
@@ -40,7 +43,8 @@ float whiteLevel(const MeasuredVenue& venue, const std::vector<std::uint8_t>& in
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (!inside[i] || !venue.usable[i]) continue;
     float least = venue.flood[3 * i] + venue.black[3 * i];
-    for (std::size_t c = 1; c < 3; ++c) least = std::min(least, venue.flood[3 * i + c] + venue.black[3 * i + c]);
+    for (std::size_t c = 1; c < 3; ++c)
+      least = std::min(least, venue.flood[3 * i + c] + venue.black[3 * i + c]);
     brightest.push_back(least);
   }
   if (brightest.empty())
@@ -113,7 +117,8 @@ Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const T
     wanted = white * (lift + (1.0f - lift) * (mixing * content).array());
     if (!venue.usable[i]) return;
     Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&venue.flood[3 * i]);
-    bool reachable = (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();
+    bool reachable =
+        (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();
     target.reachable[i] = reachable;
     target.weight[i] = reachable ? 1.0f : static_cast<float>(settings.unreachableWeight);
   });

@@ -36,9 +36,9 @@ struct Target {
   Stack wanted;                         // camera signal per second; e outside
   std::vector<std::uint8_t> inside;     // per camera pixel: the content covers it
   std::vector<std::uint8_t> reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
-  std::vector<float> weight;            // per camera pixel: 1 inside, less where unreachable, 0 where of no use
-  std::array<float, 3> white{};         // wanted signal of the content's white: the peak for PSNR
-  Corners corners{};                    // where the content was placed
+  std::vector<float> weight;     // per camera pixel: 1 inside, less where unreachable, 0 where of no use
+  std::array<float, 3> white{};  // wanted signal of the content's white: the peak for PSNR
+  Corners corners{};             // where the content was placed
 };
 
 /// K: how the venue mixes the projector's colours on average,
@@ -48,8 +48,8 @@ ColourBlock meanColourMixing(const MeasuredVenue& venue);
 
 /// Places and scales linear content (three channels, values 0 to 1) into what the first camera should see:
 ///   wanted = white * (lift + (1 - lift) K content).
-/// White is the same signal in all channels: as bright as `reachablePercentile` allows, that is so bright that
-/// this share of the usable pixels inside cannot show it (their T 1 + e lies below it in some channel).
+/// White is the same signal in all channels: as bright as `reachablePercentile` allows, that is so bright
+/// that this share of the usable pixels inside cannot show it (their T 1 + e lies below it in some channel).
 /// Source: core/compensation/README.md.
 /// Throws: Error{input} if no part of the view is lit or the corners enclose nothing usable.
 Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings);

@@ -12,9 +12,9 @@
 namespace relucent {
 
 struct WindowSettings {
-  int tile = 4;         // side of a tile of projector pixels, 4 or 8
-  int rows = 48;        // camera pixels of a window: those that see the tile strongest
-  double ridge = 0.25;  // lambda as a share of the mean diagonal of G
+  int tile = 4;        // side of a tile of projector pixels, 4 or 8
+  int rows = 48;       // camera pixels of a window: those that see the tile strongest
+  double ridge = 0.4;  // lambda as a share of the mean diagonal of G
 };
 std::vector<std::string> problems(const WindowSettings& settings);
 
@@ -22,7 +22,7 @@ std::vector<std::string> problems(const WindowSettings& settings);
 /// camera pixels that see it strongest; the windows of neighbouring tiles overlap.
 ///   p_tile = M_tile U r,   M_tile = T_J^T (G_WW + lambda I)^-1,   G = T_W T_W^T
 /// U unmixes the colours of every camera pixel by its own 3x3 mixing, after which each colour channel is a
-/// scalar system of its own. Rows of M are scaled so that the inverse of the flood image T 1 is white.
+/// scalar system of its own. M is the ridge estimate under an unknown mean: the flood image T 1 gives white.
 /// Storage: 16-bit fixed point, 6 bytes for each projector pixel and row of its window.
 /// Immutable; made by computeWindows().  Source: core/inverse/README.md.
 class WindowInverse {
@@ -50,11 +50,11 @@ class WindowInverse {
   Rasters projectors_;
   Rasters tiles_;
   int tile_ = 0;
-  std::vector<float> unmix_;             // 3x3 a camera pixel, row-major
-  std::vector<std::size_t> tileStart_;   // window rows of tile t: [tileStart_[t], tileStart_[t + 1])
-  std::vector<std::uint32_t> row_;       // camera pixel of a window row
-  std::vector<std::int16_t> weight_;     // [window row][channel][pixel of the tile]
-  std::vector<float> scale_;             // [tile][channel]: weight = scale * code
+  std::vector<float> unmix_;            // 3x3 a camera pixel, row-major
+  std::vector<std::size_t> tileStart_;  // window rows of tile t: [tileStart_[t], tileStart_[t + 1])
+  std::vector<std::uint32_t> row_;      // camera pixel of a window row
+  std::vector<std::int16_t> weight_;    // [window row][channel][pixel of the tile]
+  std::vector<float> scale_;            // [tile][channel]: weight = scale * code
 };
 
 /// Computes all windows.
@@ -62,7 +62,7 @@ class WindowInverse {
 ///  2. Every row's near field: the leaves, of whatever level, that are bright per projector pixel.
 ///  3. For every tile the `rows` camera pixels whose near fields put most light into it.
 ///  4. G over those rows' whole near fields, leaves of different levels included exactly; Cholesky.
-///  5. M = T_J^T (G + lambda I)^-1, scaled to the flood image.
+///  5. M = T_J^T (G + lambda I)^-1, and the least change to it that makes the flood image white.
 /// `usable`: per camera pixel, 0 where it must not be relied on. A thresholded T should have been rescaled to
 /// the flood image before.  Source: core/inverse/README.md.
 /// Throws: Error{numerics} if a G is not positive definite; Cancelled.

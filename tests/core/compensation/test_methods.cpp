@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/methods.h"
+
+#include <QtTest>
+#include <cmath>
+#include <map>
+
+#include "core/inverse/synthetic_transport.h"
+
+using namespace relucent;
+using namespace relucent::synthetic;
+
+namespace {
+
+Progress quiet;
+
+/// A scene, its measurement, and everything prepared from that.
+struct Prepared {
+  Scene scene;
+  MeasuredVenue venue;
+  WindowInverse inverse;
+
+  explicit Prepared(const SceneSettings& settings, double noise = 0.0) : scene(makeScene(settings)) {
+    venue = {noise > 0.0 ? measured(scene.transport, noise, 0.03 * noise, settings.seed) : scene.transport,
+             scene.black, scene.transport.floodlight(), scene.usable};
+    inverse = computeWindows(venue.transport, venue.usable, {}, quiet);
+  }
+
+  /// PSNR over reachable pixels, through the true transport.
+  double psnr(Method method, const Target& target) const {
+    Stack p = Compensator(venue, inverse).solve(method, target, quiet).projector;
+    Stack seen = scene.transport.apply(p);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!target.reachable[i / 3]) continue;
+      sum += std::pow((seen[i] + scene.black[i] - target.wanted[i]) / target.white[0], 2);
+      count += 1.0;
+    }
+    return -10.0 * std::log10(sum / count);
+  }
+};
+
+}  // namespace
+
+class TestMethods : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void namesAndMethodsMatch() {
+    for (Method method : allMethods) QVERIFY(methodFromName(toString(method)) == method);
+    QVERIFY(!methodFromName("clusters"));
+  }
+
+  void moreKnowledgeIsBetter_data() {
+    QTest::addColumn<int>("seed");
+    QTest::addColumn<double>("softest");
+    QTest::addColumn<double>("noise");
+    for (int seed = 1; seed <= 3; ++seed) {
+      QTest::addRow("seed %d, exact", seed) << seed << 1.5 << 0.0;
+      QTest::addRow("seed %d, 3 %% noise", seed) << seed << 1.0 << 0.03;
+    }
+  }
+  /// none < scalar <= mix < windows < refined <= optimum, in the mean over contents of three kinds.
+  void moreKnowledgeIsBetter() {
+    QFETCH(int, seed);
+    QFETCH(double, softest);
+    QFETCH(double, noise);
+    SceneSettings s;
+    s.seed = static_cast<std::uint64_t>(seed);
+    s.softest = softest;
+    Prepared prepared(s, noise);
+    std::map<Method, double> mean;
+    for (Content kind : {Content::natural, Content::text, Content::saturated}) {
+      Target target = fitTarget(makeContent(kind, {80, 60}, s.seed), prepared.venue, {});
+      for (Method method : allMethods) mean[method] += prepared.psnr(method, target) / 3.0;
+    }
+    QString all;
+    for (Method method : allMethods) all += QString::number(mean[method], 'f', 2) + " ";
+    qInfo().noquote() << "none scalar mix windows refined optimum:" << all;
+    QVERIFY(mean[Method::none] < mean[Method::scalar]);
+    QVERIFY(mean[Method::scalar] <= mean[Method::mix]);
+    // Of what the constrained optimum gains over per-pixel mixing, a third and two thirds.
+    double possible = mean[Method::optimum] - mean[Method::mix];
+    QVERIFY(mean[Method::windows] > mean[Method::mix] + possible / 3.0);
+    QVERIFY(mean[Method::refined] > mean[Method::mix] + possible * 2.0 / 3.0);
+    QVERIFY(mean[Method::refined] > mean[Method::windows]);
+    QVERIFY(mean[Method::optimum] >= mean[Method::refined]);
+    QVERIFY(mean[Method::optimum] < mean[Method::refined] + 2.5);
+  }
+
+  void perPixelMethodsAreExactWithoutSpread_data() {
+    QTest::addColumn<int>("method");
+    for (Method method : {Method::mix, Method::windows, Method::refined, Method::optimum})
+      QTest::addRow("%s", std::string(toString(method)).c_str()) << static_cast<int>(method);
+  }
+  /// Where every camera pixel sees one projector pixel of its own, nothing is lost.
+  void perPixelMethodsAreExactWithoutSpread() {
+    QFETCH(int, method);
+    Size size{12, 8};
+    NodeLayout layout{Rasters(size)};
+    BlockSparseBuilder builder(layout.count(), std::vector<float>(size.count(), 1.0f));
+    for (std::size_t i = 0; i < size.count(); ++i) {
+      ColourBlock block;
+      block << 0.8f, 0.1f, 0.0f, 0.1f, 0.8f, 0.1f, 0.0f, 0.1f, 0.8f;
+      builder.add(i, i, ((0.6f + 0.4f * static_cast<float>(i % 5) / 4.0f) * block).eval());
+    }
+    TransportMatrix transport(size, size, builder.build());
+    MeasuredVenue venue{transport, Stack(3 * size.count(), 0.001f), transport.floodlight(),
+                        std::vector<std::uint8_t>(size.count(), 1)};
+    WindowSettings sharp;
+    sharp.ridge = 1e-3;
+    WindowInverse inverse = computeWindows(transport, venue.usable, sharp, quiet);
+    TargetSettings settings;
+    settings.reachablePercentile = 0.0;
+    settings.corners = uprightCorners(0, 0, 12, 8);
+    Target target = fitTarget(makeContent(Content::natural, size, 3), venue, settings);
+    Stack p = Compensator(venue, inverse).solve(static_cast<Method>(method), target, quiet).projector;
+    Stack seen = transport.apply(p);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (target.reachable[i / 3])
+        // The windows' unmixing and ridge, and the solver's tolerance: all well below half a percent of
+        // white.
+        QVERIFY2(std::abs(seen[i] + 0.001f - target.wanted[i]) < 5e-3f * target.white[0],
+                 qPrintable(QString::number(seen[i] + 0.001f - target.wanted[i])));
+  }
+
+  void outsideTheContentIsBlack() {
+    SceneSettings s;
+    Prepared prepared(s);
+    TargetSettings settings;
+    settings.corners = Corners{{{8, 6}, {30, 9}, {28, 24}, {10, 22}}};
+    Target target = fitTarget(Image({16, 12}, 3, 0.8f), prepared.venue, settings);
+    Compensator compensator(prepared.venue, prepared.inverse);
+    for (Method method : allMethods) {
+      Compensation c = compensator.solve(method, target, quiet);
+      std::size_t lit = 0;
+      for (std::size_t j = 0; j < c.projector.size(); ++j) {
+        QVERIFY(c.projector[j] >= 0.0f && c.projector[j] <= 1.0f);
+        std::int32_t i = compensator.brightestCameraPixel()[j / 3];
+        if (i < 0 || !target.inside[static_cast<std::size_t>(i)]) QCOMPARE(c.projector[j], 0.0f);
+        lit += c.projector[j] > 0.0f;
+      }
+      QVERIFY(lit > c.projector.size() / 8);
+    }
+  }
+
+  void checksSettings() {
+    QVERIFY(problems(CompensatorSettings{}).empty());
+    CompensatorSettings wrong;
+    wrong.corrections = -1;
+    wrong.steps = {0.0f};
+    QCOMPARE(problems(wrong).size(), std::size_t{2});
+  }
+};
+
+QTEST_APPLESS_MAIN(TestMethods)
+#include "test_methods.moc"

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/target.h"
+
+#include <QtTest>
+#include <cmath>
+
+#include "base/error.h"
+#include "core/inverse/synthetic_transport.h"
+
+using namespace relucent;
+using namespace relucent::synthetic;
+
+namespace {
+
+MeasuredVenue venueOf(const Scene& scene) {
+  return {scene.transport, scene.black, scene.transport.floodlight(), scene.usable};
+}
+
+std::vector<std::uint8_t> maskWith(Size size, int x0, int y0, int x1, int y1) {
+  std::vector<std::uint8_t> mask(size.count(), 0);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) mask[indexOf(size, {x, y})] = 1;
+  return mask;
+}
+
+}  // namespace
+
+class TestTarget : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void largestUprightFillsTheUsablePart_data() {
+    QTest::addColumn<double>("aspect");
+    QTest::newRow("the part's own shape") << 4.0 / 3.0;
+    QTest::newRow("wide") << 3.0;
+    QTest::newRow("tall") << 0.5;
+  }
+  void largestUprightFillsTheUsablePart() {
+    QFETCH(double, aspect);
+    Size size{100, 80};
+    std::vector<std::uint8_t> usable = maskWith(size, 20, 10, 84, 58);
+    for (std::size_t i = 0; i < usable.size(); i += 37) usable[i] = 0;  // small holes
+    std::optional<Corners> found = largestUpright(usable, size, aspect);
+    QVERIFY(found.has_value());
+    double width = (*found)[2][0] - (*found)[0][0], height = (*found)[2][1] - (*found)[0][1];
+    QVERIFY(std::abs(width / height / aspect - 1.0) < 0.05);  // whole pixels
+    // It may hang over by what the usable shares of its sides allow: less than a strip of a sixteenth.
+    double fits = std::min(64.0 / aspect, 48.0);
+    QVERIFY2(height >= fits - 1.0 && height <= fits * 1.13 + 1.0, qPrintable(QString::number(height)));
+  }
+  void nothingLitHoldsNoPicture() {
+    QVERIFY(!largestUpright(std::vector<std::uint8_t>(100, 0), {10, 10}, 1.0));
+  }
+
+  void cornersMapToTheUnitSquare() {
+    Corners corners{{{3, 4}, {40, 7}, {35, 30}, {1, 26}}};
+    Eigen::Matrix3d map = unitSquareFrom(corners);
+    double expected[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Eigen::Vector3d p = map * Eigen::Vector3d(corners[i][0], corners[i][1], 1.0);
+      QVERIFY(std::abs(p[0] / p[2] - expected[i][0]) < 1e-9);
+      QVERIFY(std::abs(p[1] / p[2] - expected[i][1]) < 1e-9);
+    }
+  }
+
+  void placingKeepsConstantsAndMeans_data() {
+    QTest::addColumn<int>("content");
+    QTest::newRow("magnified") << 7;
+    QTest::newRow("one to one") << 24;
+    QTest::newRow("reduced") << 150;
+    QTest::newRow("much reduced") << 700;
+  }
+  void placingKeepsConstantsAndMeans() {
+    QFETCH(int, content);
+    Image picture({content, content}, 3);
+    double mean = 0.0;
+    for (int y = 0; y < content; ++y)
+      for (int x = 0; x < content; ++x)
+        for (int c = 0; c < 3; ++c) {
+          picture.at(x, y, c) =
+              c == 0 ? 0.25f : static_cast<float>((x * 7 + y * 3) % content) / static_cast<float>(content);
+          if (c == 1) mean += picture.at(x, y, c) / (content * content);
+        }
+    Placed placed = place(picture, uprightCorners(4, 4, 24, 24), {32, 32});
+    double placedMean = 0.0;
+    int inside = 0;
+    for (std::size_t i = 0; i < placed.inside.size(); ++i) {
+      if (!placed.inside[i]) {
+        QCOMPARE(placed.image.pixel(i)[0], 0.0f);
+        continue;
+      }
+      ++inside;
+      QVERIFY(std::abs(placed.image.pixel(i)[0] - 0.25f) < 1e-5f);
+      placedMean += placed.image.pixel(i)[1];
+    }
+    QCOMPARE(inside, 24 * 24);
+    // Area averages keep the mean; magnified content loses some to the continued edges.
+    QVERIFY2(std::abs(placedMean / inside - mean) < 0.02,
+             qPrintable(QString("%1 %2").arg(placedMean / inside).arg(mean)));
+  }
+
+  /// A ramp's mean over any area is its value in the middle, so each pixel must show its own place.
+  void everythingIsInItsPlace() {
+    Image ramp({240, 240}, 3);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 240; ++x) {
+        ramp.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / 240.0f;
+        ramp.at(x, y, 1) = (static_cast<float>(y) + 0.5f) / 240.0f;
+      }
+    Placed placed = place(ramp, uprightCorners(4, 6, 24, 20), {32, 32});
+    for (int y = 7; y < 25; ++y)
+      for (int x = 5; x < 27; ++x) {
+        QVERIFY(std::abs(placed.image.at(x, y, 0) - (static_cast<float>(x) - 3.5f) / 24.0f) < 1e-4f);
+        QVERIFY(std::abs(placed.image.at(x, y, 1) - (static_cast<float>(y) - 5.5f) / 20.0f) < 1e-4f);
+      }
+  }
+
+  void greyStaysGreyAndWhiteIsReachable_data() {
+    QTest::addColumn<double>("percentile");
+    for (double percentile : {0.0, 15.0, 50.0}) QTest::addRow("%g", percentile) << percentile;
+  }
+  void greyStaysGreyAndWhiteIsReachable() {
+    QFETCH(double, percentile);
+    Scene scene = makeScene({});
+    MeasuredVenue venue = venueOf(scene);
+    TargetSettings settings;
+    settings.reachablePercentile = percentile;
+    Target target = fitTarget(Image({40, 30}, 3, 1.0f), venue, settings);
+    double dark = 0.0, inside = 0.0;
+    for (std::size_t i = 0; i < target.inside.size(); ++i) {
+      if (!target.inside[i]) continue;
+      for (std::size_t c = 0; c < 3; ++c)
+        QVERIFY(std::abs(target.wanted[3 * i + c] / target.white[c] - 1.0f) < 1e-4f);
+      if (!venue.usable[i]) {
+        QCOMPARE(target.weight[i], 0.0f);
+        continue;
+      }
+      inside += 1.0;
+      dark += target.reachable[i] ? 0.0 : 1.0;
+      QCOMPARE(target.weight[i], target.reachable[i] ? 1.0f : 0.1f);
+    }
+    QVERIFY2(std::abs(100.0 * dark / inside - percentile) < 1.0,
+             qPrintable(QString::number(100.0 * dark / inside)));
+  }
+
+  void blackIsLifted() {
+    Scene scene = makeScene({});
+    TargetSettings settings;
+    settings.blackLift = 0.1;
+    Target target = fitTarget(Image({40, 30}, 3, 0.0f), venueOf(scene), settings);
+    for (std::size_t i = 0; i < target.inside.size(); ++i) {
+      if (target.inside[i]) QVERIFY(std::abs(target.wanted[3 * i] - 0.1f * target.white[0]) < 1e-5f);
+    }
+  }
+
+  void coloursKeepTheProjectorsHue() {
+    // K times a pure colour is what the venue makes of that colour on average.
+    Scene scene = makeScene({});
+    ColourBlock k = meanColourMixing(venueOf(scene));
+    for (int c = 0; c < 3; ++c) {
+      QVERIFY(std::abs(k.row(c).sum() - 1.0f) < 1e-5f);
+      QVERIFY(k(c, c) > 0.6f && k(c, c) < 1.0f);
+    }
+  }
+
+  void refusesAViewWithoutLight() {
+    Scene scene = makeScene({});
+    MeasuredVenue venue = venueOf(scene);
+    std::fill(venue.usable.begin(), venue.usable.end(), std::uint8_t{0});
+    QVERIFY_EXCEPTION_THROWN(fitTarget(Image({4, 3}, 3, 1.0f), venue, {}), Error);
+    TargetSettings settings;
+    settings.corners = uprightCorners(5, 5, 20, 15);
+    QVERIFY_EXCEPTION_THROWN(fitTarget(Image({4, 3}, 3, 1.0f), venue, settings), Error);
+  }
+
+  void checksSettings() {
+    QVERIFY(problems(TargetSettings{}).empty());
+    TargetSettings wrong;
+    wrong.corners = Corners{{{0, 0}, {0, 10}, {10, 10}, {10, 0}}};  // counter-clockwise
+    wrong.reachablePercentile = 101.0;
+    wrong.blackLift = 1.0;
+    wrong.unreachableWeight = -0.1;
+    QCOMPARE(problems(wrong).size(), std::size_t{4});
+  }
+};
+
+QTEST_APPLESS_MAIN(TestTarget)
+#include "test_target.moc"

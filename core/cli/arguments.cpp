@@ -159,11 +159,14 @@ class Parser {
     auto command = std::make_shared<Export>();
     CLI::App* sub = add("export", "Write the measurement for other programs", command, [command] {
       for (const std::string& problem : problems(command->settings))
-        throw WrongUsage(problem + ": give --transport, --inverse or --maps");
+        throw WrongUsage(problem + ": give --transport, --leaves, --inverse or --maps");
     });
     addFolder(sub, command->calibration, "Folder of the calibration");
     sub->add_option("--transport", command->settings.transport,
                     "T for scipy.sparse.load_npz: BSR, 3x3 blocks, rows = camera pixels")
+        ->type_name("FILE.npz");
+    sub->add_option("--leaves", command->settings.leaves,
+                    "T as it is kept: a column for every node of the projector's mean pyramid")
         ->type_name("FILE.npz");
     sub->add_option("--inverse", command->settings.inverse, "Its inverse, in the same form")
         ->type_name("FILE.npz");

@@ -44,6 +44,7 @@ std::string textOf(const CalibrateResult& result) {
 std::string textOf(const WrittenFiles& result) {
   std::string text;
   for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
+  for (const std::string& note : result.notes) text += "Note: " + note + ".\n";
   return text;
 }
 

@@ -17,7 +17,9 @@ constexpr float nearShare = 0.01f;
 /// Colours that a surface returns by less than this share of the rest are noise, not information.
 constexpr float unmixingShare = 0.03f;
 
-float mean(const NearField::Value& value) { return (value[0] + value[1] + value[2]) / 3.0f; }
+float mean(const NearField::Value& value) {
+  return (value[0] + value[1] + value[2]) / 3.0f;
+}
 
 /// diag(U T) of one leaf.
 NearField::Value unmixed(const ColourBlock& unmix, const ColourBlock& block) {
@@ -39,12 +41,12 @@ ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share) {
 
 NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
   const BlockSparse& leaves = transport.leaves();
-  require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(), leaves.rows());
+  require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
+          leaves.rows());
 
   std::vector<float> pixelsOf(transport.layout().count());
   parallelFor(0, pixelsOf.size(), 1024, [&](std::size_t node) {
-    pixelsOf[node] =
-        static_cast<float>(transport.layout().block(transport.layout().node(node)).count());
+    pixelsOf[node] = static_cast<float>(transport.layout().block(transport.layout().node(node)).count());
   });
 
   NearField near;
@@ -53,9 +55,11 @@ NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::u
   std::vector<ColourBlock> mixing = transport.rowSums();
   std::vector<float> threshold(leaves.rows(), 0.0f);
 
-  // Twice over the same leaves, first to count: the near field is the largest array here and is made to measure.
+  // Twice over the same leaves, first to count: the near field is the largest array here and is made to
+  // measure.
   auto brightness = [&](std::size_t row, std::size_t entry) {
-    return std::abs(mean(unmixed(near.unmix[row], leaves.block(row, entry)))) / pixelsOf[leaves.column(entry)];
+    return std::abs(mean(unmixed(near.unmix[row], leaves.block(row, entry)))) /
+           pixelsOf[leaves.column(entry)];
   };
   near.start.assign(leaves.rows() + 1, 0);
   parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {

@@ -64,8 +64,10 @@ struct Scratch {
 std::vector<std::string> problems(const WindowSettings& settings) {
   std::vector<std::string> found;
   if (settings.tile != 4 && settings.tile != 8) found.push_back("the side of a tile must be 4 or 8");
-  if (settings.rows < 1 || settings.rows > 1024) found.push_back("a window must have 1 to 1024 camera pixels");
-  if (!(settings.ridge > 0.0 && settings.ridge <= 100.0)) found.push_back("the ridge must lie above 0 and at most 100");
+  if (settings.rows < 1 || settings.rows > 1024)
+    found.push_back("a window must have 1 to 1024 camera pixels");
+  if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
+    found.push_back("the ridge must lie above 0 and at most 100");
   return found;
 }
 
@@ -174,7 +176,8 @@ class WindowBuilder {
     return result;
   }
 
-  /// Keeps every tile's strongest candidates, in the order of their pixels: neighbours in memory when applied.
+  /// Keeps every tile's strongest candidates, in the order of their pixels: neighbours in memory when
+  /// applied.
   void chooseRows(Candidates candidates) {
     std::size_t tiles = result_.tiles_.count();
     auto most = static_cast<std::size_t>(settings_.rows);
@@ -204,7 +207,8 @@ class WindowBuilder {
     for (std::size_t k = first; k < result_.tileStart_[tile + 1]; ++k) {
       std::size_t row = result_.row_[k];
       for (std::size_t leaf = near_.start[row]; leaf < near_.start[row + 1]; ++leaf)
-        scratch.leaves.push_back({near_.node[leaf], static_cast<std::uint32_t>(k - first), near_.value[leaf]});
+        scratch.leaves.push_back(
+            {near_.node[leaf], static_cast<std::uint32_t>(k - first), near_.value[leaf]});
     }
     std::sort(scratch.leaves.begin(), scratch.leaves.end(), [](const WindowLeaf& a, const WindowLeaf& b) {
       return a.node != b.node ? a.node < b.node : a.local < b.local;
@@ -256,7 +260,8 @@ class WindowBuilder {
 
   /// T_J^T: what every row of the window sees of every pixel of the tile, from leaves of all levels.
   void columns(const Block& tile, std::size_t projector, std::size_t rows, Scratch& scratch) const {
-    for (MatrixF& matrix : scratch.columns) matrix.setZero(static_cast<Eigen::Index>(rows), settings_.tile * settings_.tile);
+    for (MatrixF& matrix : scratch.columns)
+      matrix.setZero(static_cast<Eigen::Index>(rows), settings_.tile * settings_.tile);
     for (const Group& group : scratch.groups) {
       if (static_cast<std::size_t>(group.place.projector) != projector) continue;
       Block block = layout_.block(group.place);
@@ -274,7 +279,8 @@ class WindowBuilder {
     std::size_t rows = result_.tileStart_[tile + 1] - first;
     if (rows == 0) return;
     std::size_t projector = 0;
-    while (projector + 1 < result_.tiles_.devices() && tile >= result_.tiles_.offset(projector + 1)) ++projector;
+    while (projector + 1 < result_.tiles_.devices() && tile >= result_.tiles_.offset(projector + 1))
+      ++projector;
     Block block = blockOfTile(
         projector, pixelAt(result_.tiles_.size(projector), tile - result_.tiles_.offset(projector)));
     gatherLeaves(tile, scratch);
@@ -285,13 +291,15 @@ class WindowBuilder {
     for (std::size_t c = 0; c < 3; ++c) {
       scratch.g.setZero(n, n);
       for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index k = 0; k <= i; ++k) scratch.g(i, k) = scratch.gram[static_cast<std::size_t>(i * n + k)][c];
+        for (Eigen::Index k = 0; k <= i; ++k)
+          scratch.g(i, k) = scratch.gram[static_cast<std::size_t>(i * n + k)][c];
       float diagonal = scratch.g.diagonal().mean();
       if (diagonal == 0.0f) continue;  // a colour that these camera pixels do not see at all
       scratch.g.diagonal().array() += static_cast<float>(settings_.ridge) * diagonal;
       Eigen::LLT<Eigen::Ref<MatrixF>> cholesky(scratch.g);
       if (cholesky.info() != Eigen::Success)
-        throw Error(ErrorKind::numerics, "the light transport around a tile of projector pixels cannot be inverted",
+        throw Error(ErrorKind::numerics,
+                    "the light transport around a tile of projector pixels cannot be inverted",
                     "raise the ridge of the windows or measure the venue again",
                     fmt::format("window {} of {}", tile, result_.tiles_.count()));
       scratch.solution = scratch.columns[c];
@@ -326,8 +334,9 @@ class WindowBuilder {
     if (!(largest > 0.0f)) return;
     result_.scale_[3 * tile + channel] = largest / largestCode;
     for (Eigen::Index k = 0; k < weights.rows(); ++k) {
-      std::int16_t* code = &result_.weight_[((result_.tileStart_[tile] + static_cast<std::size_t>(k)) * 3 + channel) *
-                                            pixelsOfTile()];
+      std::int16_t* code =
+          &result_.weight_[((result_.tileStart_[tile] + static_cast<std::size_t>(k)) * 3 + channel) *
+                           pixelsOfTile()];
       for (Eigen::Index pixel = 0; pixel < weights.cols(); ++pixel)
         code[pixel] = static_cast<std::int16_t>(std::lround(weights(k, pixel) / largest * largestCode));
     }
@@ -349,12 +358,13 @@ WindowInverse computeWindows(const TransportMatrix& transport, const std::vector
 
 std::size_t WindowInverse::bytes() const {
   return unmix_.size() * sizeof(float) + tileStart_.size() * sizeof(std::size_t) +
-         row_.size() * sizeof(std::uint32_t) + weight_.size() * sizeof(std::int16_t) + scale_.size() * sizeof(float);
+         row_.size() * sizeof(std::uint32_t) + weight_.size() * sizeof(std::int16_t) +
+         scale_.size() * sizeof(float);
 }
 
 Stack WindowInverse::apply(const Stack& cameraResidual) const {
-  require(cameraResidual.size() == 3 * cameras_.count(), "{} values for {} camera pixels", cameraResidual.size(),
-          cameras_.count());
+  require(cameraResidual.size() == 3 * cameras_.count(), "{} values for {} camera pixels",
+          cameraResidual.size(), cameras_.count());
   Stack unmixed(cameraResidual.size());
   parallelFor(0, cameras_.count(), 1024, [&](std::size_t row) {
     const float* u = &unmix_[9 * row];
@@ -378,7 +388,8 @@ Stack WindowInverse::apply(const Stack& cameraResidual) const {
           const float* in = &unmixed[3 * static_cast<std::size_t>(row_[k])];
           const std::int16_t* code = &weight_[3 * pixels * k + part];
           for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes; ++i) sum[c][i] += in[c] * static_cast<float>(code[c * pixels + i]);
+            for (std::size_t i = 0; i < lanes; ++i)
+              sum[c][i] += in[c] * static_cast<float>(code[c * pixels + i]);
         }
         for (std::size_t i = 0; i < lanes; ++i) {
           int x = place.x * tile_ + static_cast<int>(part + i) % tile_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "transport/expansion.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
@@ -36,6 +37,9 @@ class WindowInverse {
   /// Shapes: 3 * cameras().count() -> 3 * projectors().count().
   /// Units: camera signal per second -> linear drive. Projector pixels that no camera pixel sees stay 0.
   Stack apply(const Stack& cameraResidual) const;
+
+  /// The whole operator for other programs: rows = projector pixels, columns = camera pixels.
+  PixelMatrix matrix() const;
 
   bool operator==(const WindowInverse&) const = default;
 

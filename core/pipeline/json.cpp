@@ -193,7 +193,7 @@ Json toJson(const EvaluateResult& result) {
 }
 
 Json toJson(const WrittenFiles& result) {
-  return {{"files", pathsToJson(result.files)}};
+  return {{"files", pathsToJson(result.files)}, {"notes", result.notes}};
 }
 
 Json toJson(const BenchResult& result) {

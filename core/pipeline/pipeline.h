@@ -41,6 +41,7 @@ struct CalibrateSettings {
   RigSettings rig;
   LinearizationSettings linearization;
   AcquisitionSettings acquisition;
+  ThresholdSettings threshold;  // none by default: every leaf that was measured counts
   WindowSettings windows;
 };
 /// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.
@@ -153,14 +154,17 @@ EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSetti
 
 struct ExportSettings {
   std::filesystem::path transport;  // T as SciPy BSR, 3x3 blocks, expanded to pixels; empty: not wanted
-  std::filesystem::path inverse;    // T+, the same form; empty: not wanted
-  std::filesystem::path maps;       // folder for black, flood, reachability, flags as EXR; empty: not wanted
+  std::filesystem::path leaves;   // T as it is kept: a column for every node of the projectors' mean pyramids
+  std::filesystem::path inverse;  // the inverse operator, SciPy BSR, 3x3 blocks; empty: not wanted
+  std::filesystem::path maps;     // folder for black, flood, reachability, flags as EXR; empty: not wanted
+  std::uint64_t mostBytes = std::uint64_t{2} << 30;  // of `transport`, see expandedToPixels()
 };
 std::vector<std::string> problems(const ExportSettings& settings);
 
 /// Files that a deed wrote.
 struct WrittenFiles {
   std::vector<std::filesystem::path> files;
+  std::vector<std::string> notes{};  // sentences that whoever reads the files should know
 };
 
 /// Writes the measured data for other programs.

@@ -89,7 +89,9 @@ Problems problems(const EvaluateSettings& settings) {
 }
 
 Problems problems(const ExportSettings& settings) {
-  if (!settings.transport.empty() || !settings.inverse.empty() || !settings.maps.empty()) return {};
+  if (!settings.transport.empty() || !settings.leaves.empty() || !settings.inverse.empty() ||
+      !settings.maps.empty())
+    return {};
   return {"nothing to export is named"};
 }
 

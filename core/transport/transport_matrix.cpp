@@ -54,7 +54,7 @@ TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSet
   for (std::size_t node = 0; node < layout.count(); ++node)
     pixelsOf[node] = static_cast<float>(layout.block(layout.node(node)).count());
   auto strength = [&](std::size_t row, std::size_t entry) {
-    return leaves.block(row, entry).maxCoeff() / pixelsOf[leaves.column(entry)];
+    return leaves.block(row, entry).cwiseAbs().maxCoeff() / pixelsOf[leaves.column(entry)];
   };
   std::vector<float> limit(leaves.rows());
   parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {

@@ -45,8 +45,8 @@ class TransportMatrix {
 TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood,
                                      float floor = 0.0f);
 
-/// Thresholding settings: a leaf is dropped where, per projector pixel of its block, the largest value of
-/// its 3x3 block stays below both limits.
+/// Thresholding settings: a leaf is dropped where, per projector pixel of its block, the largest magnitude
+/// in its 3x3 block stays below either limit. By default nothing is dropped.
 struct ThresholdSettings {
   float absolute = 0.0f;       // camera signal per second: the paper's "HDR value of a camera pixel"
   float shareOfRowMax = 0.0f;  // of the row's strongest single connection

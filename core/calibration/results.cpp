@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/results.h"
+
+#include <map>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "transport/files.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* damagedAdvice = "restore the calibration from a copy, or calibrate again";
+
+/// Runs `read`, turning what the JSON library throws into one sentence.
+template <typename Read>
+auto readingJson(const StageResult& result, const Read& read) {
+  try {
+    return read(result.values);
+  } catch (const Json::exception& cause) {
+    throw Error(ErrorKind::format,
+                fmt::format("the result of the stage \"{}\" cannot be read ({})", result.stage, cause.what()),
+                damagedAdvice, result.folder.string());
+  }
+}
+
+Json toJson(const ResponseCurve& curve) {
+  return Json{{"x", curve.x()}, {"y", curve.y()}};
+}
+
+ResponseCurve curveFrom(const Json& json) {
+  return ResponseCurve(json.at("x").get<std::vector<double>>(), json.at("y").get<std::vector<double>>());
+}
+
+Json toJson(const std::array<ResponseCurve, 3>& curves) {
+  Json json = Json::array();
+  for (const ResponseCurve& curve : curves) json.push_back(toJson(curve));
+  return json;
+}
+
+std::array<ResponseCurve, 3> curvesFrom(const Json& json) {
+  return {curveFrom(json.at(0)), curveFrom(json.at(1)), curveFrom(json.at(2))};
+}
+
+Json toJson(const CameraModel& camera) {
+  Json times = Json::array();
+  for (const ExposureTime& time : camera.times)
+    times.push_back({{"reported", time.reported}, {"scale", time.scale}});
+  return Json{{"response", toJson(camera.response)},
+              {"read_noise", camera.readNoise},
+              {"gain", camera.gain},
+              {"saturation", camera.saturation},
+              {"times", times}};
+}
+
+CameraModel cameraFrom(const Json& json) {
+  CameraModel camera;
+  camera.response = curvesFrom(json.at("response"));
+  camera.readNoise = json.at("read_noise");
+  camera.gain = json.at("gain");
+  camera.saturation = json.at("saturation");
+  for (const Json& time : json.at("times")) camera.times.push_back({time.at("reported"), time.at("scale")});
+  return camera;
+}
+
+Json toJson(const Rasters& rasters) {
+  Json json = Json::array();
+  for (const Size& size : rasters.sizes()) json.push_back({size.width, size.height});
+  return json;
+}
+
+Rasters rastersFrom(const Json& json) {
+  std::vector<Size> sizes;
+  for (const Json& size : json) sizes.push_back({size.at(0), size.at(1)});
+  return Rasters(std::move(sizes));
+}
+
+std::string mapName(const std::string& map, std::size_t camera) {
+  return fmt::format("{}-{}.exr", map, camera + 1);
+}
+
+void writeMaps(const fs::path& folder, const std::string& map, const Stack& stack, const Rasters& cameras,
+               const std::string& units) {
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+    writeExr(folder / mapName(map, camera), imageFromStack(stack, cameras, camera), ExrType::floatType,
+             {{exr_attribute::units, units}});
+}
+
+Stack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
+  std::vector<Image> images;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    fs::path path = fileOf(result, mapName(map, camera));
+    images.push_back(readRgbExr(path, cameras.size(camera)));
+    checkFinite(images.back(), path);
+  }
+  return stackFromImages(images, cameras);
+}
+
+/// Flags as a map of three equal channels: 0 or 1.
+Stack flagStack(const std::vector<std::uint8_t>& flags) {
+  Stack stack(3 * flags.size());
+  for (std::size_t i = 0; i < stack.size(); ++i) stack[i] = flags[i / 3] != 0 ? 1.0f : 0.0f;
+  return stack;
+}
+
+std::vector<std::uint8_t> flagsFrom(const Stack& stack) {
+  std::vector<std::uint8_t> flags(stack.size() / 3);
+  for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = stack[3 * i] > 0.5f ? 1 : 0;
+  return flags;
+}
+
+constexpr const char* radianceUnits = "camera signal per second";
+constexpr const char* varianceUnits = "(camera signal per second)^2";
+
+}  // namespace
+
+StageResult storeLinearization(CalibrationFolder& folder, const std::string& inputs,
+                               const Linearization& linearization, const Json& cost) {
+  Json projectors = Json::array();
+  for (const ProjectorResponse& projector : linearization.projectors)
+    projectors.push_back(toJson(projector.channels));
+  Json cameras = Json::array();
+  for (const CameraModel& camera : linearization.cameras) cameras.push_back(toJson(camera));
+  return folder.store("linearization", inputs,
+                      Json{{"projectors", projectors},
+                           {"cameras", cameras},
+                           {"exposures", linearization.exposures},
+                           {"additivity_error", linearization.additivityError},
+                           {"findings", linearization.findings},
+                           {"cost", cost}});
+}
+
+Linearization loadLinearization(const StageResult& result) {
+  return readingJson(result, [](const Json& values) {
+    Linearization linearization;
+    for (const Json& projector : values.at("projectors"))
+      linearization.projectors.push_back({curvesFrom(projector)});
+    for (const Json& camera : values.at("cameras")) linearization.cameras.push_back(cameraFrom(camera));
+    linearization.exposures = values.at("exposures").get<std::vector<double>>();
+    linearization.additivityError = values.at("additivity_error").get<std::vector<double>>();
+    linearization.findings = values.at("findings").get<std::vector<std::string>>();
+    return linearization;
+  });
+}
+
+StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
+                             const Acquisition& acquisition, const Json& cost) {
+  const Rasters& cameras = acquisition.transport.cameras();
+  Json values{{"cameras", toJson(cameras)},
+              {"projectors", toJson(acquisition.transport.projectors())},
+              {"unresolved_energy", acquisition.unresolvedEnergy},
+              {"verification_error", acquisition.verificationError},
+              {"patterns", acquisition.patterns},
+              {"exposures", acquisition.exposures},
+              {"findings", acquisition.findings},
+              {"cost", cost}};
+  return folder.store("acquisition", inputs, values, [&](const fs::path& path) {
+    writeNpz(path / "transport.npz", acquisition.transport.leaves());
+    writeMaps(path, "black", acquisition.black, cameras, radianceUnits);
+    writeMaps(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
+    writeMaps(path, "flood", acquisition.flood, cameras, radianceUnits);
+    writeMaps(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
+    writeMaps(path, "flagged", flagStack(acquisition.flagged), cameras, "1 where verification failed");
+  });
+}
+
+Acquisition loadAcquisition(const StageResult& result) {
+  return readingJson(result, [&](const Json& values) {
+    Acquisition acquisition;
+    Rasters cameras = rastersFrom(values.at("cameras"));
+    Rasters projectors = rastersFrom(values.at("projectors"));
+    fs::path transport = fileOf(result, "transport.npz");
+    BlockSparse leaves = readNpz(transport);
+    if (leaves.rows() != cameras.count() || leaves.columns() != NodeLayout(projectors).count())
+      throw Error(ErrorKind::format, "the light transport belongs to other devices than the manifest says",
+                  damagedAdvice, transport.string());
+    acquisition.transport = TransportMatrix(cameras, projectors, std::move(leaves));
+    acquisition.black = readMaps(result, "black", cameras);
+    acquisition.blackVariance = readMaps(result, "black-variance", cameras);
+    acquisition.flood = readMaps(result, "flood", cameras);
+    acquisition.floodVariance = readMaps(result, "flood-variance", cameras);
+    acquisition.flagged = flagsFrom(readMaps(result, "flagged", cameras));
+    acquisition.unresolvedEnergy = values.at("unresolved_energy");
+    acquisition.verificationError = values.at("verification_error");
+    acquisition.patterns = values.at("patterns");
+    acquisition.exposures = values.at("exposures");
+    acquisition.findings = values.at("findings").get<std::vector<std::string>>();
+    return acquisition;
+  });
+}
+
+}  // namespace relucent

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "inverse/windows.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Median seconds of a run; at least three runs and at least `least` seconds in all, after one to warm up.
+double secondsOf(const std::function<void()>& run, double least = 0.5) {
+  run();
+  std::vector<double> seconds;
+  double sum = 0.0;
+  while (seconds.size() < 3 || sum < least) {
+    auto begin = Clock::now();
+    run();
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    sum += seconds.back();
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2),
+                   seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+/// Bytes read and written per second by a plain copy on all cores, well beyond every cache.
+double copyBandwidth() {
+  constexpr std::size_t bytes = std::size_t{1} << 28;
+  constexpr std::size_t chunks = 64;
+  std::vector<char> from(bytes, 1);
+  std::vector<char> to(bytes, 0);
+  double seconds = secondsOf([&] {
+    parallelChunks(0, bytes, chunks, [&](std::size_t, std::size_t begin, std::size_t end) {
+      std::memcpy(to.data() + begin, from.data() + begin, end - begin);
+    });
+  });
+  return 2.0 * static_cast<double>(bytes) / seconds;
+}
+
+std::string processorName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name") && line.find(": ") != std::string::npos)
+      return line.substr(line.find(": ") + 2);
+  return "unknown";
+}
+
+/// A transport matrix of the shape that measured venues have at full scale: a footprint of 4x4 projector
+/// pixels a camera pixel, and three dozen coarse leaves of light that comes from elsewhere.
+TransportMatrix fullScaleTransport() {
+  const Size camera{640, 480};
+  const Size projector{1024, 768};
+  NodeLayout layout{Rasters(projector)};
+  BlockSparseBuilder builder(layout.count(), std::vector<float>(camera.count(), 1.0f));
+  Random random{20071028};
+  for (std::size_t row = 0; row < camera.count(); ++row) {
+    Pixel place = pixelAt(camera, row);
+    double u = (place.x + 0.5) * projector.width / camera.width - 0.5;
+    double v = (place.y + 0.5) * projector.height / camera.height - 0.5;
+    float reflectance = 0.3f + 0.6f * random.uniformFloat();
+    int left = std::clamp(static_cast<int>(u) - 1, 0, projector.width - 4);
+    int top = std::clamp(static_cast<int>(v) - 1, 0, projector.height - 4);
+    for (int y = top; y < top + 4; ++y) {
+      for (int x = left; x < left + 4; ++x) {
+        double distance = (x - u) * (x - u) + (y - v) * (y - v);
+        float value = reflectance * static_cast<float>(std::exp(-distance / 2.0) / 6.3);
+        ColourBlock block = ColourBlock::Constant(0.05f * value);
+        block.diagonal().array() += 0.85f * value;
+        builder.add(row, indexOf(projector, {x, y}), block);
+      }
+    }
+    for (int i = 0; i < 36; ++i) {
+      int level = 4 + static_cast<int>(random.below(3));
+      Size grid = layout.gridSize(0, level);
+      Node node{0, level, static_cast<int>(random.below(static_cast<std::uint64_t>(grid.width))),
+                static_cast<int>(random.below(static_cast<std::uint64_t>(grid.height)))};
+      builder.add(row, layout.index(node), ColourBlock::Identity() * (0.004f * random.uniformFloat()));
+    }
+  }
+  return TransportMatrix(Rasters(camera), Rasters(projector), builder.build());
+}
+
+Stack randomStack(std::size_t values, std::uint64_t seed) {
+  Random random{seed};
+  Stack stack(values);
+  for (float& value : stack) value = random.uniformFloat();
+  return stack;
+}
+
+/// One thing to time. Bytes: what must cross the memory bus at least.
+struct Case {
+  std::string name;
+  double bytes;
+  std::function<void()> run;
+};
+
+}  // namespace
+
+BenchResult bench(const std::string& name, Progress& progress) {
+  BenchResult result;
+  result.machine.processor = processorName();
+  result.machine.threads = static_cast<int>(std::thread::hardware_concurrency());
+  Progress preparing = progress.part(0.3, "Preparing the benchmarks");
+  result.machine.copyBytesPerSecond = copyBandwidth();
+  preparing.report(0.3);
+
+  TransportMatrix transport = fullScaleTransport();
+  preparing.report(0.8);
+  auto cameraValues = transport.cameras().count() * 3;
+  auto projectorValues = transport.projectors().count() * 3;
+  auto nodeValues = transport.layout().count() * 3;
+  Stack camera = randomStack(cameraValues, 1);
+  Stack projector = randomStack(projectorValues, 2);
+  WindowInverse windows;
+  auto prepareWindows = [&] {
+    std::vector<std::uint8_t> usable(transport.cameras().count(), 1);
+    Progress silent;
+    windows = computeWindows(transport, usable, WindowSettings{}, silent);
+  };
+
+  auto floats = [](std::size_t count) { return static_cast<double>(count) * sizeof(float); };
+  double leaves = static_cast<double>(transport.leaves().bytes());
+  std::vector<Case> cases{
+      {"transport/apply", leaves + floats(cameraValues) + floats(projectorValues) + 2 * floats(nodeValues),
+       [&] { transport.apply(projector); }},
+      {"transport/adjoint", leaves + floats(cameraValues) + floats(projectorValues) + 2 * floats(nodeValues),
+       [&] { transport.applyTransposed(camera); }},
+      {"transport/means", floats(projectorValues) + floats(nodeValues),
+       [&] { transport.layout().means(projector); }},
+      {"windows/compute", leaves, prepareWindows},
+      {"windows/apply", 0.0, [&] { windows.apply(camera); }},
+  };
+  std::vector<Case*> wanted;
+  for (Case& candidate : cases)
+    if (candidate.name.find(name) != std::string::npos) wanted.push_back(&candidate);
+  if (wanted.empty()) {
+    std::string known;
+    for (const Case& candidate : cases) known += (known.empty() ? "" : ", ") + candidate.name;
+    throw Error(ErrorKind::usage, fmt::format("there is no benchmark named \"{}\"", name),
+                "choose one of: " + known);
+  }
+
+  for (Case* benchmark : wanted) {
+    Progress running = progress.part(0.7 / static_cast<double>(wanted.size()), benchmark->name);
+    if (benchmark->name == "windows/apply") {
+      if (windows.bytes() == 0) prepareWindows();
+      benchmark->bytes =
+          static_cast<double>(windows.bytes()) + floats(cameraValues) + floats(projectorValues);
+    }
+    double seconds = secondsOf(benchmark->run);
+    result.benchmarks.push_back({benchmark->name, seconds, benchmark->bytes,
+                                 benchmark->bytes / seconds / result.machine.copyBytesPerSecond});
+  }
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "base/error.h"
+#include "calibration/results.h"
+#include "calibration/shot_journal.h"
+#include "pipeline/devices.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/settings_json.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::uint64_t peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// The stages of a calibration, each taken from the folder where it is done already.
+class Calibrating {
+ public:
+  Calibrating(CalibrationFolder& folder, OpenedRig& devices)
+      : folder_(folder), devices_(devices), journal_(folder.shotFolder()), settings_(settingsOf(folder)) {}
+
+  CalibrateResult run(Progress& progress) {
+    MeasuredCalibration measured;
+    measured.rig = settings_.rig;
+    Progress linearizing = progress.part(0.15, "Linearizing");
+    measured.linearization = linearized(linearizing);
+    linearizing.report(1.0);
+    Progress acquiring = progress.part(0.75, "Measuring the light transport");
+    measured.acquisition = acquired(measured.linearization, acquiring);
+    acquiring.report(1.0);
+    Progress inverting = progress.part(0.1, "Inverting the light transport");
+    measured.venue = takeMeasuredVenue(measured.acquisition, settings_.threshold);
+    inverted(measured.venue, inverting);
+    progress.report(1.0);
+    CalibrateResult result = summaryOf(folder_, measured);
+    result.peakMemoryBytes = peakMemory();
+    return result;
+  }
+
+ private:
+  /// What a stage's run cost, kept with its result.
+  Json cost(Clock::time_point begin, const ShotTaker* shots) const {
+    Json values{{"seconds", secondsSince(begin)}};
+    values["patterns"] = shots != nullptr ? shots->shots() : 0;
+    values["exposures"] = shots != nullptr ? shots->exposures() : 0;
+    return values;
+  }
+
+  Linearization linearized(Progress& progress) {
+    std::string inputs = linearizationFingerprint(settings_);
+    if (auto done = folder_.find(stage::linearization, inputs)) return loadLinearization(*done);
+    auto begin = Clock::now();
+    ShotTaker shots(devices_.rig, journal_, stage::linearization);
+    Linearization linearization = linearize(shots, settings_.linearization, progress);
+    storeLinearization(folder_, inputs, linearization, cost(begin, &shots));
+    return linearization;
+  }
+
+  Acquisition acquired(const Linearization& linearization, Progress& progress) {
+    std::string inputs = acquisitionFingerprint(settings_);
+    if (auto done = folder_.find(stage::acquisition, inputs)) return loadAcquisition(*done);
+    auto begin = Clock::now();
+    ShotTaker shots(devices_.rig, journal_, stage::acquisition);
+    Acquisition acquisition = acquire(shots, linearization, settings_.acquisition, progress);
+    storeAcquisition(folder_, inputs, acquisition, cost(begin, &shots));
+    return acquisition;
+  }
+
+  /// The operator itself is not stored: making it again is quicker than reading it. What is kept is that it
+  /// can be made, and how long it took.
+  void inverted(const MeasuredVenue& venue, Progress& progress) {
+    std::string inputs = inverseFingerprint(settings_);
+    if (folder_.isCurrent(stage::inverse, inputs)) return;
+    auto begin = Clock::now();
+    WindowInverse inverse = computeWindows(venue.transport, venue.usable, settings_.windows, progress);
+    folder_.store(stage::inverse, inputs, Json{{"cost", cost(begin, nullptr)}, {"bytes", inverse.bytes()}});
+  }
+
+  CalibrationFolder& folder_;
+  OpenedRig& devices_;
+  ShotJournal journal_;
+  CalibrateSettings settings_;
+};
+
+CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, Progress& progress) {
+  CalibrateSettings settings = settingsOf(folder);
+  Progress opening = progress.part(0.2, "Preparing the devices");
+  OpenedRig devices = openRig(settings.rig, cache, opening);
+  opening.report(1.0);
+  Progress measuring = progress.part(0.8, "Calibrating");
+  return Calibrating(folder, devices).run(measuring);
+}
+
+}  // namespace
+
+CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
+                          Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  CalibrationFolder folder = CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  return runStages(folder, cache, progress);
+}
+
+CalibrateResult resume(const fs::path& path, const fs::path& cache, Progress& progress) {
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+  return runStages(folder, cache, progress);
+}
+
+}  // namespace relucent

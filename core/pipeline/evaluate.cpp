@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "image/color.h"
+#include "image/metrics.h"
+#include "image/picture_files.h"
+#include "pipeline/devices.h"
+#include "pipeline/evaluation.h"
+#include "pipeline/projection.h"
+#include "pipeline/standard_images.h"
+#include "transport/difference.h"
+
+// The only place that asks a simulated venue for its true light transport.
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// |T p - R p| / |R p|
+double relightError(const TransportMatrix& transport, const TransportMatrix& reference,
+                    const Stack& pattern) {
+  Stack relit = transport.apply(pattern);
+  Stack truth = reference.apply(pattern);
+  double apart = 0.0;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    double difference = static_cast<double>(relit[i]) - truth[i];
+    apart += difference * difference;
+    whole += static_cast<double>(truth[i]) * truth[i];
+  }
+  return whole > 0.0 ? std::sqrt(apart / whole) : 0.0;
+}
+
+TransportScore scoreOf(const TransportMatrix& transport, const SimulatedVenue& venue) {
+  const TransportMatrix& truth = venue.trueTransport();
+  TransportDifference apart = difference(transport, truth);
+  Stack natural = patternFrom(standardImages().front().linear, transport.projectors());
+  Stack binary(natural.size());
+  Random random{20071028, 2};
+  for (float& value : binary) value = random.uniform() < 0.5 ? 0.0f : 1.0f;
+  return {apart.frobenius, apart.rowMedian, apart.rowP95, relightError(transport, truth, natural),
+          relightError(transport, truth, binary)};
+}
+
+/// Judges projections by what they truly look like in the venue.
+class Judge {
+ public:
+  Judge(const MeasuredCalibration& measured, const SimulatedVenue& venue)
+      : measured_(measured), venue_(venue), rasters_(measured.venue.transport.cameras()) {
+    Stack white(measured.venue.transport.projectors().count() * 3, 1.0f);
+    brightest_ = venue.trueTransport().apply(white);
+    for (std::size_t i = 0; i < brightest_.size(); ++i) brightest_[i] += venue.trueBlack()[i];
+  }
+
+  /// Pixels inside the target that the true venue can reach: e <= wanted <= T 1 + e in all channels.
+  std::vector<std::uint8_t> reachable(const Target& target) const {
+    std::vector<std::uint8_t> reachable = target.inside;
+    for (std::size_t i = 0; i < target.wanted.size(); ++i)
+      if (target.wanted[i] < venue_.trueBlack()[i] || target.wanted[i] > brightest_[i]) reachable[i / 3] = 0;
+    return reachable;
+  }
+
+  /// What the first camera would see, free of noise.
+  Image seen(const Compensation& compensation) const {
+    std::vector<Image> drive =
+        encodedDrive(compensation.projector, measured_.venue.transport.projectors(), measured_.linearization);
+    return imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
+  }
+
+  Image wanted(const Target& target) const { return imageFromStack(target.wanted, rasters_, 0); }
+
+  MethodScore score(Method method, const Image& seen, const Target& target,
+                    const std::vector<std::uint8_t>& reachableMask) const {
+    std::size_t pixels = rasters_.size(0).count();
+    std::span<const std::uint8_t> inside(target.inside.data(), pixels);
+    std::span<const std::uint8_t> mask(reachableMask.data(), pixels);
+    Image wantedImage = wanted(target);
+
+    MethodScore result;
+    result.method = toString(method);
+    result.psnrReachable = psnr(seen, wantedImage, target.white, mask);
+    result.psnrAll = psnr(seen, wantedImage, target.white, inside);
+    Image seenEncoded = viewed(seen, target.white);
+    Image wantedEncoded = viewed(wantedImage, target.white);
+    result.ssim = ssim(seenEncoded, wantedEncoded, inside);
+    result.deltaE = meanDeltaE(seenEncoded, wantedEncoded, inside);
+    return result;
+  }
+
+ private:
+  const MeasuredCalibration& measured_;
+  const SimulatedVenue& venue_;
+  Rasters rasters_;
+  Stack brightest_;
+};
+
+double shareOf(const std::vector<std::uint8_t>& part, const std::vector<std::uint8_t>& whole) {
+  std::size_t inPart = 0;
+  std::size_t inWhole = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    inWhole += whole[i] != 0;
+    inPart += whole[i] != 0 && part[i] != 0;
+  }
+  return inWhole > 0 ? static_cast<double>(inPart) / static_cast<double>(inWhole) : 0.0;
+}
+
+std::vector<NamedImage> contentOf(const EvaluateSettings& settings) {
+  if (settings.images.empty()) return standardImages();
+  std::vector<NamedImage> content;
+  for (const fs::path& path : settings.images)
+    content.push_back({path.stem().string(), readLinearContent(path)});
+  return content;
+}
+
+std::vector<Method> methodsOf(const EvaluateSettings& settings) {
+  if (settings.methods.empty()) return {allMethods.begin(), allMethods.end()};
+  std::vector<Method> methods;
+  for (const std::string& name : settings.methods) methods.push_back(methodFromName(name).value());
+  return methods;
+}
+
+}  // namespace
+
+Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
+                     const fs::path& cache, Progress& progress) {
+  if (!std::holds_alternative<VenueSettings>(measured.rig))
+    throw Error(ErrorKind::input, "only a simulated venue's true light transport is known",
+                "calibrate one with --venue, or look at the prediction: relucent-cli compensate");
+  std::vector<NamedImage> content = contentOf(settings);
+  std::vector<Method> methods = methodsOf(settings);
+  Progress opening = progress.part(0.2, "Preparing the venue");
+  OpenedRig devices = openRig(measured.rig, cache, opening);
+  const SimulatedVenue& venue = devices.venue.value();
+
+  Evaluation evaluation;
+  EvaluateResult& result = evaluation.result;
+  result.venue = venue.settings().name;
+  result.projector = venue.settings().projector;
+  result.camera = venue.settings().camera;
+  result.transport = scoreOf(measured.venue.transport, venue);
+
+  Judge judge(measured, venue);
+  Compensator compensator(measured.venue, measured.inverse);
+  Progress judging = progress.part(0.8, "Comparing the methods");
+  double share = 1.0 / static_cast<double>(content.size() * methods.size());
+  for (const NamedImage& image : content) {
+    Target target = fitTarget(image.linear, measured.venue, settings.target);
+    std::vector<std::uint8_t> reachable = judge.reachable(target);
+    ImageScore score{image.name, shareOf(reachable, target.inside), {}};
+    std::size_t pixels = venue.settings().camera.count();
+    EvaluatedPictures pictures{image.name,   judge.wanted(target), {},
+                               target.white, target.inside,        score.reachable};
+    pictures.inside.resize(pixels);
+    for (Method method : methods) {
+      Progress solving = judging.part(share, fmt::format("{}: {}", image.name, toString(method)));
+      auto begin = Clock::now();
+      Compensation compensation = compensator.solve(method, target, solving);
+      double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      Image seen = judge.seen(compensation);
+      score.methods.push_back(judge.score(method, seen, target, reachable));
+      score.methods.back().seconds = seconds;
+      pictures.seen.emplace(method, std::move(seen));
+    }
+    result.reachable += score.reachable / static_cast<double>(content.size());
+    result.images.push_back(std::move(score));
+    evaluation.pictures.push_back(std::move(pictures));
+  }
+  progress.report(1.0);
+  return evaluation;
+}
+
+EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,
+                        Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  Progress loading = progress.part(0.2, "Reading the calibration");
+  MeasuredCalibration measured = loadCalibration(folder, loading);
+  Progress evaluating = progress.part(0.8, "Evaluating");
+  return evaluated(measured, settings, cache, evaluating).result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "acquisition/acquisition.h"
+#include "calibration/calibration_folder.h"
+#include "compensation/target.h"
+#include "inverse/windows.h"
+#include "linearization/linearization.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// A finished calibration in memory: all that compensation, export and the report need.
+struct MeasuredCalibration {
+  RigSettings rig;
+  Linearization linearization;
+  Acquisition acquisition;  // T has moved on to `venue`
+  MeasuredVenue venue;
+  WindowInverse inverse;
+};
+
+/// Which camera pixels compensation may rely on: lit by the projectors well above noise and black in every
+/// channel, and not flagged by the verification.
+std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition);
+
+/// What compensation needs to know, out of what acquisition measured: T is taken out of `acquisition`,
+/// thresholded and rescaled to the flood image.
+MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSettings& threshold);
+
+/// Reads what was measured, without inverting it. Throws: as loadCalibration().
+MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progress);
+
+/// Reads a finished calibration. The inverse operator is made anew: quicker than reading it.
+/// Throws: Error{input} naming the step that is missing if the calibration is not finished.
+MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress);
+
+/// What the stages found and cost, as calibrate() returns it; without peak memory.
+CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibration& measured);
+
+}  // namespace relucent

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "base/error.h"
+#include "image/picture_files.h"
+#include "pipeline/evaluation.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/report.h"
+#include "pipeline/stages.h"
+#include "pipeline/standard_images.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+std::string venueSentence(const RigSettings& rig) {
+  const auto* simulated = std::get_if<VenueSettings>(&rig);
+  if (simulated == nullptr) return "Measured with external programs";
+  for (const VenueDescription& venue : venues())
+    if (venue.name == simulated->name)
+      return fmt::format("Simulated venue {}: {}", venue.name, venue.sentence);
+  return fmt::format("Simulated venue {}", simulated->name);
+}
+
+std::vector<std::uint64_t> leavesPerLevel(const TransportMatrix& transport) {
+  const NodeLayout& layout = transport.layout();
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(layout.levels()));
+  for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry)
+    ++counts[static_cast<std::size_t>(layout.node(transport.leaves().column(entry)).level)];
+  return counts;
+}
+
+ReportComparison comparisonOf(const EvaluatedPictures& pictures) {
+  return {pictures.name,
+          "refined",
+          pictures.wanted,
+          pictures.seen.at(Method::none),
+          pictures.seen.at(Method::refined),
+          pictures.white,
+          pictures.inside,
+          pictures.reachable,
+          true};
+}
+
+/// What T predicts, where the truth is not known.
+ReportComparison predictedComparison(const NamedImage& image, const MeasuredCalibration& measured,
+                                     Progress& progress) {
+  const MeasuredVenue& venue = measured.venue;
+  Target target = fitTarget(image.linear, venue, {});
+  Compensator compensator(venue, measured.inverse);
+  const Rasters& cameras = venue.transport.cameras();
+  auto predicted = [&](Method method) {
+    Stack seen = venue.transport.apply(compensator.solve(method, target, progress).projector);
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += venue.black[i];
+    return imageFromStack(seen, cameras, 0);
+  };
+  std::size_t pixels = cameras.size(0).count();
+  std::vector<std::uint8_t> inside(target.inside.begin(),
+                                   target.inside.begin() + static_cast<std::ptrdiff_t>(pixels));
+  double covered = 0.0;
+  double reachable = 0.0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    covered += target.inside[i];
+    reachable += target.reachable[i];
+  }
+  return {image.name,
+          "refined",
+          imageFromStack(target.wanted, cameras, 0),
+          predicted(Method::none),
+          predicted(Method::refined),
+          target.white,
+          std::move(inside),
+          covered > 0.0 ? reachable / covered : 0.0,
+          false};
+}
+
+}  // namespace
+
+WrittenFiles report(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
+                    Progress& progress) {
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  Progress loading = progress.part(0.3, "Reading the calibration");
+  MeasuredCalibration measured = loadCalibration(folder, loading);
+  const TransportMatrix& transport = measured.venue.transport;
+
+  ReportData data;
+  data.title = fs::weakly_canonical(folder.path()).filename().string();
+  data.venue = venueSentence(measured.rig);
+  data.software = folder.software();
+  data.measured = folder.created();
+  data.projector = transport.projectors().size(0);
+  data.camera = transport.cameras().size(0);
+  data.result = summaryOf(folder, measured);
+  data.responses = measured.linearization.projectors;
+  data.additivityError = measured.linearization.additivityError;
+  data.exposures = measured.linearization.exposures;
+  data.flood = imageFromStack(measured.venue.flood, transport.cameras(), 0);
+  data.black = imageFromStack(measured.venue.black, transport.cameras(), 0);
+  data.flagged.assign(
+      measured.acquisition.flagged.begin(),
+      measured.acquisition.flagged.begin() + static_cast<std::ptrdiff_t>(data.flood.pixels()));
+  data.leavesPerLevel = leavesPerLevel(transport);
+  data.settings = folder.settings();
+
+  Progress comparing = progress.part(0.6, "Compensating");
+  if (settings.evaluate && std::holds_alternative<VenueSettings>(measured.rig)) {
+    EvaluateSettings evaluation;
+    evaluation.images = settings.images;
+    Evaluation judged = evaluated(measured, evaluation, cache, comparing);
+    for (const EvaluatedPictures& pictures : judged.pictures)
+      data.comparisons.push_back(comparisonOf(pictures));
+    data.evaluation = std::move(judged.result);
+  } else {
+    std::vector<NamedImage> content;
+    for (const fs::path& image : settings.images)
+      content.push_back({image.stem().string(), readLinearContent(image)});
+    if (content.empty()) content = standardImages();
+    for (const NamedImage& image : content)
+      data.comparisons.push_back(predictedComparison(image, measured, comparing));
+  }
+
+  fs::path out = settings.out.empty() ? folder.path() / "report.html" : settings.out;
+  writeReport(out, data);
+  progress.report(1.0);
+  return {{out}};
+}
+
+}  // namespace relucent

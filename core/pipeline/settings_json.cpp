@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/settings_json.h"
+
+#include "base/error.h"
+#include "base/fingerprint.h"
+
+namespace relucent {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Size, width, height)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(LinearizationSettings, levels, shadowPower, noisePairs,
+                                                additivityLimit, seed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, relativeThreshold, noiseSigmas,
+                                                references, verificationPatterns, seed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,
+                                                gamma, vignetting, fullWell, readElectrons, ambient, drift,
+                                                whiteSegment, flicker, cameraGamma)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(VenueSettings, name, projector, camera, seed, pathsPerPixel,
+                                                devices)
+
+namespace {
+
+// The macros above speak the library's own sorted kind of JSON.
+using Sorted = nlohmann::json;
+
+[[noreturn]] void failForeign(const std::exception& cause) {
+  throw Error(ErrorKind::format, fmt::format("the manifest's settings cannot be read ({})", cause.what()),
+              "restore calibration.relucent from a copy, or calibrate again");
+}
+
+Sorted commandRigToJson(const CommandRigSettings& settings) {
+  Sorted json{{"projector_command", settings.projectorCommand},
+              {"camera_command", settings.cameraCommand},
+              {"projector", settings.projector},
+              {"shortest_exposure", settings.shortestExposure},
+              {"longest_exposure", settings.longestExposure}};
+  if (settings.camera) json["camera"] = *settings.camera;
+  return json;
+}
+
+CommandRigSettings commandRigFromJson(const Sorted& json) {
+  CommandRigSettings settings;
+  settings.projectorCommand = json.at("projector_command");
+  settings.cameraCommand = json.at("camera_command");
+  settings.projector = json.at("projector");
+  settings.shortestExposure = json.value("shortest_exposure", settings.shortestExposure);
+  settings.longestExposure = json.value("longest_exposure", settings.longestExposure);
+  if (json.contains("camera")) settings.camera = json.at("camera").get<Size>();
+  return settings;
+}
+
+}  // namespace
+
+Json rigToJson(const RigSettings& settings) {
+  Sorted json;
+  if (const auto* venue = std::get_if<VenueSettings>(&settings))
+    json = {{"kind", "simulated"}, {"venue", *venue}};
+  else
+    json = {{"kind", "commands"}, {"commands", commandRigToJson(std::get<CommandRigSettings>(settings))}};
+  return Json(json);
+}
+
+RigSettings rigFromJson(const Json& json) {
+  try {
+    Sorted sorted(json);
+    std::string kind = sorted.at("kind");
+    if (kind == "simulated") return sorted.at("venue").get<VenueSettings>();
+    if (kind == "commands") return commandRigFromJson(sorted.at("commands"));
+    throw Error(ErrorKind::format,
+                fmt::format("the calibration was made with devices of the kind \"{}\"", kind),
+                "open it with the version of Relucent that made it");
+  } catch (const Sorted::exception& cause) {
+    failForeign(cause);
+  }
+}
+
+Json stagesToJson(const CalibrateSettings& settings) {
+  return Json(Sorted{{"linearization", settings.linearization},
+                     {"acquisition", settings.acquisition},
+                     {"threshold", settings.threshold},
+                     {"windows", settings.windows}});
+}
+
+void stagesFromJson(const Json& json, CalibrateSettings& settings) {
+  try {
+    Sorted sorted(json);
+    settings.linearization = sorted.value("linearization", settings.linearization);
+    settings.acquisition = sorted.value("acquisition", settings.acquisition);
+    settings.threshold = sorted.value("threshold", settings.threshold);
+    settings.windows = sorted.value("windows", settings.windows);
+  } catch (const Sorted::exception& cause) {
+    failForeign(cause);
+  }
+}
+
+std::string fingerprintOf(const Json& json) {
+  return Fingerprint().add(json.dump()).hex();
+}
+
+}  // namespace relucent

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "calibration/json.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// Settings as the calibration's manifest keeps them. Unknown keys are ignored and missing ones keep their
+/// defaults, so that manifests of other versions open.
+Json rigToJson(const RigSettings& settings);
+/// Throws: Error{format} if the manifest names a kind of rig that this version does not know.
+RigSettings rigFromJson(const Json& json);
+
+Json stagesToJson(const CalibrateSettings& settings);
+/// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
+void stagesFromJson(const Json& json, CalibrateSettings& settings);
+
+/// A fingerprint of settings, through their JSON.
+std::string fingerprintOf(const Json& json);
+
+}  // namespace relucent

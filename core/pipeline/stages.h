@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "calibration/calibration_folder.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// Names of the stages in a calibration's manifest and journal.
+namespace stage {
+inline constexpr const char* linearization = "linearization";
+inline constexpr const char* acquisition = "acquisition";
+inline constexpr const char* inverse = "inverse";
+}  // namespace stage
+
+/// What a calibration was asked for. Throws: Error{format}.
+CalibrateSettings settingsOf(const CalibrationFolder& folder);
+
+/// Fingerprints of everything that a stage's result depends on. Each includes those of the stages before, so
+/// that a changed setting makes all later results stale.
+std::string linearizationFingerprint(const CalibrateSettings& settings);
+std::string acquisitionFingerprint(const CalibrateSettings& settings);
+std::string inverseFingerprint(const CalibrateSettings& settings);
+
+}  // namespace relucent

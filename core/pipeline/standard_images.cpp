@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/standard_images.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "image/color.h"
+
+namespace relucent {
+namespace {
+
+// Drawn at four times the size and averaged down: edges then have the soft steps of a photograph.
+constexpr int oversampling = 4;
+
+cv::Mat canvas(Size size, const cv::Scalar& encoded) {
+  return cv::Mat(size.height * oversampling, size.width * oversampling, CV_32FC3, encoded);
+}
+
+/// Encoded RGB to linear, averaged down in linear light.
+Image finished(const cv::Mat& encoded, Size size) {
+  cv::Mat linear = encoded.clone();
+  linear.forEach<cv::Vec3f>([](cv::Vec3f& pixel, const int*) {
+    for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(srgbDecode(std::clamp(pixel[c], 0.0f, 1.0f)));
+  });
+  cv::Mat small;
+  cv::resize(linear, small, cv::Size(size.width, size.height), 0, 0, cv::INTER_AREA);
+  return Image(size, 3, std::vector<float>(small.ptr<float>(), small.ptr<float>() + size.count() * 3));
+}
+
+/// A colour of moderate saturation at a given hue (turns), saturation and value.
+cv::Scalar hsv(double hue, double saturation, double value) {
+  std::array<double, 3> rgb{};
+  for (int c = 0; c < 3; ++c) {
+    double distance = std::abs(std::remainder(hue - c / 3.0, 1.0)) * 6.0;
+    double pure = std::clamp(2.0 - distance, 0.0, 1.0);
+    rgb[static_cast<std::size_t>(c)] = value * (1.0 - saturation * (1.0 - pure));
+  }
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+/// Discs hide one another, the number of those with radius above r falling as r^-2.
+Image deadLeaves(Size size) {
+  cv::Mat picture = canvas(size, {0.5, 0.5, 0.5});
+  Random random{20071028};
+  double largest = 0.3 * picture.rows;
+  double smallest = 0.004 * picture.rows;
+  // From the bottom up; enough discs that the whole picture is covered many times over.
+  constexpr int discs = 9000;
+  for (int i = 0; i < discs; ++i) {
+    // Inverse of the cumulative distribution of a density falling as r^-3 between the two radii.
+    double u = random.uniform();
+    double a = 1.0 / (smallest * smallest);
+    double b = 1.0 / (largest * largest);
+    double radius = 1.0 / std::sqrt(a + u * (b - a));
+    cv::Point centre(static_cast<int>(random.below(static_cast<std::uint64_t>(picture.cols))),
+                     static_cast<int>(random.below(static_cast<std::uint64_t>(picture.rows))));
+    double hue = random.uniform();
+    double saturation = 0.5 * random.uniform();
+    double value = 0.15 + 0.8 * random.uniform();
+    cv::circle(picture, centre, std::max(1, static_cast<int>(radius)), hsv(hue, saturation, value),
+               cv::FILLED);
+  }
+  return finished(picture, size);
+}
+
+Image lettering(Size size) {
+  cv::Mat picture = canvas(size, {0.92, 0.92, 0.9});
+  int half = picture.rows / 2;
+  cv::rectangle(picture, cv::Rect(0, half, picture.cols, picture.rows - half), cv::Scalar(0.08, 0.09, 0.12),
+                cv::FILLED);
+  const std::array<const char*, 4> lines{"Light transport", "Every wall becomes a white screen",
+                                         "0123456789 ABCDEFGHIJKLM abcdefghijklm",
+                                         "projector camera radiance floodlight reachability exposure"};
+  const std::array<double, 4> heights{0.13, 0.075, 0.05, 0.035};  // of the picture
+  for (int part = 0; part < 2; ++part) {
+    cv::Scalar ink = part == 0 ? cv::Scalar(0.06, 0.06, 0.08) : cv::Scalar(0.95, 0.93, 0.85);
+    double y = part * half;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      double height = heights[i] * picture.rows;
+      y += height * 1.1;
+      // A glyph of this face is 22 units high at scale 1.
+      cv::putText(picture, lines[i], cv::Point(picture.cols / 40, static_cast<int>(y)),
+                  cv::FONT_HERSHEY_DUPLEX, height / 32.0, ink, std::max(1, static_cast<int>(height / 11)),
+                  cv::LINE_AA);
+    }
+    // Gratings under the lettering, periods from 2 to 12 pixels of the finished picture.
+    int top = static_cast<int>(y + 0.02 * picture.rows);
+    int bottom = part * half + half - picture.rows / 60;
+    int x = picture.cols / 40;
+    for (int period : {12, 8, 6, 4, 3, 2}) {
+      for (int bar = 0; bar < 5; ++bar) {
+        int width = period * oversampling / 2;
+        cv::rectangle(picture, cv::Rect(x, top, width, std::max(1, bottom - top)), ink, cv::FILLED);
+        x += 2 * width;
+      }
+      x += picture.cols / 30;
+    }
+  }
+  return finished(picture, size);
+}
+
+Image saturatedColours(Size size) {
+  cv::Mat picture = canvas(size, {0.5, 0.5, 0.5});
+  double columns = picture.cols;
+  double rows = picture.rows;
+  picture.forEach<cv::Vec3f>([&](cv::Vec3f& pixel, const int* place) {
+    double v = place[0] / rows;
+    double u = place[1] / columns;
+    cv::Scalar colour;
+    if (v < 0.35)  // all hues, fading to white
+      colour = hsv(u, 1.0 - v / 0.35 * 0.8, 0.95);
+    else if (v < 0.65)  // bars with hard borders
+      colour = hsv(std::floor(u * 8.0) / 8.0, 0.95, 0.9);
+    else  // discs of a hue on its complement
+      colour = hsv(std::floor(u * 4.0) / 4.0 + 0.5, 0.8, 0.45);
+    pixel = cv::Vec3f(static_cast<float>(colour[0]), static_cast<float>(colour[1]),
+                      static_cast<float>(colour[2]));
+  });
+  for (int i = 0; i < 4; ++i)
+    cv::circle(picture, cv::Point(static_cast<int>((i + 0.5) * columns / 4), static_cast<int>(0.825 * rows)),
+               static_cast<int>(0.12 * rows), hsv(i / 4.0, 0.9, 0.95), cv::FILLED, cv::LINE_8);
+  return finished(picture, size);
+}
+
+}  // namespace
+
+std::vector<NamedImage> standardImages(Size size) {
+  require(size.width >= 8 && size.height >= 8, "no picture can be drawn in {}x{} pixels", size.width,
+          size.height);
+  return {{"natural", deadLeaves(size)}, {"text", lettering(size)}, {"colours", saturatedColours(size)}};
+}
+
+}  // namespace relucent

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+# What packaging/run and packaging/test share. Sourced; the caller has set -euo pipefail.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+dependencies=$root/packaging/dependencies
+
+fail() {
+  echo "$(basename "$0"): $*" >&2
+  exit 1
+}
+
+# The requirements of some sections of packaging/dependencies, one a line, alternatives between "|".
+requirements() {
+  local section wanted=" $* " line
+  while read -r line; do
+    line=${line%%#*}
+    if [[ $line =~ ^\[(.*)\] ]]; then
+      section=${BASH_REMATCH[1]}
+    elif [[ $line =~ [^[:space:]] && $wanted == *" $section "* ]]; then
+      echo "$line"
+    fi
+  done <"$dependencies"
+}
+
+isInstalled() {
+  [[ $(dpkg-query --show --showformat='${db:Status-Abbrev}' "$1" 2>/dev/null) == ?i* ]]
+}
+
+isOffered() {
+  [[ $(LC_ALL=C apt-cache policy "$1" 2>/dev/null) =~ Candidate:\ [^\(] ]]
+}
+
+# One package per unmet requirement: the first alternative that the release offers, else the first.
+missingPackages() {
+  local requirement package alternatives choice
+  while read -r requirement; do
+    read -ra alternatives <<<"${requirement//|/ }"
+    choice=
+    for package in "${alternatives[@]}"; do
+      if isInstalled "$package"; then continue 2; fi
+    done
+    for package in "${alternatives[@]}"; do
+      if isOffered "$package"; then choice=$package && break; fi
+    done
+    echo "${choice:-${alternatives[0]}}"
+  done < <(requirements "$@")
+}
+
+# Runs a command as root: directly, or through sudo, which may ask for the password only at a terminal.
+asRoot() {
+  if ((EUID == 0)); then "$@"; else sudo "$@"; fi
+}
+canBeRoot() {
+  ((EUID == 0)) && return
+  command -v sudo >/dev/null || return
+  sudo -n true 2>/dev/null || { [[ -t 0 && -t 2 ]] && sudo -v; }
+}
+
+aptInstall() {
+  asRoot env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get install --yes --no-install-recommends \
+    --no-upgrade --no-remove -o DPkg::Lock::Timeout=300 "$@"
+}
+
+# Installs what is missing of some sections and touches nothing that is there.
+installDependencies() {
+  [[ -n $(command -v apt-get) && -n $(command -v dpkg-query) ]] ||
+    fail "this is no Debian: install what packaging/dependencies names by other means and build with CMake."
+  local missing log=$root/build/install.log
+  mapfile -t missing < <(missingPackages "$@")
+  ((${#missing[@]})) || return 0
+  canBeRoot || fail "these packages are missing and neither root nor sudo is at hand to install them;" \
+    "have an administrator run: apt-get install --no-install-recommends ${missing[*]}"
+
+  mkdir -p "$root/build"
+  echo "Installing ${#missing[@]} packages: ${missing[*]}"
+  asRoot apt-get update >"$log" 2>&1 || { cat "$log" >&2; fail "the package lists could not be brought up to date."; }
+  mapfile -t missing < <(missingPackages "$@")  # the lists may have named other alternatives
+
+  local plan upgrades
+  plan=$(aptInstall --simulate "${missing[@]}" 2>&1) ||
+    { echo "$plan" >&2; fail "the distribution cannot install ${missing[*]} beside what is there."; }
+  upgrades=$(sed -n 's/^Inst \([^ ]*\) \[.*/\1/p' <<<"$plan" | tr '\n' ' ')
+  [[ -z $upgrades ]] || fail "the missing packages need newer versions of ${upgrades% }, which is for you to decide;" \
+    "run: apt-get install --no-install-recommends ${missing[*]}"
+  aptInstall "${missing[@]}" >>"$log" 2>&1 || { cat "$log" >&2; fail "installing ${missing[*]} failed."; }
+}
+
+# As many compilers as there are cores, and no more than memory bears at 1.5 GB each.
+compileJobs() {
+  local cores gigabytesTimesTwo jobs
+  cores=$(nproc)
+  gigabytesTimesTwo=$(awk '/^MemAvailable/ {print int($2 / 524288)}' /proc/meminfo)
+  jobs=$((gigabytesTimesTwo / 3 < cores ? gigabytesTimesTwo / 3 : cores))
+  echo $((jobs > 1 ? jobs : 1))
+}
+
+# Turns Ninja's lines into one line that moves on a terminal, else into a line every tenth.
+showBuildProgress() {
+  local name=$1 line announced=-1 tenth
+  while IFS= read -r line; do
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    ((BASH_REMATCH[1] > 0)) || continue
+    if [[ -t 1 ]]; then
+      printf '\rBuilding %s: %d of %d ' "$name" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}"
+      announced=1
+      continue
+    fi
+    tenth=$((BASH_REMATCH[1] * 10 / BASH_REMATCH[2]))
+    ((tenth == announced)) && continue
+    announced=$tenth
+    echo "Building $name: $((tenth * 10)) %"
+  done
+  if [[ -t 1 ]] && ((announced > 0)); then echo; fi
+}
+
+# build PRESET [TARGET...]: configures and builds; silent when nothing has changed, the log only on failure.
+build() {
+  local preset=$1 log=$root/build/$1.log targets=()
+  shift
+  (($#)) && targets=(--target "$@")
+  mkdir -p "$root/build"
+  (cd "$root" && cmake --preset "$preset") >"$log" 2>&1 ||
+    { cat "$log" >&2; fail "configuring $preset failed, see above (build/$preset.log)."; }
+  (cd "$root" && cmake --build --preset "$preset" --parallel "$(compileJobs)" "${targets[@]}") 2>&1 |
+    tee -a "$log" | showBuildProgress "$preset" ||
+    { grep -v '^\[[0-9]*/[0-9]*\]' "$log" | tail -n 100 >&2
+      fail "building $preset failed, see above (the whole log: build/$preset.log)."; }
+}

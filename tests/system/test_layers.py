@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The folders are the architecture: what includes what, and whose every file is.
+
+    test_layers.py SOURCE_DIR
+
+The layers are read from where they are decided: the order from core/CMakeLists.txt, the permissions from the
+USES of each folder's relucent_core_library(). The linker cannot see a wrong include of a header that needs no
+symbols; this can.
+"""
+import os
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]
+
+OWN_FOLDERS = ["core", "gui", "tests", "packaging", ".ci", "resources", "translations"]
+SOURCE_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".cmake", ".comp", ".vert", ".frag"}
+
+
+def order_of_layers(source):
+    """The core folders in the order of core/CMakeLists.txt."""
+    text = (source / "core/CMakeLists.txt").read_text()
+    return re.search(r"foreach\(folder\s+([^)]*)\)", text).group(1).split()
+
+
+def declared_uses(source):
+    """Per core folder that is built: the folders that its library USES, as written."""
+    uses = {}
+    for lists in sorted(source.glob("core/*/CMakeLists.txt")):
+        call = re.search(r"relucent_core_library\((.*?)\)", lists.read_text(), re.S)
+        if call:
+            words = call.group(1).split()
+            begin = words.index("USES") + 1 if "USES" in words else len(words)
+            end = next((i for i in range(begin, len(words)) if words[i].isupper()), len(words))
+            uses[lists.parent.name] = words[begin:end]
+    return uses
+
+
+def closure(uses, folder):
+    """The folder and everything that it uses, directly or through another."""
+    reached, waiting = set(), [folder]
+    while waiting:
+        name = waiting.pop()
+        if name not in reached:
+            reached.add(name)
+            waiting += uses.get(name, [])
+    return reached
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+        found = re.match(r'\s*#\s*include\s*([<"])([^>"]+)', line)
+        if found:
+            yield number, found.group(2)
+
+
+def layer_breaches(source):
+    """A sentence for each USES and each include that goes against the order of light, and for each Qt in core."""
+    order, uses = order_of_layers(source), declared_uses(source)
+    found = []
+    for folder, used in uses.items():
+        if folder not in order:
+            found.append(f"core/{folder} is not in the list of core/CMakeLists.txt")
+            continue
+        for name in used:
+            if name not in order[:order.index(folder)]:
+                found.append(f"core/{folder} USES {name}, which is not above it in core/CMakeLists.txt")
+    for folder in uses:
+        allowed = closure(uses, folder)
+        for path in sorted((source / "core" / folder).rglob("*.[ch]*")):
+            if path.suffix not in {".h", ".cpp"}:
+                continue
+            where = path.relative_to(source)
+            for number, name in includes(path):
+                target = name.split("/")[0]
+                if "/" in name and (source / "core" / target).is_dir() and target not in allowed:
+                    found.append(f"{where}:{number}: includes {name}, but {folder} does not use {target}")
+                if re.match(r"Q[A-Z]|Qt", name):
+                    found.append(f"{where}:{number}: includes {name}, but core knows no Qt")
+    return found
+
+
+def own_sources(source):
+    for folder in OWN_FOLDERS:
+        for directory, folders, names in os.walk(source / folder):
+            folders[:] = [name for name in folders if name not in {"build", "__pycache__"}]
+            for name in names:
+                path = Path(directory) / name
+                script = path.suffix == "" and path.read_bytes()[:2] == b"#!"
+                if path.suffix in SOURCE_SUFFIXES or name == "CMakeLists.txt" or script:
+                    yield path
+    yield source / "CMakeLists.txt"
+
+
+def files_without_licence(source):
+    """Files whose first line, or second after an interpreter's, is not the SPDX line."""
+    return [
+        str(path.relative_to(source)) for path in own_sources(source)
+        if not any("SPDX-License-Identifier: MIT" in line for line in path.read_text().splitlines()[:2])
+    ]
+
+
+class ThisRepository(unittest.TestCase):
+    def test_there_is_something_to_check(self):
+        self.assertGreaterEqual(set(declared_uses(SOURCE)), {"base", "image", "rig", "transport"})
+
+    def test_includes_follow_the_layers(self):
+        self.assertEqual(layer_breaches(SOURCE), [])
+
+    def test_every_source_names_its_licence(self):
+        self.assertEqual(files_without_licence(SOURCE), [])
+
+
+class TheCheckItself(unittest.TestCase):
+    """A small tree with one breach of each kind."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.source = Path(self.folder.name)
+        self.write("CMakeLists.txt", "# SPDX-License-Identifier: MIT\n")
+        self.write("core/CMakeLists.txt", "# SPDX-License-Identifier: MIT\nforeach(folder\n    base image rig)\n")
+        self.library("base", "")
+        self.library("image", "USES base PRIVATE opencv_core")
+        self.library("rig", "USES image\n  PUBLIC fmt::fmt")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, name, text):
+        path = self.source / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def library(self, folder, uses):
+        self.write(f"core/{folder}/CMakeLists.txt",
+                   f"# SPDX-License-Identifier: MIT\nrelucent_core_library({folder}\n  SOURCES a.cpp\n  {uses})\n")
+
+    def include(self, place, line):
+        self.write(place, f"// SPDX-License-Identifier: MIT\n{line}\n")
+
+    def test_includes_from_the_closure_are_fine(self):
+        self.include("core/rig/a.cpp", '#include "base/a.h"\n#include "image/a.h"\n#include <sys/stat.h>')
+        self.assertEqual(layer_breaches(self.source), [])
+
+    def test_an_include_from_below_is_found(self):
+        self.include("core/base/a.h", '#include "image/a.h"')
+        self.assertEqual(len(layer_breaches(self.source)), 1)
+
+    def test_a_use_from_below_is_found(self):
+        self.library("base", "USES rig")
+        self.assertEqual(len(layer_breaches(self.source)), 1)
+
+    def test_qt_in_core_is_found(self):
+        self.include("core/image/a.cpp", "#include <QImage>")
+        self.assertEqual(len(layer_breaches(self.source)), 1)
+
+    def test_a_missing_licence_is_found(self):
+        self.write("core/image/a.cpp", "int a;\n")
+        self.assertEqual(files_without_licence(self.source), ["core/image/a.cpp"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)

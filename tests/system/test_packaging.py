@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What packaging/common.sh does to a system: scripted stand-ins for Debian's tools record what it asks for.
+
+    test_packaging.py SOURCE_DIR
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]
+
+TOOLS = {
+    # $STATE/installed and $STATE/offered list packages; $STATE/calls is the record.
+    "dpkg-query": 'grep -qxF "${@: -1}" "$STATE/installed" && echo -n "ii "',
+    "apt-cache": 'grep -qxF "$2" "$STATE/offered" && echo "  Candidate: 1.0" || echo "  Candidate: (none)"',
+    "apt-get": 'echo "$*" >>"$STATE/calls"; [[ $* == *--simulate* ]] && cat "$STATE/plan"; true',
+    "cmake": "true",
+    "sudo": '[[ -e $STATE/sudo ]] || exit 1; [[ $1 == -n ]] && shift; exec "$@"',
+}
+NOBODY = 65534
+
+
+class Scripted(unittest.TestCase):
+    """A copy of packaging/ in a folder of its own, where nothing of the system is asked."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        shutil.copytree(SOURCE / "packaging", self.folder / "packaging")
+        (self.folder / "packaging/dependencies").write_text(
+            "# a list\n[build]\nalpha  # why\nold-name | new-name\n\n[tests]\nbeta\n")
+        for name, body in TOOLS.items():
+            tool = self.folder / "tools" / name
+            tool.parent.mkdir(exist_ok=True)
+            tool.write_text(f"#!/bin/bash\n{body}\n")
+            tool.chmod(0o755)
+        self.state = self.folder / "state"
+        self.state.mkdir()
+        self.says(installed="", offered="alpha beta old-name new-name", calls="", plan="")
+
+    def says(self, **files):
+        for name, text in files.items():
+            (self.state / name).write_text("".join(word + "\n" for word in text.split("," if name == "plan" else None)))
+
+    def calls(self):
+        return (self.state / "calls").read_text().split("\n")[:-1]
+
+
+class Install(Scripted):
+    def install(self, *sections, root=False):
+        """installDependencies SECTIONS, as root or as somebody else."""
+        somebody = {}
+        if os.geteuid() == 0 and not root:
+            for path in [self.folder, *self.folder.rglob("*")]:
+                os.chown(path, NOBODY, NOBODY)
+            somebody = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
+        environment = {"PATH": f"{self.folder}/tools:/usr/bin:/bin", "STATE": str(self.state)}
+        return subprocess.run(
+            ["bash", "-c", "set -euo pipefail; source packaging/common.sh; installDependencies " + " ".join(sections)],
+            cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+            **somebody)
+
+    def test_nothing_to_do_is_silent_and_asks_for_nothing(self):
+        self.says(installed="alpha new-name")
+        done = self.install("build")
+        self.assertEqual((done.returncode, done.stdout, done.stderr, self.calls()), (0, "", "", []))
+
+    def test_only_what_is_missing_is_installed_and_nothing_else_touched(self):
+        self.says(installed="alpha old-name", sudo="")
+        done = self.install("build", "tests")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        update, plan, install = self.calls()
+        self.assertEqual(update, "update")
+        self.assertIn("--simulate", plan)
+        self.assertRegex(install, r" beta$")
+        self.assertNotIn("alpha", install)
+        for guard in ["--no-remove", "--no-upgrade", "--no-install-recommends", "--yes"]:
+            self.assertIn(guard, install.split())
+
+    def test_the_alternative_that_the_release_offers_is_taken(self):
+        self.says(installed="alpha", offered="alpha new-name", sudo="")
+        self.assertEqual(self.install("build").returncode, 0)
+        self.assertRegex(self.calls()[-1], r" new-name$")
+
+    def test_without_root_and_sudo_one_sentence_names_packages_and_command(self):
+        done = self.install("build")
+        self.assertEqual((done.returncode, done.stdout, self.calls()), (1, "", []))
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertRegex(done.stderr, r"missing.*apt-get install .*alpha old-name")
+
+    def test_an_upgrade_is_left_to_the_user(self):
+        self.says(installed="old-name", sudo="", plan="Inst libc6 [2.36-9] (2.36-10 Debian),Inst alpha (1.0 Debian)")
+        done = self.install("build")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"newer versions of libc6,.*apt-get install .*alpha")
+        self.assertFalse([call for call in self.calls() if "--simulate" not in call and call != "update"])
+
+    @unittest.skipUnless(os.geteuid() == 0, "needs to be root")
+    def test_root_needs_no_sudo(self):
+        done = self.install("build", root=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(self.calls()[-1], r" alpha old-name$")
+
+
+class Run(Scripted):
+    def setUp(self):
+        super().setUp()
+        self.says(installed="alpha new-name")
+        self.program("relucent-cli", '[[ $1 == calibrate ]] && mkdir -p "$2" && touch "$2/calibration.relucent"; true')
+
+    def program(self, name, body):
+        path = self.folder / "build/release/bin" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f'#!/bin/bash\necho "{name} $*" >>"$STATE/calls"\n{body}\n')
+        path.chmod(0o755)
+
+    def run_it(self, **environment):
+        environment |= {"PATH": f"{self.folder}/tools:/usr/bin:/bin", "STATE": str(self.state)}
+        return subprocess.run([self.folder / "packaging/run"], env=environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, check=False)
+
+    def deeds(self):
+        return [call.split()[1] for call in self.calls()]
+
+    def test_without_a_display_it_rehearses_and_says_where_the_results_are(self):
+        done = self.run_it()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.deeds()[0], "calibrate")
+        self.assertEqual(self.deeds()[-2:], ["evaluate", "report"])
+        self.assertIn(f"{self.folder}/build/rehearsal/report.html", done.stdout)
+
+    def test_again_it_goes_on_from_the_calibration_that_is_there(self):
+        self.run_it()
+        self.says(calls="")
+        self.assertEqual(self.run_it().returncode, 0)
+        self.assertEqual(self.deeds()[0], "resume")
+
+    def test_a_failure_is_passed_on(self):
+        self.program("relucent-cli", "exit 1")
+        self.assertEqual(self.run_it().returncode, 1)
+        self.assertEqual(len(self.deeds()), 1)
+
+    def test_with_a_display_the_desktop_program_opens(self):
+        self.program("relucent", "true")
+        self.assertEqual(self.run_it(DISPLAY=":0").returncode, 0)
+        self.assertEqual([call.split()[0] for call in self.calls()], ["relucent"])
+
+
+class TheList(unittest.TestCase):
+    def test_every_line_is_a_section_or_packages(self):
+        package = r"[a-z0-9][a-z0-9.+-]+"
+        for line in (SOURCE / "packaging/dependencies").read_text().splitlines():
+            text = line.split("#")[0].strip()
+            self.assertRegex(text, rf"^(|\[(build|run|tests)\]|{package}( \| {package})*)$", line)
+
+    def test_the_scripts_parse(self):
+        for script in (SOURCE / "packaging").iterdir():
+            if script.suffix == ".sh" or re.match(r"#!/bin/bash", script.read_text(errors="replace")):
+                self.assertEqual(subprocess.run(["bash", "-n", script], check=False).returncode, 0, script)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)

@@ -115,7 +115,7 @@ std::string barChart(const std::vector<Bar>& bars, const std::string& title) {
 std::string histogram(const std::vector<float>& before, const std::vector<float>& after, double most,
                       const std::string& unit, const std::string& title) {
   constexpr std::size_t bins = 40;
-  constexpr double left = 20, top = 12, width = 430, height = 170;
+  constexpr double left = 20, top = 36, width = 430, height = 160;
   auto sharesOf = [&](const std::vector<float>& values) {
     std::vector<double> shares(bins, 0.0);
     double count = 0.0;
@@ -144,10 +144,9 @@ std::string histogram(const std::vector<float>& before, const std::vector<float>
     }
     path += fmt::format("L{:.1f} {:.1f}Z", left + width, top + height);
     svg += fmt::format(R"(<path class="{}" d="{}"/>)", styles[set], path);
-    double row = top + 14 + 20 * static_cast<double>(set);
-    svg += fmt::format(R"(<rect class="{}" x="{}" y="{:.1f}" width="14" height="10"/>)", styles[set],
-                       left + width - 130, row - 9);
-    svg += text(left + width - 108, row, "start", names[set]);
+    double column = left + 140 * static_cast<double>(set);
+    svg += fmt::format(R"(<rect class="{}" x="{:.1f}" y="8" width="14" height="10"/>)", styles[set], column);
+    svg += text(column + 22, 17, "start", names[set]);
   }
   svg += line(left, top + height, left + width, top + height, "axis");
   for (int tick = 0; tick <= 4; ++tick)

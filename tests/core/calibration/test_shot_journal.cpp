@@ -247,7 +247,7 @@ class TestShotJournal : public QObject {
       return shot;
     };
     int next = 0;
-    for (int round = 0; round < 12; ++round) {
+    for (int round = 0; round < 8; ++round) {
       int done[2];
       QCOMPARE(::pipe(done), 0);
       pid_t child = ::fork();

@@ -61,24 +61,24 @@ Scene depthScene(const VenueSettings& settings) {
       {ellipsoid({0.36f, -0.40f, 0.30f}, {0.15f, 0.15f, 0.15f}, 96), {cardboard({0.62f, 0.30f, 0.28f})}});
   scene.surfaces.push_back(
       {ellipsoid({-0.42f, -0.41f, 0.34f}, {0.14f, 0.14f, 0.14f}, 96), {cardboard({0.34f, 0.52f, 0.36f})}});
-  placeDevices(scene, settings, {0.0f, -0.05f, -0.10f}, 30.0f);
+  placeDevices(scene, settings, {0.0f, -0.05f, -0.10f}, 20.0f);
   return scene;
 }
 
 Scene domeScene(const VenueSettings& settings) {
   Scene scene;
-  // The middle of a dome of 2.6 m, seen from about its centre; the floor is dark carpet.
+  // The middle of a dome of 2.6 m, seen from about its centre; the floor is carpet.
   constexpr float radius = 2.6f;
   scene.surfaces.push_back({ellipsoid({0.0f, 0.0f, 0.0f}, {radius, radius, radius}, 160), {domePaint()}});
   scene.surfaces.push_back({rectangle({-3.0f, -0.9f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}),
-                            {cardboard({0.16f, 0.14f, 0.15f})}});
+                            {cardboard({0.26f, 0.24f, 0.24f})}});
   placeDevices(scene, settings, {0.0f, 0.55f, -2.4f}, 6.0f);
   ProjectorOptics& projector = scene.projectors.front();
-  projector.throwRatio = 0.75f;
+  projector.throwRatio = 0.60f;
   projector.pose = Pose::lookingAt({0.25f, -0.35f, 0.3f}, {0.0f, 0.5f, -2.5f});
   projector.focus = 2.75f;
   projector.aperture = 6.0f * projector.pixelPitch();
-  scene.camera.throwRatio = 0.70f;
+  scene.camera.throwRatio = 0.60f;
   scene.camera.pose = Pose::lookingAt({-0.30f, -0.25f, 0.35f}, {0.0f, 0.5f, -2.5f});
   return scene;
 }

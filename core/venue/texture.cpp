@@ -178,10 +178,10 @@ Texture domePaint() {
     float band = smoothStep(0.20f, 0.21f, latitude) * (1.0f - smoothStep(0.39f, 0.40f, latitude));
     Cell cell = cellAt(longitude * 12.0f / pi, (latitude - 0.20f) / 0.19f);
     float tile = 1.0f - smoothStep(0.30f, 0.34f, diamond(cell));
-    Array3f paint = mix({0.70f, 0.69f, 0.66f}, {0.56f, 0.48f, 0.33f}, band);
+    Array3f paint = mix({0.86f, 0.85f, 0.82f}, {0.62f, 0.52f, 0.34f}, band);
     paint = mix(paint, {0.34f, 0.42f, 0.60f}, band * tile);
     float dirt = fractalNoise(4.0f * point.position, 4);
-    return plausible(paint * (0.72f + 0.28f * rib * seam) * (0.80f + 0.36f * dirt));
+    return plausible(paint * (0.72f + 0.28f * rib * seam) * (0.86f + 0.26f * dirt));
   };
 }
 

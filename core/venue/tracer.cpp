@@ -18,7 +18,10 @@ using Eigen::Vector3f;
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float cameraBlur = 0.4f;     // pixels, beside the pixel's own width
 constexpr int longestGlassChain = 16;  // boundaries that one path may cross
-constexpr int coarsestAcross = 8;      // indirect light is resolved into at least so many nodes
+/// Bounced light varies slowly over the picture; so may its sampling error, which hardly moves from pixel to
+/// pixel.
+constexpr float bouncedShift = 0.15f;
+constexpr int coarsestAcross = 8;  // indirect light is resolved into at least so many nodes
 
 Rasters projectorRasters(const Scene& scene) {
   std::vector<Size> sizes;
@@ -133,6 +136,7 @@ void Tracer::gatherCaustics(const Path& path, TransportRow& row) const {
 }
 
 bool Tracer::bounce(Path& path) const {
+  if (path.bounces == 0) path.shift *= bouncedShift;
   Vector2f direction = samples_.point(path.sample, path.pair++, path.shift);
   Vector2f choices = samples_.point(path.sample, path.pair++, path.shift);
   Bounce bounce = drawBounce(path.scattering, direction, choices.x());

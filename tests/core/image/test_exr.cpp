@@ -198,7 +198,8 @@ class TestExr : public QObject {
     ExrImage image;
     image.pixels = noise({12, 9}, 3, 4);
     image.channelNames = {"R", "G", "B"};
-    image.dataOrigin = {x, y};
+    image.displayOrigin = {5, -7};
+    image.dataOrigin = {5 + x, -7 + y};
     image.displaySize = Size{10, 8};
     writeExr(file("placed.exr"), image, ExrType::floatType);
     const Image placed = readRgbExr(file("placed.exr"), Size{10, 8});

@@ -121,11 +121,14 @@ class TestResample : public QObject {
   }
 
   void nothingAppearsBehindTheHorizon() {
-    // The map's denominator vanishes along x = 8: what lies beyond is not in view.
-    const Homography sourceFromResult{1, 0, 0, 0, 1, 0, -0.125, 0, 1};
-    const Image result = warpedPerspective(Image({100, 100}, 1, 1.0f), sourceFromResult, {16, 4}, 0.0f);
-    QCOMPARE(result.at(2, 1, 0), 1.0f);
-    for (int x = 8; x < 16; ++x) QCOMPARE(result.at(x, 1, 0), 0.0f);
+    // w = 1 - x / 8 vanishes along x = 8. Beyond it, u / w and v / w fall into the image all the same.
+    Homography sourceFromResult{1, 0, -20, 0, 1, -20, -0.125, 0, 1};
+    const Image light({100, 100}, 1, 1.0f);
+    const Image behind = warpedPerspective(light, sourceFromResult, {16, 4});
+    for (float value : behind.data()) QCOMPARE(value, 0.0f);
+    // With the other sign it is those points that are in view.
+    for (double& value : sourceFromResult) value = -value;
+    QCOMPARE(warpedPerspective(light, sourceFromResult, {16, 4}).at(12, 1, 0), 1.0f);
   }
 
   void impossibleQuadrilateralsAreRefused_data() {

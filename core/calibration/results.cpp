@@ -25,12 +25,22 @@ auto readingJson(const StageResult& result, const Read& read) {
   }
 }
 
+/// A loop over what is no list would find nothing and say nothing.
+const Json& listIn(const Json& values, const char* key) {
+  const Json& list = values.at(key);
+  return list.is_array() ? list : list.at(0);  // throws what readingJson() translates
+}
+
 Json toJson(const ResponseCurve& curve) {
   return Json{{"x", curve.x()}, {"y", curve.y()}};
 }
 
 ResponseCurve curveFrom(const Json& json) {
-  return ResponseCurve(json.at("x").get<std::vector<double>>(), json.at("y").get<std::vector<double>>());
+  try {
+    return ResponseCurve(json.at("x").get<std::vector<double>>(), json.at("y").get<std::vector<double>>());
+  } catch (const Error& cause) {
+    throw Error(ErrorKind::format, cause.summary(), damagedAdvice);
+  }
 }
 
 Json toJson(const std::array<ResponseCurve, 3>& curves) {
@@ -134,9 +144,9 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
 Linearization loadLinearization(const StageResult& result) {
   return readingJson(result, [](const Json& values) {
     Linearization linearization;
-    for (const Json& projector : values.at("projectors"))
+    for (const Json& projector : listIn(values, "projectors"))
       linearization.projectors.push_back({curvesFrom(projector)});
-    for (const Json& camera : values.at("cameras")) linearization.cameras.push_back(cameraFrom(camera));
+    for (const Json& camera : listIn(values, "cameras")) linearization.cameras.push_back(cameraFrom(camera));
     linearization.exposures = values.at("exposures").get<std::vector<double>>();
     linearization.additivityError = values.at("additivity_error").get<std::vector<double>>();
     linearization.findings = values.at("findings").get<std::vector<std::string>>();

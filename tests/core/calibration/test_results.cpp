@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include <QTemporaryDir>
+#include <QTest>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "calibration/results.h"
+
+using namespace relucent;
+namespace fs = std::filesystem;
+
+namespace {
+
+Linearization someLinearization() {
+  std::vector<double> x, y;
+  for (int i = 0; i <= 20; ++i) {
+    x.push_back(i / 20.0);
+    y.push_back(std::pow(i / 20.0, 2.2));
+  }
+  ResponseCurve curve(x, y);
+  Linearization linearization;
+  linearization.projectors = {{{curve, ResponseCurve(), curve}}, {{ResponseCurve(), curve, curve}}};
+  CameraModel camera;
+  camera.response = {ResponseCurve(), curve, ResponseCurve()};
+  camera.readNoise = 1.0 / 3.0;
+  camera.gain = 1e-5;
+  camera.saturation = 0.9;
+  camera.times = {{0.1, 1.01}, {0.3, 1.0 / 0.97}};
+  linearization.cameras = {camera, CameraModel()};
+  linearization.exposures = {0.5, 1.0 / 24.0};
+  linearization.additivityError = {0.01, 0.02};
+  linearization.findings = {"White is 18 % too bright"};
+  return linearization;
+}
+
+Stack randomStack(std::size_t pixels, std::uint64_t seed) {
+  Random random{seed};
+  Stack stack(3 * pixels);
+  for (float& value : stack) value = static_cast<float>(random.normal());
+  return stack;
+}
+
+}  // namespace
+
+class TestResults : public QObject {
+  Q_OBJECT
+
+ private:
+  QTemporaryDir temporary_;
+  fs::path root_;
+
+ private slots:
+  void init() {
+    temporary_ = QTemporaryDir();
+    root_ = temporary_.path().toStdString();
+  }
+
+  void linearizationComesBackNumberForNumber() {
+    Linearization before = someLinearization();
+    {
+      CalibrationFolder made = CalibrationFolder::create(root_ / "c", {}, {});
+      storeLinearization(made, "f", before, {{"seconds", 1.5}});
+    }
+    CalibrationFolder folder = CalibrationFolder::open(root_ / "c", CalibrationFolder::Access::read);
+    Linearization after = loadLinearization(folder.find("linearization", "f").value());
+    QCOMPARE(after.exposures, before.exposures);
+    QCOMPARE(after.findings, before.findings);
+    QCOMPARE(after.cameras[0].times, before.cameras[0].times);
+    QCOMPARE(after.cameras[0].readNoise, before.cameras[0].readNoise);
+    QVERIFY(after.projectors[0].channels[1].isIdentity());
+    for (double drive : {0.0, 0.123, 0.5, 0.987, 1.0})
+      QCOMPARE(after.projectors[1].channels[2](drive), before.projectors[1].channels[2](drive));
+  }
+
+  void damagedLinearizationIsAnError_data() {
+    QTest::addColumn<QByteArray>("path");
+    QTest::addColumn<QByteArray>("value");
+    QTest::newRow("missing") << QByteArray("/projectors") << QByteArray("null");
+    QTest::newRow("type") << QByteArray("/exposures") << QByteArray("\"short\"");
+    QTest::newRow("curve that falls") << QByteArray("/projectors/0/0/y/3") << QByteArray("-1");
+    QTest::newRow("two channels") << QByteArray("/cameras/0/response") << QByteArray("[]");
+  }
+  void damagedLinearizationIsAnError() {
+    QFETCH(QByteArray, path);
+    QFETCH(QByteArray, value);
+    CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
+    StageResult result = storeLinearization(folder, "f", someLinearization(), {});
+    result.values[Json::json_pointer(path.toStdString())] = Json::parse(value.toStdString());
+    try {
+      loadLinearization(result);
+      QFAIL("was read");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::format);
+    }
+  }
+
+  void acquisitionOfSeveralDevicesComesBackBitForBit() {
+    Rasters cameras(std::vector<Size>{{16, 9}, {5, 7}});
+    Rasters projectors(std::vector<Size>{{8, 8}, {4, 6}});
+    Acquisition before;
+    NodeLayout layout(projectors);
+    BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
+    Random random{5};
+    for (std::size_t row = 0; row < cameras.count(); ++row)
+      builder.add(row, random.below(layout.count()), ColourBlock::Constant(random.uniformFloat()));
+    before.transport = TransportMatrix(cameras, projectors, builder.build());
+    before.black = randomStack(cameras.count(), 1);
+    before.blackVariance = randomStack(cameras.count(), 2);
+    before.flood = randomStack(cameras.count(), 3);
+    before.floodVariance = randomStack(cameras.count(), 4);
+    for (std::size_t i = 0; i < cameras.count(); ++i) before.flagged.push_back(i % 7 == 0 ? 1 : 0);
+    before.unresolvedEnergy = 1.0 / 3.0;
+    before.verificationError = 0.01;
+    before.patterns = 805;
+    before.exposures = 1551;
+    before.findings = {"the room light changed"};
+
+    CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
+    StageResult result = storeAcquisition(folder, "f", before, {});
+    Acquisition after = loadAcquisition(result);
+    QVERIFY(after.transport.leaves() == before.transport.leaves());
+    QVERIFY(after.transport.cameras() == cameras && after.transport.projectors() == projectors);
+    QCOMPARE(after.black, before.black);
+    QCOMPARE(after.blackVariance, before.blackVariance);
+    QCOMPARE(after.flood, before.flood);
+    QCOMPARE(after.floodVariance, before.floodVariance);
+    QCOMPARE(after.flagged, before.flagged);
+    QCOMPARE(after.unresolvedEnergy, before.unresolvedEnergy);
+    QCOMPARE(after.verificationError, before.verificationError);
+    QCOMPARE(after.patterns, before.patterns);
+    QCOMPARE(after.exposures, before.exposures);
+    QCOMPARE(after.findings, before.findings);
+
+    fs::resize_file(result.folder / "flood-2.exr", 20);
+    QVERIFY_EXCEPTION_THROWN(loadAcquisition(result), Error);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestResults)
+#include "test_results.moc"

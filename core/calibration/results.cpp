@@ -166,7 +166,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"findings", acquisition.findings},
               {"cost", cost}};
   return folder.store("acquisition", inputs, values, [&](const fs::path& path) {
-    writeNpz(path / "transport.npz", acquisition.transport.leaves());
+    saveTransport(path / "transport.npz", acquisition.transport);
     writeMaps(path, "black", acquisition.black, cameras, radianceUnits);
     writeMaps(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
     writeMaps(path, "flood", acquisition.flood, cameras, radianceUnits);
@@ -181,11 +181,10 @@ Acquisition loadAcquisition(const StageResult& result) {
     Rasters cameras = rastersFrom(values.at("cameras"));
     Rasters projectors = rastersFrom(values.at("projectors"));
     fs::path transport = fileOf(result, "transport.npz");
-    BlockSparse leaves = readNpz(transport);
-    if (leaves.rows() != cameras.count() || leaves.columns() != NodeLayout(projectors).count())
+    acquisition.transport = loadTransport(transport);
+    if (acquisition.transport.cameras() != cameras || acquisition.transport.projectors() != projectors)
       throw Error(ErrorKind::format, "the light transport belongs to other devices than the manifest says",
                   damagedAdvice, transport.string());
-    acquisition.transport = TransportMatrix(cameras, projectors, std::move(leaves));
     acquisition.black = readMaps(result, "black", cameras);
     acquisition.blackVariance = readMaps(result, "black-variance", cameras);
     acquisition.flood = readMaps(result, "flood", cameras);

@@ -1,31 +1,63 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
 #include "inverse/windows.h"
 
 namespace relucent {
 
-PixelMatrix WindowInverse::matrix() const {
-  PixelMatrix matrix;
-  matrix.columns = cameras_.count();
-  auto pixels = static_cast<std::size_t>(tile_ * tile_);
-  for (std::size_t device = 0; device < projectors_.devices(); ++device) {
-    Size size = projectors_.size(device);
-    Size grid = tiles_.size(device);
-    for (std::size_t local = 0; local < size.count(); ++local) {
-      Pixel place = pixelAt(size, local);
-      std::size_t tile = tiles_.offset(device) + indexOf(grid, {place.x / tile_, place.y / tile_});
-      auto inTile = static_cast<std::size_t>((place.y % tile_) * tile_ + place.x % tile_);
-      for (std::size_t k = tileStart_[tile]; k < tileStart_[tile + 1]; ++k) {
-        matrix.column.push_back(row_[k]);
-        const float* unmix = &unmix_[9 * static_cast<std::size_t>(row_[k])];
-        for (std::size_t c = 0; c < 3; ++c) {
-          float weight = scale_[3 * tile + c] * static_cast<float>(weight_[(3 * k + c) * pixels + inTile]);
-          for (std::size_t from = 0; from < 3; ++from) matrix.values.push_back(weight * unmix[3 * c + from]);
-        }
-      }
-      matrix.rowStart.push_back(matrix.column.size());
+/// Blocks of single projector pixels, out of the tiles that hold them.
+class WindowBlocks {
+ public:
+  explicit WindowBlocks(const WindowInverse& inverse) : inverse_(inverse) {}
+
+  /// Calls visit(camera pixel, block) for all of a projector pixel's window.
+  template <typename Visit>
+  void visitRow(std::size_t device, std::size_t local, const Visit& visit) const {
+    int side = inverse_.tile_;
+    Pixel place = pixelAt(inverse_.projectors_.size(device), local);
+    std::size_t tile = inverse_.tiles_.offset(device) +
+                       indexOf(inverse_.tiles_.size(device), {place.x / side, place.y / side});
+    auto inTile = static_cast<std::size_t>((place.y % side) * side + place.x % side);
+    auto pixels = static_cast<std::size_t>(side * side);
+    for (std::size_t k = inverse_.tileStart_[tile]; k < inverse_.tileStart_[tile + 1]; ++k) {
+      std::size_t camera = inverse_.row_[k];
+      ColourBlock block = Eigen::Map<const ColourBlock>(&inverse_.unmix_[9 * camera]);
+      for (std::size_t c = 0; c < 3; ++c)
+        block.row(static_cast<Eigen::Index>(c)) *=
+            inverse_.scale_[3 * tile + c] *
+            static_cast<float>(inverse_.weight_[(3 * k + c) * pixels + inTile]);
+      visit(camera, block);
     }
   }
-  return matrix;
+
+ private:
+  const WindowInverse& inverse_;
+};
+
+BlockSparse WindowInverse::matrix() const {
+  WindowBlocks blocks(*this);
+  std::vector<float> fullScale(projectors_.count(), 0.0f);
+  std::size_t count = 0;
+  auto forEachPixel = [&](const auto& visit) {
+    for (std::size_t device = 0; device < projectors_.devices(); ++device)
+      for (std::size_t local = 0; local < projectors_.size(device).count(); ++local)
+        visit(device, local, projectors_.offset(device) + local);
+  };
+  forEachPixel([&](std::size_t device, std::size_t local, std::size_t row) {
+    blocks.visitRow(device, local, [&](std::size_t, const ColourBlock& block) {
+      fullScale[row] = std::max(fullScale[row], block.cwiseAbs().maxCoeff());
+      ++count;
+    });
+  });
+  BlockSparseWriter writer(cameras_.count(), fullScale, count);
+  forEachPixel([&](std::size_t device, std::size_t local, std::size_t row) {
+    blocks.visitRow(device, local, [&](std::size_t camera, const ColourBlock& block) {
+      writer.add(camera, codeOf(block, fullScale[row] / 32767.0f));
+    });
+    writer.endRow();
+  });
+  return writer.build();
 }
 
 }  // namespace relucent

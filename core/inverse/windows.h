@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "transport/expansion.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
@@ -38,12 +37,14 @@ class WindowInverse {
   /// Units: camera signal per second -> linear drive. Projector pixels that no camera pixel sees stay 0.
   Stack apply(const Stack& cameraResidual) const;
 
-  /// The whole operator for other programs: rows = projector pixels, columns = camera pixels.
-  PixelMatrix matrix() const;
+  /// The whole operator for other programs, unmixing included: rows = projector pixels, columns = camera
+  /// pixels.
+  BlockSparse matrix() const;
 
   bool operator==(const WindowInverse&) const = default;
 
  private:
+  friend class WindowBlocks;
   friend class WindowBuilder;
 
   Rasters cameras_;

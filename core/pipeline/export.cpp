@@ -61,24 +61,19 @@ WrittenFiles exportCalibration(const fs::path& path, const ExportSettings& setti
   WrittenFiles written;
   Progress writing = progress.part(0.6, "Writing");
   if (!settings.transport.empty()) {
-    Expansion expansion = expandedToPixels(measured.venue.transport, settings.mostBytes);
+    PixelExpansion expansion = expandedToPixels(measured.venue.transport, {.bytes = settings.mostBytes});
     writing.report(0.3);
-    writeNpz(settings.transport, expansion.matrix);
+    saveExpanded(settings.transport, expansion);
     written.files.push_back(settings.transport);
-    if (expansion.sampledLeaves > 0)
-      written.notes.push_back(fmt::format(
-          "light from wide areas ({} leaves) stands on at most {}x{} sample pixels of its area, so that the "
-          "file stays below {} MB; --leaves writes the exact, smaller form",
-          expansion.sampledLeaves, expansion.samplesPerSide, expansion.samplesPerSide,
-          settings.mostBytes / 1'000'000));
+    written.notes.push_back(expansion.summary());
   }
   if (!settings.leaves.empty()) {
-    writeNpz(settings.leaves, measured.venue.transport.leaves());
+    saveTransport(settings.leaves, measured.venue.transport);
     written.files.push_back(settings.leaves);
   }
   writing.report(0.6);
   if (!settings.inverse.empty()) {
-    writeNpz(settings.inverse, measured.inverse.matrix());
+    saveBlocks(settings.inverse, measured.inverse.matrix());
     written.files.push_back(settings.inverse);
   }
   if (!settings.maps.empty()) writeMaps(settings.maps, measured, written);

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "transport/expansion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::uint64_t bytesPerBlock = 9 * sizeof(float) + sizeof(std::int32_t);
+
+/// The part [begin, end) that cell `i` of `cells` has of `length` pixels.
+std::pair<int, int> cellOf(int i, int cells, int length) {
+  return {length * i / cells, length * (i + 1) / cells};
+}
+
+}  // namespace
+
+PixelExpansion::PixelExpansion(const TransportMatrix& transport, const ExpansionLimits& limits)
+    : transport_(&transport), limits_(limits) {
+  int largest = 1;
+  for (Size size : transport.projectors().sizes()) largest = std::max({largest, size.width, size.height});
+  // The largest side within the limit; a side of 1 is as many blocks as there are leaves and always taken.
+  int low = 1, high = largest;
+  while (low < high) {
+    int middle = low + (high - low + 1) / 2;
+    if (blocksAt(middle) * bytesPerBlock <= limits.bytes)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  side_ = low;
+  countRows();
+}
+
+std::uint64_t PixelExpansion::blocksAt(int side) const {
+  const NodeLayout& layout = transport_->layout();
+  const BlockSparse& leaves = transport_->leaves();
+  std::vector<std::uint64_t> count(leaves.rows());
+  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+      Block block = layout.block(layout.node(leaves.column(entry)));
+      count[row] += static_cast<std::uint64_t>(std::min(side, block.x1 - block.x0)) *
+                    static_cast<std::uint64_t>(std::min(side, block.y1 - block.y0));
+    }
+  });
+  std::uint64_t sum = 0;
+  for (std::uint64_t blocks : count) sum += blocks;
+  return sum;
+}
+
+void PixelExpansion::countRows() {
+  const NodeLayout& layout = transport_->layout();
+  const BlockSparse& leaves = transport_->leaves();
+  rowStart_.assign(leaves.rows() + 1, 0);
+  std::vector<double> all(leaves.rows()), sampled(leaves.rows());
+  parallelFor(0, leaves.rows(), 64, [&](std::size_t row_) {
+    std::vector<Entry> entries;
+    row(row_, entries);
+    rowStart_[row_ + 1] = entries.size();
+    for (std::size_t entry = leaves.rowBegin(row_); entry < leaves.rowBegin(row_ + 1); ++entry) {
+      Block block = layout.block(layout.node(leaves.column(entry)));
+      double light = std::abs(static_cast<double>(leaves.block(row_, entry).sum()));
+      all[row_] += light;
+      if (block.x1 - block.x0 > side_ || block.y1 - block.y0 > side_) sampled[row_] += light;
+    }
+  });
+  double total = 0.0;
+  for (std::size_t r = 0; r < leaves.rows(); ++r) {
+    rowStart_[r + 1] += rowStart_[r];
+    total += all[r];
+    sampledShare_ += sampled[r];
+  }
+  sampledShare_ = total > 0.0 ? sampledShare_ / total : 0.0;
+}
+
+void PixelExpansion::row(std::size_t row, std::vector<Entry>& entries) const {
+  const NodeLayout& layout = transport_->layout();
+  const BlockSparse& leaves = transport_->leaves();
+  const Rasters& projectors = transport_->projectors();
+  entries.clear();
+  for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+    std::uint32_t index = leaves.column(entry);
+    Node node = layout.node(index);
+    auto projector = static_cast<std::size_t>(node.projector);
+    Block block = layout.block(node);
+    ColourBlock density = leaves.block(row, entry) / static_cast<float>(block.count());
+    int width = block.x1 - block.x0, height = block.y1 - block.y0;
+    int columns = std::min(side_, width), lines = std::min(side_, height);
+    Random random{limits_.seed, row, index};
+    for (int j = 0; j < lines; ++j) {
+      auto [y0, y1] = cellOf(j, lines, height);
+      for (int i = 0; i < columns; ++i) {
+        auto [x0, x1] = cellOf(i, columns, width);
+        int x = block.x0 + x0 + static_cast<int>(random.below(static_cast<std::uint64_t>(x1 - x0)));
+        int y = block.y0 + y0 + static_cast<int>(random.below(static_cast<std::uint64_t>(y1 - y0)));
+        std::size_t pixel = projectors.offset(projector) + indexOf(projectors.size(projector), {x, y});
+        entries.push_back(
+            {static_cast<std::uint32_t>(pixel), density * static_cast<float>((x1 - x0) * (y1 - y0))});
+      }
+    }
+  }
+
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (left > 0 && entries[left - 1].column == entries[i].column)
+      entries[left - 1].value += entries[i].value;
+    else
+      entries[left++] = entries[i];
+  }
+  entries.resize(left);
+}
+
+std::string PixelExpansion::summary() const {
+  double gigabytes = static_cast<double>(blocks() * bytesPerBlock) / static_cast<double>(1 << 30);
+  if (sampledShare_ == 0.0)
+    return fmt::format("Every leaf is written in full, {} connections of single pixels, {:.2f} GiB", blocks(),
+                       gigabytes);
+  return fmt::format(
+      "Blocks of more than {0}x{0} pixels are carried by {0}x{0} sample pixels each, which hold {1:.1f} % "
+      "of the light; {2} connections, {3:.2f} GiB",
+      side_, 100.0 * sampledShare_, blocks(), gigabytes);
+}
+
+PixelExpansion expandedToPixels(const TransportMatrix& transport, const ExpansionLimits& limits) {
+  return PixelExpansion(transport, limits);
+}
+
+}  // namespace relucent

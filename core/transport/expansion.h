@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+struct ExpansionLimits {
+  std::uint64_t bytes = std::uint64_t{2} << 30;  // of values and indices, 40 a block
+  std::uint64_t seed = 1;                        // of the samples' places
+};
+
+/// The light transport with a column for every projector pixel. A leaf is spread evenly over its block's
+/// pixels; where that is more than the limit allows, a block is carried by n x n pixels, one at a random
+/// place in each of n x n cells, with the value of its cell: sums stay what they are.
+/// n is as large as the limit allows. Rows are made when they are asked for.
+class PixelExpansion {
+ public:
+  struct Entry {
+    std::uint32_t column;
+    ColourBlock value;
+  };
+
+  /// Keeps a reference: the transport outlives it.
+  explicit PixelExpansion(const TransportMatrix& transport, const ExpansionLimits& limits = {});
+
+  const TransportMatrix& transport() const { return *transport_; }
+  /// The side n; blocks up to n x n pixels are there in full.
+  int side() const { return side_; }
+  /// Entries of a row: [rowBegin(r), rowBegin(r + 1)).
+  std::uint64_t rowBegin(std::size_t row) const { return rowStart_[row]; }
+  std::uint64_t blocks() const { return rowStart_.back(); }
+  /// Of all light, how much is carried by samples.
+  double sampledShare() const { return sampledShare_; }
+  /// What was done, as a sentence for the user.
+  std::string summary() const;
+
+  /// A row's entries, columns ascending.
+  void row(std::size_t row, std::vector<Entry>& entries) const;
+
+ private:
+  std::uint64_t blocksAt(int side) const;
+  void countRows();
+
+  const TransportMatrix* transport_;
+  ExpansionLimits limits_;
+  int side_ = 1;
+  double sampledShare_ = 0.0;
+  std::vector<std::uint64_t> rowStart_;
+};
+
+PixelExpansion expandedToPixels(const TransportMatrix& transport, const ExpansionLimits& limits = {});
+
+}  // namespace relucent

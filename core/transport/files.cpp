@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "transport/files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+
+#include "base/error.h"
+#include "transport/npz.h"
+
+namespace relucent {
+namespace {
+
+constexpr float largestCode = 32767.0f;
+constexpr std::uint64_t largestInt32 = std::numeric_limits<std::int32_t>::max();
+
+/// Writes integers in 32 bits where they all fit, else in 64.
+template <typename At>
+void addIndices(NpzWriter& writer, const std::string& name, std::uint64_t count, bool wide, At at) {
+  writer.add(name, {wide ? "<i8" : "<i4", {count}}, [=](std::uint64_t begin, std::uint64_t items, char* out) {
+    for (std::uint64_t i = 0; i < items; ++i) {
+      std::int64_t value = at(begin + i);
+      auto narrow = static_cast<std::int32_t>(value);
+      if (wide) std::memcpy(out + 8 * i, &value, 8);
+      if (!wide) std::memcpy(out + 4 * i, &narrow, 4);
+    }
+  });
+}
+
+void addSizes(NpzWriter& writer, const std::string& name, const Rasters& rasters) {
+  std::vector<std::int32_t> sizes;
+  for (Size size : rasters.sizes()) sizes.insert(sizes.end(), {size.width, size.height});
+  writer.add(name, sizes, {rasters.devices(), 2});
+}
+
+void addFrame(NpzWriter& writer, std::size_t rows, std::size_t columns) {
+  writer.addText("format", "bsr");
+  writer.add(
+      "shape",
+      std::vector<std::int64_t>{static_cast<std::int64_t>(3 * rows), static_cast<std::int64_t>(3 * columns)},
+      {2});
+}
+
+/// Steps through the rows of ascending entries.
+class RowCursor {
+ public:
+  template <typename RowBegin>
+  std::size_t rowOf(std::uint64_t entry, const RowBegin& rowBegin) {
+    if (entry < rowBegin(row_)) row_ = 0;
+    while (entry >= rowBegin(row_ + 1)) ++row_;
+    return row_;
+  }
+
+ private:
+  std::size_t row_ = 0;
+};
+
+Rasters readSizes(const NpzReader& reader, const std::string& name) {
+  std::vector<std::int64_t> values = reader.integers(name);
+  std::vector<Size> sizes;
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
+    constexpr std::int64_t largest = 1 << 16;
+    if (values[i] < 1 || values[i + 1] < 1 || values[i] > largest || values[i + 1] > largest)
+      reader.fail("names a device of an impossible size");
+    sizes.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1])});
+  }
+  if (sizes.empty() || values.size() % 2 != 0) reader.fail("names no devices");
+  return Rasters(std::move(sizes));
+}
+
+}  // namespace
+
+/// Reads and writes the private arrays of BlockSparse, so that nothing is held twice.
+class TransportFile {
+ public:
+  static void add(NpzWriter& writer, const BlockSparse& blocks) {
+    bool wide = blocks.blocks() > largestInt32 || blocks.columns() > largestInt32;
+    addFrame(writer, blocks.rows(), blocks.columns());
+    const BlockSparse* source = &blocks;
+    addIndices(writer, "indptr", blocks.rows() + 1, wide,
+               [source](std::uint64_t i) { return static_cast<std::int64_t>(source->rowStart_[i]); });
+    addIndices(writer, "indices", blocks.blocks(), wide,
+               [source](std::uint64_t i) { return static_cast<std::int64_t>(source->column_[i]); });
+    writer.add("scale", {"<f4", {blocks.rows()}},
+               [source](std::uint64_t begin, std::uint64_t count, char* out) {
+                 std::memcpy(out, source->scale_.data() + begin, count * sizeof(float));
+               });
+    auto cursor = std::make_shared<RowCursor>();
+    writer.add("data", {"<f4", {blocks.blocks(), 3, 3}},
+               [source, cursor](std::uint64_t begin, std::uint64_t count, char* out) {
+                 for (std::uint64_t item = begin; item < begin + count; ++item) {
+                   std::uint64_t entry = item / 9;
+                   std::size_t row =
+                       cursor->rowOf(entry, [&](std::size_t r) { return source->rowStart_[r]; });
+                   float value = source->scale_[row] * static_cast<float>(source->code_[entry][item % 9]);
+                   std::memcpy(out + sizeof(float) * (item - begin), &value, sizeof(float));
+                 }
+               });
+  }
+
+  static BlockSparse read(const NpzReader& reader) {
+    if (reader.text("format") != "bsr") reader.fail("holds a matrix in another form than BSR");
+    BlockSparse blocks;
+    readShape(reader, blocks);
+    readIndices(reader, blocks);
+    readScale(reader, blocks);
+    readData(reader, blocks);
+    return blocks;
+  }
+
+ private:
+  static void readShape(const NpzReader& reader, BlockSparse& blocks) {
+    std::vector<std::int64_t> shape = reader.integers("shape");
+    constexpr std::int64_t largest = 3 * static_cast<std::int64_t>(std::numeric_limits<std::uint32_t>::max());
+    if (shape.size() != 2 || shape[0] < 0 || shape[1] < 0 || shape[0] > largest || shape[1] > largest ||
+        shape[0] % 3 != 0 || shape[1] % 3 != 0)
+      reader.fail("has a shape that is not of 3x3 blocks");
+    blocks.columns_ = static_cast<std::size_t>(shape[1] / 3);
+    if (reader.header("indptr").count() != static_cast<std::uint64_t>(shape[0] / 3) + 1)
+      reader.fail("has another number of rows in 'indptr' than in 'shape'");
+  }
+
+  static void readIndices(const NpzReader& reader, BlockSparse& blocks) {
+    std::uint64_t count = reader.header("indices").count();
+    std::vector<std::int64_t> start = reader.integers("indptr");
+    bool ordered = start.front() == 0 && start.back() == static_cast<std::int64_t>(count) &&
+                   std::is_sorted(start.begin(), start.end());
+    if (!ordered) reader.fail("has rows in 'indptr' that do not fit its entries");
+    blocks.rowStart_.assign(start.begin(), start.end());
+
+    NpyHeader header = reader.header("indices");
+    bool wide = header.type == "<i8";
+    if (!wide && header.type != "<i4") reader.fail("has indices that are no integers");
+    RowCursor cursor;
+    reader.read("indices", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+      if (begin == 0) blocks.column_.reserve(count);
+      for (std::uint64_t i = 0; i < items; ++i) {
+        std::int64_t column = 0;
+        std::int32_t narrow = 0;
+        if (wide) std::memcpy(&column, in + 8 * i, 8);
+        if (!wide) std::memcpy(&narrow, in + 4 * i, 4);
+        if (!wide) column = narrow;
+        if (column < 0 || column >= static_cast<std::int64_t>(blocks.columns_))
+          reader.fail("has an index outside its shape");
+        std::size_t row = cursor.rowOf(begin + i, [&](std::size_t r) { return blocks.rowStart_[r]; });
+        if (begin + i > blocks.rowStart_[row] && column <= static_cast<std::int64_t>(blocks.column_.back()))
+          reader.fail(
+              "has indices that do not ascend (sum_duplicates() and sort_indices() in SciPy mend that)");
+        blocks.column_.push_back(static_cast<std::uint32_t>(column));
+      }
+    });
+  }
+
+  static void readScale(const NpzReader& reader, BlockSparse& blocks) {
+    if (reader.has("scale")) {
+      blocks.scale_ = reader.floats("scale");
+      if (blocks.scale_.size() != blocks.rows())
+        reader.fail("has another number of rows in 'scale' than in 'shape'");
+      for (float scale : blocks.scale_)
+        if (!(scale >= 0.0f) || !std::isfinite(scale)) reader.fail("has a scale that is no finite number");
+      return;
+    }
+    blocks.scale_.assign(blocks.rows(), 0.0f);
+    eachValue(reader, blocks, [&](std::size_t row, std::uint64_t, std::size_t, float value) {
+      blocks.scale_[row] = std::max(blocks.scale_[row], std::abs(value) / largestCode);
+    });
+  }
+
+  static void readData(const NpzReader& reader, BlockSparse& blocks) {
+    blocks.code_.resize(blocks.blocks());
+    eachValue(reader, blocks, [&](std::size_t row, std::uint64_t entry, std::size_t place, float value) {
+      float scale = blocks.scale_[row];
+      float code = scale > 0.0f ? std::round(value / scale) : 0.0f;
+      if (!(std::abs(code) <= largestCode) || (scale == 0.0f && value != 0.0f))
+        reader.fail("has values in 'data' that do not fit their row's scale");
+      blocks.code_[entry][place] = static_cast<std::int16_t>(code);
+    });
+  }
+
+  template <typename Take>
+  static void eachValue(const NpzReader& reader, const BlockSparse& blocks, const Take& take) {
+    NpyHeader header = reader.header("data");
+    if (header.type != "<f4" && header.type != "<f8")
+      reader.fail("has values that are no floating point numbers");
+    if (header.shape != std::vector<std::uint64_t>{blocks.blocks(), 3, 3})
+      reader.fail("has another number of 3x3 blocks in 'data' than in 'indices'");
+    bool wide = header.type == "<f8";
+    RowCursor cursor;
+    reader.read("data", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+      for (std::uint64_t i = 0; i < items; ++i) {
+        double value = 0.0;
+        float narrow = 0.0f;
+        if (wide) std::memcpy(&value, in + 8 * i, 8);
+        if (!wide) std::memcpy(&narrow, in + 4 * i, 4);
+        if (wide) narrow = static_cast<float>(value);
+        if (!std::isfinite(narrow)) reader.fail("has a value in 'data' that is no finite number");
+        std::uint64_t entry = (begin + i) / 9;
+        take(cursor.rowOf(entry, [&](std::size_t r) { return blocks.rowStart_[r]; }), entry, (begin + i) % 9,
+             narrow);
+      }
+    });
+  }
+};
+
+namespace {
+
+/// A damaged header may ask for any amount of memory.
+template <typename Load>
+auto withinMemory(const std::filesystem::path& path, const Load& load) {
+  try {
+    return load();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw Error(ErrorKind::memory, "the file needs more memory than there is",
+              "close other programs and try again", path.string());
+}
+
+}  // namespace
+
+void saveBlocks(const std::filesystem::path& path, const BlockSparse& blocks) {
+  NpzWriter writer;
+  TransportFile::add(writer, blocks);
+  writer.save(path);
+}
+
+BlockSparse loadBlocks(const std::filesystem::path& path) {
+  return withinMemory(path, [&] { return TransportFile::read(NpzReader(path)); });
+}
+
+void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport) {
+  NpzWriter writer;
+  addSizes(writer, "cameras", transport.cameras());
+  addSizes(writer, "projectors", transport.projectors());
+  TransportFile::add(writer, transport.leaves());
+  writer.save(path);
+}
+
+TransportMatrix loadTransport(const std::filesystem::path& path) {
+  return withinMemory(path, [&] {
+    NpzReader reader(path);
+    Rasters cameras = readSizes(reader, "cameras"), projectors = readSizes(reader, "projectors");
+    BlockSparse leaves = TransportFile::read(reader);
+    if (leaves.rows() != cameras.count() || leaves.columns() != NodeLayout(projectors).count())
+      reader.fail("has a shape that does not fit its cameras and projectors");
+    return TransportMatrix(std::move(cameras), std::move(projectors), std::move(leaves));
+  });
+}
+
+void saveExpanded(const std::filesystem::path& path, const PixelExpansion& expansion) {
+  const TransportMatrix& transport = expansion.transport();
+  std::size_t rows = transport.cameras().count(), columns = transport.projectors().count();
+  bool wide = expansion.blocks() > largestInt32;
+  const PixelExpansion* source = &expansion;
+
+  NpzWriter writer;
+  addSizes(writer, "cameras", transport.cameras());
+  addSizes(writer, "projectors", transport.projectors());
+  addFrame(writer, rows, columns);
+  addIndices(writer, "indptr", rows + 1, wide,
+             [source](std::uint64_t i) { return static_cast<std::int64_t>(source->rowBegin(i)); });
+
+  // The row under way, made once for indices and once more for data.
+  struct Row {
+    RowCursor cursor;
+    std::size_t made = std::numeric_limits<std::size_t>::max();
+    std::vector<PixelExpansion::Entry> entries;
+    const PixelExpansion::Entry& entry(const PixelExpansion& expansion, std::uint64_t index) {
+      std::size_t row = cursor.rowOf(index, [&](std::size_t r) { return expansion.rowBegin(r); });
+      if (row != made) expansion.row(row, entries);
+      made = row;
+      return entries[index - expansion.rowBegin(row)];
+    }
+  };
+  auto row = std::make_shared<Row>();
+  addIndices(writer, "indices", expansion.blocks(), wide, [source, row](std::uint64_t i) {
+    return static_cast<std::int64_t>(row->entry(*source, i).column);
+  });
+  writer.add("data", {"<f4", {expansion.blocks(), 3, 3}},
+             [source, row](std::uint64_t begin, std::uint64_t count, char* out) {
+               for (std::uint64_t item = begin; item < begin + count; ++item) {
+                 float value = row->entry(*source, item / 9).value.data()[item % 9];
+                 std::memcpy(out + sizeof(float) * (item - begin), &value, sizeof(float));
+               }
+             });
+  writer.save(path);
+}
+
+}  // namespace relucent

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "transport/expansion.h"
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+/// The disk form of block matrices is SciPy's own: what scipy.sparse.save_npz writes for a BSR matrix of 3x3
+/// blocks, so scipy.sparse.load_npz opens it,
+///   data (n, 3, 3) float32, indices (n), indptr (rows + 1), shape (3 rows, 3 columns), format b'bsr',
+/// and beside it `scale` (rows) float32, the rows' quantisation steps, which make saving and loading give
+/// the same bits, and for a light transport `cameras` and `projectors` (devices, 2), their sizes.
+/// Indices are 64-bit where 32 do not reach.  Source: core/transport/README.md.
+
+/// Atomically. Throws: Error{disk}.
+void saveBlocks(const std::filesystem::path& path, const BlockSparse& blocks);
+/// Files without `scale` (saved by SciPy) are quantised to each row's largest value.
+/// Throws: Error{disk}; Error{format} if anything is missing, damaged or contradicts itself; Error{memory}.
+BlockSparse loadBlocks(const std::filesystem::path& path);
+
+/// T' with its devices; columns are the nodes of NodeLayout. Errors as above.
+void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport);
+TransportMatrix loadTransport(const std::filesystem::path& path);
+
+/// T with a column for every projector pixel, for other programs. Errors as above.
+void saveExpanded(const std::filesystem::path& path, const PixelExpansion& expansion);
+
+}  // namespace relucent

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace relucent {
+
+/// What an array of a NumPy file holds: `type` as NumPy writes it ("<f4", "<i8", "|S3"), C order.
+struct NpyHeader {
+  std::string type;
+  std::vector<std::uint64_t> shape;
+
+  std::uint64_t count() const;
+  std::size_t itemBytes() const;
+};
+
+/// Writes a NumPy .npz archive (an uncompressed zip of .npy files) whose arrays are made piece by piece
+/// while they are written: no array need ever be whole in memory.
+class NpzWriter {
+ public:
+  /// Writes the items [begin, begin + count) of an array to `out`. Asked for in ascending order.
+  using Items = std::function<void(std::uint64_t begin, std::uint64_t count, char* out)>;
+
+  /// `name` without ".npy". What `items` refers to must live until save().
+  void add(const std::string& name, const NpyHeader& header, Items items);
+  /// Copies the values, in their NumPy type.
+  void add(const std::string& name, const std::vector<std::int32_t>& values,
+           std::vector<std::uint64_t> shape);
+  void add(const std::string& name, const std::vector<std::int64_t>& values,
+           std::vector<std::uint64_t> shape);
+  void addText(const std::string& name, const std::string& ascii);
+
+  /// Atomically, see base/file.h. Throws: Error{disk}.
+  void save(const std::filesystem::path& path);
+
+ private:
+  struct Array {
+    std::string name;
+    NpyHeader header;
+    Items items;
+  };
+  std::vector<Array> arrays_;
+};
+
+/// Reads the arrays of a .npz archive, uncompressed or deflated.
+/// Throws: Error{disk} if it cannot be opened, Error{format} for everything that is not as it should be.
+class NpzReader {
+ public:
+  explicit NpzReader(const std::filesystem::path& path);
+  ~NpzReader();
+  NpzReader(const NpzReader&) = delete;
+  NpzReader& operator=(const NpzReader&) = delete;
+
+  bool has(const std::string& name) const;
+  NpyHeader header(const std::string& name) const;
+
+  /// Gives all items in order to `take`, in pieces of whole items.
+  using Take = std::function<void(std::uint64_t begin, std::uint64_t count, const char* items)>;
+  void read(const std::string& name, const Take& take) const;
+  /// A whole array of "<i4" or "<i8".
+  std::vector<std::int64_t> integers(const std::string& name) const;
+  /// A whole array of "<f4".
+  std::vector<float> floats(const std::string& name) const;
+  /// A single byte string.
+  std::string text(const std::string& name) const;
+
+  /// Throws: Error{format} that names the file.
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  struct Archive;
+  std::filesystem::path path_;
+  std::unique_ptr<Archive> archive_;
+};
+
+}  // namespace relucent

@@ -9,8 +9,9 @@ namespace relucent {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Size, width, height)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(LinearizationSettings, levels, shadowPower, noisePairs,
                                                 additivityLimit, seed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, relativeThreshold, noiseSigmas,
-                                                references, verificationPatterns, seed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, relativeThreshold, dimShare, noiseSigmas,
+                                                references, verificationPatterns, flagRelative, flagSigmas,
+                                                seed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,

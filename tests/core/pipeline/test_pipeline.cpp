@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// The stages in order, on small simulated venues, through folders on disk.
+#include <QTemporaryDir>
+#include <QTest>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/standard_images.h"
+#include "transport/files.h"
+
+using namespace relucent;
+namespace fs = std::filesystem;
+
+namespace {
+
+CalibrateSettings smallVenue(const std::string& name, std::uint64_t seed = 1) {
+  VenueSettings venue;
+  venue.name = name;
+  venue.projector = {40, 30};
+  venue.camera = {28, 21};
+  venue.pathsPerPixel = 32;
+  venue.seed = seed;
+  CalibrateSettings settings;
+  settings.rig = venue;
+  settings.linearization.levels = 9;
+  return settings;
+}
+
+/// Asks to stop when the measurement has come this far.
+class StopAt : public ProgressSink {
+ public:
+  StopAt(double fraction, StopRequest& stop) : fraction_(fraction), stop_(stop) {}
+  void progressed(double fraction, std::string_view) override {
+    if (fraction >= fraction_) stop_.ask(StopRequest::Kind::cancel);
+  }
+
+ private:
+  double fraction_;
+  StopRequest& stop_;
+};
+
+/// The file of the newest acquisition, byte for byte.
+std::string transportBytes(const fs::path& calibration) {
+  for (const auto& entry : fs::recursive_directory_iterator(calibration))
+    if (entry.path().filename() == "transport.npz") return readFile(entry.path());
+  return {};
+}
+
+std::string errorOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+class TestPipeline : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir temporary_;
+  fs::path root() const { return temporary_.path().toStdString(); }
+  fs::path cache() const { return root() / "cache"; }
+
+ private slots:
+  void initTestCase() {
+    Progress silent;
+    CalibrateResult result = calibrate(root() / "plain", smallVenue("plain"), cache(), silent);
+    QVERIFY(result.leaves > 0);
+    QVERIFY(result.patterns > 0);
+  }
+
+  void resumedIsTheSameBits_data() {
+    QTest::addColumn<double>("stopAt");
+    QTest::newRow("tracing or linearizing") << 0.25;
+    QTest::newRow("early in acquisition") << 0.5;
+    QTest::newRow("late in acquisition") << 0.85;
+  }
+  void resumedIsTheSameBits() {
+    QFETCH(double, stopAt);
+    fs::path path = root() / QString("resumed-%1").arg(stopAt).toStdString();
+    StopRequest stop;
+    StopAt sink(stopAt, stop);
+    Progress progress(sink, stop);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, calibrate(path, smallVenue("plain"), cache(), progress));
+    QVERIFY(fs::exists(path / "calibration.relucent"));
+    Progress silent;
+    resume(path, cache(), silent);
+    std::string whole = transportBytes(root() / "plain");
+    QVERIFY(!whole.empty());
+    QVERIFY(whole == transportBytes(path));
+  }
+
+  void finishedIsNotMeasuredAgain() {
+    std::string before = transportBytes(root() / "plain");
+    Progress silent;
+    CalibrateResult again = resume(root() / "plain", cache(), silent);
+    QVERIFY(again.leaves > 0);
+    QVERIFY(before == transportBytes(root() / "plain"));
+  }
+
+  void evaluatesEveryMethodInOrder() {
+    EvaluateSettings settings;
+    Progress silent;
+    EvaluateResult result = evaluate(root() / "plain", settings, cache(), silent);
+    QCOMPARE(result.images.size(), std::size_t{3});
+    // A flat textured wall is what per-pixel methods are made for: knowing more must not do worse there, up
+    // to the noise of a measured T.
+    auto mean = [&](const std::string& name) {
+      double sum = 0.0;
+      for (const ImageScore& image : result.images)
+        for (const MethodScore& score : image.methods)
+          if (score.method == name) sum += score.psnrReachable;
+      return sum / static_cast<double>(result.images.size());
+    };
+    QVERIFY2(mean("mix") > mean("none"), qPrintable(QString("%1 %2").arg(mean("mix")).arg(mean("none"))));
+    QVERIFY2(mean("refined") > mean("mix"),
+             qPrintable(QString("%1 %2").arg(mean("refined")).arg(mean("mix"))));
+    QVERIFY2(mean("optimum") > mean("refined") - 0.5,
+             qPrintable(QString("%1 %2").arg(mean("optimum")).arg(mean("refined"))));
+    QVERIFY2(result.transport.frobenius < 0.2, qPrintable(QString::number(result.transport.frobenius)));
+  }
+
+  void compensatesIntoFiles() {
+    fs::path content = root() / "content.png";
+    writePng(content, standardImages({40, 30}).front().linear, 8);
+    CompensateSettings settings;
+    settings.image = content;
+    settings.out = root() / "out";
+    Progress silent;
+    CompensateResult result = compensate(root() / "plain", settings, silent);
+    QVERIFY(result.reachable > 0.5 && result.reachable <= 1.0);
+    Picture pattern = readPicture(settings.out / "pattern.png");
+    QCOMPARE(pattern.bits, 8);
+    QVERIFY((pattern.encoded.size() == Size{40, 30}));
+    QVERIFY((readRgbExr(settings.out / "pattern.exr").size() == Size{40, 30}));
+    QVERIFY((readRgbExr(settings.out / "target.exr").size() == Size{28, 21}));
+    QVERIFY((readRgbExr(settings.out / "predicted.exr").size() == Size{28, 21}));
+  }
+
+  void exportsWhatOthersRead() {
+    ExportSettings settings;
+    settings.transport = root() / "T.npz";
+    settings.leaves = root() / "leaves.npz";
+    settings.inverse = root() / "P.npz";
+    settings.maps = root() / "maps";
+    Progress silent;
+    exportCalibration(root() / "plain", settings, silent);
+    BlockSparse transport = loadBlocks(settings.transport);
+    QCOMPARE(transport.rows(), std::size_t{28 * 21});
+    QCOMPARE(transport.columns(), std::size_t{40 * 30});
+    BlockSparse inverse = loadBlocks(settings.inverse);
+    QCOMPARE(inverse.rows(), std::size_t{40 * 30});
+    QCOMPARE(inverse.columns(), std::size_t{28 * 21});
+    QVERIFY(fs::exists(settings.maps / "flood-1.exr"));
+  }
+
+  void badInputIsOneSentence_data() {
+    QTest::addColumn<QString>("what");
+    QTest::addColumn<QString>("says");
+    QTest::newRow("unknown venue") << "venue"
+                                   << "nowhere";
+    QTest::newRow("impossible size") << "size"
+                                     << "2x2";
+    QTest::newRow("calibration exists") << "exists"
+                                        << "resume";
+    QTest::newRow("no calibration") << "missing"
+                                    << "calibration";
+    QTest::newRow("foreign manifest") << "foreign"
+                                      << "calibration.relucent";
+    QTest::newRow("truncated transport") << "truncated"
+                                         << "transport.npz";
+    QTest::newRow("content with NaN") << "nan"
+                                      << "NaN";
+    QTest::newRow("content that is no picture") << "text"
+                                                << "picture";
+    QTest::newRow("unfinished calibration") << "unfinished"
+                                            << "resume";
+  }
+  void badInputIsOneSentence() {
+    QFETCH(QString, what);
+    QFETCH(QString, says);
+    Progress silent;
+    fs::path copy = root() / ("bad-" + what.toStdString());
+    CompensateSettings compensation;
+    compensation.out = root() / "bad-out";
+    compensation.image = root() / "bad-content.exr";
+    std::string sentence;
+    if (what == "venue") {
+      sentence = errorOf([&] { calibrate(copy, smallVenue("nowhere"), cache(), silent); });
+    } else if (what == "size") {
+      CalibrateSettings settings = smallVenue("plain");
+      std::get<VenueSettings>(settings.rig).projector = {2, 2};
+      sentence = errorOf([&] { calibrate(copy, settings, cache(), silent); });
+    } else if (what == "exists") {
+      sentence = errorOf([&] { calibrate(root() / "plain", smallVenue("plain"), cache(), silent); });
+    } else if (what == "missing") {
+      sentence = errorOf([&] { resume(copy, cache(), silent); });
+    } else if (what == "foreign") {
+      fs::create_directories(copy);
+      std::ofstream(copy / "calibration.relucent") << "not JSON";
+      sentence = errorOf([&] { resume(copy, cache(), silent); });
+    } else if (what == "truncated") {
+      fs::copy(root() / "plain", copy, fs::copy_options::recursive);
+      for (const auto& entry : fs::recursive_directory_iterator(copy))
+        if (entry.path().filename() == "transport.npz") fs::resize_file(entry.path(), 1000);
+      sentence = errorOf([&] { evaluate(copy, {}, cache(), silent); });
+    } else if (what == "nan") {
+      Image content({8, 8}, 3, 0.5f);
+      content.at(3, 4, 1) = std::numeric_limits<float>::quiet_NaN();
+      writeExr(compensation.image, content, ExrType::floatType);
+      sentence = errorOf([&] { compensate(root() / "plain", compensation, silent); });
+    } else if (what == "text") {
+      writeFileAtomically(compensation.image, "this is text");
+      sentence = errorOf([&] { compensate(root() / "plain", compensation, silent); });
+    } else if (what == "unfinished") {
+      StopRequest stop;
+      StopAt sink(0.3, stop);
+      Progress progress(sink, stop);
+      QVERIFY_THROWS_EXCEPTION(Cancelled, calibrate(copy, smallVenue("plain"), cache(), progress));
+      sentence = errorOf([&] { evaluate(copy, {}, cache(), silent); });
+    }
+    QVERIFY2(QString::fromStdString(sentence).contains(says, Qt::CaseInsensitive), sentence.c_str());
+    QVERIFY2(sentence.ends_with('.'), sentence.c_str());
+    QVERIFY2(sentence.find('\n') == std::string::npos, sentence.c_str());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestPipeline)
+#include "test_pipeline.moc"

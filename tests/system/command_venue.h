@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "support/scripted_rig.h"
+
+namespace relucent::test {
+
+inline constexpr Size commandProjector{24, 16};
+inline constexpr Size commandCamera{20, 15};
+
+/// The venue that command-venue photographs and that its test knows the truth of.
+inline ScriptedVenue commandVenue() {
+  SyntheticSettings scene;
+  scene.projectors = {commandProjector};
+  scene.cameras = {commandCamera};
+  scene.interreflection = 0.1;
+  ScriptedSettings devices;
+  ScriptedCamera camera;
+  camera.exposures = {1e-4, 2.0};
+  devices.cameras = {camera};
+  TransportMatrix transport = syntheticTransport(scene);
+  Stack black = syntheticBlack(transport);
+  return ScriptedVenue(std::move(transport), std::move(black), devices);
+}
+
+}  // namespace relucent::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The whole calibration through external commands: real processes, real files.
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cstdlib>
+
+#include "system/command_venue.h"
+#include "transport/difference.h"
+#include "transport/files.h"
+
+using namespace relucent;
+
+namespace {
+
+QString tool(const char* name) {
+  // The test's own folder holds all programs of the build.
+  return QCoreApplication::applicationDirPath() + "/" + name;
+}
+
+struct Run {
+  int status;
+  QByteArray output;
+  QByteArray errors;
+};
+
+Run run(const QString& program, const QStringList& arguments) {
+  QProcess process;
+  process.start(program, arguments);
+  bool finished = process.waitForFinished(280'000);
+  if (!finished) process.kill();
+  return {finished ? process.exitCode() : -1, process.readAllStandardOutput(),
+          process.readAllStandardError()};
+}
+
+Run runCli(const QStringList& arguments) {
+  return run(tool("relucent-cli"), arguments);
+}
+
+}  // namespace
+
+class TestCommands : public QObject {
+  Q_OBJECT
+ private slots:
+  void calibratesAndCompensates() {
+    QTemporaryDir folder;
+    QString venue = tool("command-venue");
+    QString calibration = folder.filePath("calibration");
+    Run calibrated = runCli(
+        {"calibrate", calibration, "--projector-command", venue + " show " + folder.path() + " {image}",
+         "--camera-command", venue + " photograph " + folder.path() + " {exposure} {output} {shot}",
+         "--projector", QString("%1x%2").arg(test::commandProjector.width).arg(test::commandProjector.height),
+         "--json"});
+    QVERIFY2(calibrated.status == 0, calibrated.errors.constData());
+    QVERIFY2(calibrated.output.contains("\"leaves\""), calibrated.output.constData());
+
+    QString leaves = folder.filePath("leaves.npz");
+    Run exported = runCli({"export", calibration, "--leaves", leaves});
+    QVERIFY2(exported.status == 0, exported.errors.constData());
+    TransportMatrix measured = loadTransport(leaves.toStdString());
+    test::ScriptedVenue truth = test::commandVenue();
+    // Threshold 0.8 % of a row and photographs of 12 bits with 0.1 % read noise leave a few percent; a
+    // broken step of the chain leaves tens of percent.
+    double error = difference(measured, truth.transport()).frobenius;
+    QVERIFY2(error < 0.08, qPrintable(QString::number(error)));
+
+    QString matrix = folder.filePath("T.npz");
+    Run written = runCli({"export", calibration, "--transport", matrix});
+    QVERIFY2(written.status == 0, written.errors.constData());
+    if (run("/usr/bin/python3", {"-c", "import scipy.sparse"}).status != 0)
+      QSKIP("python3-scipy is not installed: nobody to open the exported matrix");
+    Run predicted =
+        run("/usr/bin/python3",
+            {QString(RELUCENT_SYSTEM_TESTS) + "/predict_photograph.py", matrix, venue, folder.path(),
+             QString::number(test::commandProjector.width), QString::number(test::commandProjector.height)});
+    qInfo("%s", predicted.output.constData());
+    QVERIFY2(predicted.status == 0, predicted.errors.constData());
+  }
+
+  void failingCommandIsOneSentence() {
+    QTemporaryDir folder;
+    Run failed = runCli({"calibrate", folder.filePath("calibration"), "--projector-command", "true {image}",
+                         "--camera-command", "echo the lens cap is on >&2; false {exposure} {output}",
+                         "--projector", "24x16"});
+    QCOMPARE(failed.status, 1);
+    QVERIFY2(failed.errors.contains("the lens cap is on"), failed.errors.constData());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestCommands)
+#include "test_commands.moc"

@@ -123,8 +123,8 @@ class TestTracer : public QObject {
     double focus = static_cast<double>(scene.projectors[0].focus), rho = static_cast<double>(reflectance);
     double flux = focus * focus / 0.25 * 0.75;  // irradiance 1 over the picture at the focus
     double indirect = rho / (1.0 - rho) * flux / (4.0 * std::numbers::pi * radius * radius);
-    // The first bounce is spread well over 65536 paths, later ones are random: most of the light at 0.8.
-    double found = meanFlood(scene, {.pathsPerPixel = 65536, .longestPath = 100});
+    // The first bounce is spread well over 32768 paths, later ones are random: most of the light at 0.8.
+    double found = meanFlood(scene, {.pathsPerPixel = 32768, .longestPath = 100});
     compare("unlit wall", found, rho * indirect, 0.02);
   }
 
@@ -175,7 +175,7 @@ class TestTracer : public QObject {
     back.projectors[0].throwRatio = there.camera.throwRatio;
 
     auto sums = [](const Scene& scene) {
-      Tracer tracer(scene, {.pathsPerPixel = 4096});
+      Tracer tracer(scene, {.pathsPerPixel = 2048});
       double direct = 0.0, bounced = 0.0;
       for (std::size_t pixel = 0; pixel < scene.camera.raster.count(); ++pixel) {
         TransportRow row;
@@ -189,7 +189,7 @@ class TestTracer : public QObject {
     };
     auto [directThere, bouncedThere] = sums(there);
     auto [directBack, bouncedBack] = sums(back);
-    // 192 pixels of 4096 paths, and the camera's blur across the borders of both pictures.
+    // 192 pixels of 2048 paths, and the camera's blur across the borders of both pictures.
     compare("direct light, swapped", directBack, directThere, 0.005);
     compare("bounced light, swapped", bouncedBack, bouncedThere, 0.01);
   }

@@ -33,11 +33,13 @@ class Estimate {
     int unknowns = 3 * knots + static_cast<int>(frames_.size());
     normal_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
     right_ = Eigen::VectorXd::Zero(unknowns);
+    seen_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(frames_.size()));
   }
 
   void solve() {
     addPriors();
     for (std::size_t c = 0; c < 3; ++c) addPixels(c);
+    addGauge();
     solution_ = normal_.ldlt().solve(right_);
   }
 
@@ -72,17 +74,21 @@ class Estimate {
     }
     for (int k = 0; k < static_cast<int>(frames_.size()); ++k)
       add({{3 * knots + k, 0, 0}, {1.0, 0.0, 0.0}, 0.0, 1.0 / (timeDeviation * timeDeviation)});
-    addGauge();
   }
 
-  /// No power law among the time errors: sum_k d_k (ln t_k - mean) = 0. It would fit as well as an exponent
-  /// of the response, and noise, which flattens what is fitted over it, would decide between the two.
+  /// No power law among the time errors: sum_k n_k d_k (ln t_k - mean) = 0, n_k the values seen at exposure
+  /// k. It would fit as well as an exponent of the response, and noise, which flattens what is fitted over
+  /// it, would decide between the two. Exposures that show little must not count: their errors are free to
+  /// balance a power law among the others.
   void addGauge() {
-    int count = static_cast<int>(frames_.size());
+    auto count = static_cast<Eigen::Index>(frames_.size());
     Eigen::VectorXd logTime(count);
-    for (int k = 0; k < count; ++k) logTime[k] = std::log(frames_[static_cast<std::size_t>(k)]->seconds);
-    logTime.array() -= logTime.mean();
-    normal_.bottomRightCorner(count, count) += 1e12 * logTime * logTime.transpose();
+    for (Eigen::Index k = 0; k < count; ++k)
+      logTime[k] = std::log(frames_[static_cast<std::size_t>(k)]->seconds);
+    if (seen_.sum() <= 0.0) return;
+    logTime.array() -= seen_.dot(logTime) / seen_.sum();
+    Eigen::VectorXd gauge = (seen_ / seen_.maxCoeff()).cwiseProduct(logTime);
+    normal_.bottomRightCorner(count, count) += 1e12 * gauge * gauge.transpose();
   }
 
   void addPixels(std::size_t channel) {
@@ -96,7 +102,9 @@ class Estimate {
         if (signal >= 0.98 * saturation_ || std::log(std::max(signal, 1e-9)) < darkest_) continue;
         rows.push_back(equation(channel, k, signal));
       }
-      if (rows.size() > 1) addEliminated(rows);
+      if (rows.size() < 2) continue;
+      addEliminated(rows);
+      for (const Row& row : rows) seen_[row.unknown[2] - 3 * knots] += 1.0;
     }
   }
 
@@ -143,7 +151,7 @@ class Estimate {
   double saturation_;
   double step_ = 0.0, darkest_ = 0.0, spacing_ = 0.0;
   Eigen::MatrixXd normal_;
-  Eigen::VectorXd right_, solution_;
+  Eigen::VectorXd right_, solution_, seen_;
 };
 
 struct PowerLaw {

@@ -26,7 +26,9 @@ int show(const fs::path& folder, const fs::path& image) {
 
 int photograph(const fs::path& folder, double seconds, const fs::path& output, const std::string& shot) {
   Rig rig = test::commandVenue().rig();
-  rig.projectors[0]->show(readPicture(folder / "shown.png").encoded);
+  // Nothing has been shown yet when the camera is asked for its size.
+  fs::path shown = folder / "shown.png";
+  rig.projectors[0]->show(fs::exists(shown) ? readPicture(shown).encoded : Image(test::commandProjector, 3));
   // The name of the shot keys the noise: photographs of different shots differ, the same one repeats.
   CaptureRequest request{{shot, 0}, 0, seconds};
   Image signal = rig.cameras[0]->capture(request).signal;

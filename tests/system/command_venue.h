@@ -5,15 +5,14 @@
 
 namespace relucent::test {
 
-inline constexpr Size commandProjector{24, 16};
-inline constexpr Size commandCamera{20, 15};
+inline constexpr Size commandProjector{16, 12};
+inline constexpr Size commandCamera{12, 9};
 
 /// The venue that command-venue photographs and that its test knows the truth of.
 inline ScriptedVenue commandVenue() {
   SyntheticSettings scene;
   scene.projectors = {commandProjector};
   scene.cameras = {commandCamera};
-  scene.interreflection = 0.1;
   ScriptedSettings devices;
   ScriptedCamera camera;
   camera.exposures = {1e-4, 2.0};

@@ -81,7 +81,7 @@ class TestCommands : public QObject {
     QTemporaryDir folder;
     Run failed = runCli({"calibrate", folder.filePath("calibration"), "--projector-command", "true {image}",
                          "--camera-command", "echo the lens cap is on >&2; false {exposure} {output}",
-                         "--projector", "24x16"});
+                         "--projector", "16x12"});
     QCOMPARE(failed.status, 1);
     QVERIFY2(failed.errors.contains("the lens cap is on"), failed.errors.constData());
   }

@@ -162,7 +162,7 @@ class TestArguments : public QObject {
     QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
                                    << QByteArray("--corners");
     QTest::newRow("nothing to export")
-        << QByteArray("export d") << QByteArray("--transport, --inverse or --maps");
+        << QByteArray("export d") << QByteArray("--transport, --leaves, --inverse or --maps");
     QTest::newRow("half a rig") << QByteArray("calibrate d --projector-command a")
                                 << QByteArray("external programs need");
     QTest::newRow("rig without a size")

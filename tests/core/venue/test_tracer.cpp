@@ -123,8 +123,8 @@ class TestTracer : public QObject {
     double focus = static_cast<double>(scene.projectors[0].focus), rho = static_cast<double>(reflectance);
     double flux = focus * focus / 0.25 * 0.75;  // irradiance 1 over the picture at the focus
     double indirect = rho / (1.0 - rho) * flux / (4.0 * std::numbers::pi * radius * radius);
-    // The first bounce is spread well over 32768 paths, later ones are random: most of the light at 0.8.
-    double found = meanFlood(scene, {.pathsPerPixel = 32768, .longestPath = 100});
+    // The first bounce is spread well over 65536 paths, later ones are random: most of the light at 0.8.
+    double found = meanFlood(scene, {.pathsPerPixel = 65536, .longestPath = 100});
     compare("unlit wall", found, rho * indirect, 0.02);
   }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "compensation/methods.h"
+#include "image/color.h"
 #include "image/exr.h"
 #include "image/metrics.h"
 #include "image/picture_files.h"
@@ -43,6 +44,16 @@ class Writer {
     for (std::size_t device = 0; device < drive.size(); ++device) {
       fs::path path = numbered(folder_, stem, device, ".png");
       writePng(path, drive[device], 8);
+      files_.push_back(path);
+    }
+  }
+
+  /// A picture to look at: as somebody sees it who is used to `white`.
+  void writeViewed(const std::string& stem, const Stack& stack, const Rasters& rasters,
+                   const std::array<float, 3>& white) {
+    for (std::size_t device = 0; device < rasters.devices(); ++device) {
+      fs::path path = numbered(folder_, stem, device, ".png");
+      writePng(path, viewed(imageFromStack(stack, rasters, device), white), 8);
       files_.push_back(path);
     }
   }
@@ -103,6 +114,8 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   writer.writeLinear("pattern", compensation.projector, projectors, driveUnits);
   writer.writeLinear("target", target.wanted, cameras, radianceUnits);
   writer.writeLinear("predicted", predicted, cameras, radianceUnits);
+  writer.writeViewed("target", target.wanted, cameras, target.white);
+  writer.writeViewed("predicted", predicted, cameras, target.white);
   result.files = writer.files();
   progress.report(1.0);
   return result;

@@ -62,7 +62,7 @@ class Calibrating {
   }
 
   Linearization linearized(Progress& progress) {
-    std::string inputs = linearizationFingerprint(settings_);
+    std::string inputs = linearizationFingerprint(folder_);
     if (auto done = folder_.find(stage::linearization, inputs)) return loadLinearization(*done);
     auto begin = Clock::now();
     ShotTaker shots(devices_.rig, journal_, stage::linearization);
@@ -72,7 +72,7 @@ class Calibrating {
   }
 
   Acquisition acquired(const Linearization& linearization, Progress& progress) {
-    std::string inputs = acquisitionFingerprint(settings_);
+    std::string inputs = acquisitionFingerprint(folder_);
     if (auto done = folder_.find(stage::acquisition, inputs)) return loadAcquisition(*done);
     auto begin = Clock::now();
     ShotTaker shots(devices_.rig, journal_, stage::acquisition);
@@ -84,7 +84,7 @@ class Calibrating {
   /// The operator itself is not stored: making it again is quicker than reading it. What is kept is that it
   /// can be made, and how long it took.
   void inverted(const MeasuredVenue& venue, Progress& progress) {
-    std::string inputs = inverseFingerprint(settings_);
+    std::string inputs = inverseFingerprint(folder_);
     if (folder_.isCurrent(stage::inverse, inputs)) return;
     auto begin = Clock::now();
     WindowInverse inverse = computeWindows(venue.transport, venue.usable, settings_.windows, progress);

@@ -16,8 +16,8 @@ namespace {
 /// Everything but the inverse.
 MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
-  auto linearization = folder.find(stage::linearization, linearizationFingerprint(settings));
-  auto acquisition = folder.find(stage::acquisition, acquisitionFingerprint(settings));
+  auto linearization = folder.find(stage::linearization, linearizationFingerprint(folder));
+  auto acquisition = folder.find(stage::acquisition, acquisitionFingerprint(folder));
   if (!linearization || !acquisition)
     throw Error(ErrorKind::input, "the calibration is not finished",
                 fmt::format("finish it first: relucent-cli resume {}", folder.path().string()),

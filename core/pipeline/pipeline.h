@@ -102,8 +102,8 @@ struct CompensateResult {
 };
 
 /// Computes the pattern that makes the venue look like an image, and what the camera should then see.
-/// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr (camera signal per second)
-/// and target.png, predicted.png (to look at) into `out`.
+/// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr (camera signal per
+/// second) and target.png, predicted.png (to look at) into `out`.
 CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
                             Progress& progress);
 

@@ -7,7 +7,8 @@ namespace relucent {
 namespace {
 
 std::string chained(const std::string& before, const Json& settings, const char* stageName) {
-  return fingerprintOf(Json{{"inputs", before}, {"stage", stageName}, {"settings", settings.at(stageName)}});
+  return fingerprintOf(Json{
+      {"inputs", before}, {"stage", stageName}, {"settings", settings.value(stageName, Json::object())}});
 }
 
 }  // namespace
@@ -19,17 +20,17 @@ CalibrateSettings settingsOf(const CalibrationFolder& folder) {
   return settings;
 }
 
-std::string linearizationFingerprint(const CalibrateSettings& settings) {
-  return chained(fingerprintOf(rigToJson(settings.rig)), stagesToJson(settings), "linearization");
+std::string linearizationFingerprint(const CalibrationFolder& folder) {
+  return chained(fingerprintOf(folder.rig()), folder.settings(), "linearization");
 }
 
-std::string acquisitionFingerprint(const CalibrateSettings& settings) {
-  return chained(linearizationFingerprint(settings), stagesToJson(settings), "acquisition");
+std::string acquisitionFingerprint(const CalibrationFolder& folder) {
+  return chained(linearizationFingerprint(folder), folder.settings(), "acquisition");
 }
 
-std::string inverseFingerprint(const CalibrateSettings& settings) {
-  std::string before = chained(acquisitionFingerprint(settings), stagesToJson(settings), "threshold");
-  return chained(before, stagesToJson(settings), "windows");
+std::string inverseFingerprint(const CalibrationFolder& folder) {
+  std::string thresholded = chained(acquisitionFingerprint(folder), folder.settings(), "threshold");
+  return chained(thresholded, folder.settings(), "windows");
 }
 
 }  // namespace relucent

@@ -18,10 +18,11 @@ inline constexpr const char* inverse = "inverse";
 /// What a calibration was asked for. Throws: Error{format}.
 CalibrateSettings settingsOf(const CalibrationFolder& folder);
 
-/// Fingerprints of everything that a stage's result depends on. Each includes those of the stages before, so
-/// that a changed setting makes all later results stale.
-std::string linearizationFingerprint(const CalibrateSettings& settings);
-std::string acquisitionFingerprint(const CalibrateSettings& settings);
-std::string inverseFingerprint(const CalibrateSettings& settings);
+/// Fingerprints of everything that a stage's result depends on, as the manifest says it: fields that a later
+/// version adds leave them as they are. Each includes those of the stages before, so that a changed setting
+/// makes all later results stale.
+std::string linearizationFingerprint(const CalibrationFolder& folder);
+std::string acquisitionFingerprint(const CalibrationFolder& folder);
+std::string inverseFingerprint(const CalibrationFolder& folder);
 
 }  // namespace relucent

@@ -158,9 +158,25 @@ Stack Compensator::perPixel(Method method, const Target& target) const {
   return p;
 }
 
+float Compensator::bestBrightness(const Target& target) const {
+  double wanted = 0.0, seen = 0.0;
+  for (std::size_t i = 0; i < target.content.size(); ++i) {
+    if (!target.inside[i / 3] || !venue_.usable[i / 3]) continue;
+    double light = static_cast<double>(venue_.flood[i]) * static_cast<double>(target.content[i]);
+    wanted += light * (static_cast<double>(target.wanted[i]) - static_cast<double>(venue_.black[i]));
+    seen += light * light;
+  }
+  return seen > 0.0 ? static_cast<float>(std::clamp(wanted / seen, 0.0, 1.0)) : 1.0f;
+}
+
 Compensation Compensator::windows(const Target& target, const std::vector<std::uint8_t>& free,
                                   const Progress& progress) const {
-  Stack wantedLessBlack = difference(target.wanted, venue_.black);
+  // What no projection can reach would be asked of its neighbours too: wanted as nearly as it can be had.
+  Stack wantedLessBlack(target.wanted.size());
+  parallelFor(0, wantedLessBlack.size(), 4096, [&](std::size_t i) {
+    wantedLessBlack[i] =
+        std::clamp(target.wanted[i] - venue_.black[i], 0.0f, std::max(0.0f, venue_.flood[i]));
+  });
   Compensation result;
   result.projector = inverse_.apply(wantedLessBlack);
   result.clipped = finish(result.projector, free);
@@ -182,6 +198,10 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   Compensation result;
   if (method == Method::none || method == Method::scalar || method == Method::mix) {
     result.projector = perPixel(method, target);
+    if (method == Method::none) {
+      float brightness = bestBrightness(target);
+      for (float& value : result.projector) value *= brightness;
+    }
     result.clipped = finish(result.projector, free);
     progress.report(1.0);
     return result;

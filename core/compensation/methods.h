@@ -48,12 +48,12 @@ class Compensator {
   Compensator(const MeasuredVenue& venue, const WindowInverse& inverse, CompensatorSettings settings = {});
 
   /// With o = target.wanted, i*(j) = the brightest camera pixel of projector pixel j, B = the row sums of T:
-  ///   none     content at i*(j) as drive: geometric warp only
+  ///   none     b content at i*(j) as drive: geometric warp only, under the single best brightness
+  ///            b = <F c, o - e> / <F c, F c>, at most 1   (F flood, c content, pixels inside)
   ///   scalar   (o - e) / flood at i*(j), channel by channel                    [Bimber et al. 2005]
   ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
-  ///   windows  p = clamp01(M (o - e)), then `corrections` times p <- clamp01(p + M W (o - e - T p)): a
-  ///   window knows
-  ///            the light of its own neighbourhood, T that of the whole venue
+  ///   windows  p = clamp01(M r), r = o - e held between 0 and flood, then `corrections` times
+  ///            p <- clamp01(p + M W (r - T p)): a window knows its own neighbourhood, T the whole venue
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does.
@@ -64,6 +64,8 @@ class Compensator {
 
  private:
   Stack perPixel(Method method, const Target& target) const;
+  /// The one factor that brings flood * content nearest to the wanted image in the least squares, at most 1.
+  float bestBrightness(const Target& target) const;
   /// Projects what windows() and its corrections give; `free`: projector pixels of the content.
   Compensation windows(const Target& target, const std::vector<std::uint8_t>& free,
                        const Progress& progress) const;

@@ -4,11 +4,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <bit>
+#include <climits>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/near_field.h"
+#include "inverse/smooth_prior.h"
 
 namespace relucent {
 namespace {
@@ -16,6 +18,11 @@ namespace {
 constexpr float largestCode = 32767.0f;
 /// A row whose near field spreads over more tiles than this carries no detail for the rest of them.
 constexpr std::size_t mostTilesOfARow = 64;
+/// Pixels that a window tells apart on either side of its tile: the camera pixels of a window lie within
+/// about as many, and what is further off matters by its mean.
+constexpr int farthest = 8;
+/// Beyond, areas of 8 x 8 pixels or more.
+constexpr int beyondLevel = 3;
 
 /// A camera pixel that sees a tile, and how strongly.
 struct Candidate {
@@ -28,6 +35,10 @@ struct Candidates {
   std::vector<std::size_t> start;
   std::vector<Candidate> list;
 };
+
+float brightness(const NearField::Value& value) {
+  return std::abs(value[0] + value[1] + value[2]);
+}
 
 /// A leaf of one row of a window.
 struct WindowLeaf {
@@ -42,17 +53,28 @@ struct Group {
   Node place;
   float pixels;
   std::size_t begin, end;
+  Eigen::Index beyond = -1;  // of the areas beyond all regions, the one that it lies in
 };
 
 using MatrixF = Eigen::MatrixXf;
+
+/// The part of a projector whose pixels a window tells apart.
+struct Region {
+  int projector;
+  Block block;
+  Size size() const { return {block.x1 - block.x0, block.y1 - block.y0}; }
+};
 
 /// What solving one window needs, kept between windows so that nothing is allocated for each.
 struct Scratch {
   std::vector<WindowLeaf> leaves;
   std::vector<Group> groups;
-  std::vector<NearField::Value> gram;  // rows x rows, lower triangle
-  MatrixF g;
-  std::array<MatrixF, 3> columns;  // T_J^T: rows of the window x pixels of the tile
+  std::vector<Region> regions;
+  std::vector<float> beyondSpread;  // of the areas beyond all regions: root of their mean's variance
+  MatrixF beyond;                   // T_W over those areas: rows of the window x areas
+  MatrixF seen;                     // T_W over a region, then T_W L: rows of the window x pixels
+  MatrixF gram;                     // T_W C T_W^T, lower triangle
+  MatrixF columns;                  // T_W C_J: rows of the window x pixels of the tile
   MatrixF solution;
   Eigen::VectorXf flood, white;
 };
@@ -67,7 +89,8 @@ class WindowBuilder {
       : layout_(transport.layout()),
         settings_(settings),
         tileLevel_(std::countr_zero(static_cast<unsigned>(settings.tile))),
-        near_(nearFieldOf(transport, usable)) {
+        near_(nearFieldOf(transport, usable)),
+        prior_(settings.smoothness) {
     result_.cameras_ = transport.cameras();
     result_.projectors_ = transport.projectors();
     result_.tile_ = settings.tile;
@@ -212,53 +235,89 @@ class WindowBuilder {
     }
   }
 
-  /// Lower triangle of G, per colour channel. Two leaves interact where one's node holds the other's:
-  ///   sum over pixels of (v_a / n_a) (v_b / n_b) = v_a v_b / max(n_a, n_b),   else 0.
-  void gram(std::size_t rows, Scratch& scratch) const {
-    scratch.gram.assign(rows * rows, NearField::Value{});
-    auto add = [&](const WindowLeaf& a, const WindowLeaf& b, float share) {
-      NearField::Value& sum = scratch.gram[std::max(a.local, b.local) * rows + std::min(a.local, b.local)];
-      for (std::size_t c = 0; c < 4; ++c) sum[c] += share * a.value[c] * b.value[c];
-    };
-    int coarsest = 0;
-    for (const Group& group : scratch.groups) coarsest = std::max(coarsest, group.place.level);
-
-    for (const Group& group : scratch.groups) {
-      for (std::size_t i = group.begin; i < group.end; ++i)
-        for (std::size_t k = group.begin; k <= i; ++k)
-          add(scratch.leaves[i], scratch.leaves[k], 1.0f / group.pixels);
-
-      int top = std::min(coarsest, layout_.levels(static_cast<std::size_t>(group.place.projector)) - 1);
-      for (Node above = group.place; above.level < top;) {
-        above = layout_.parent(above);
-        auto node = static_cast<std::uint32_t>(layout_.index(above));
-        auto found = std::lower_bound(scratch.groups.begin(), scratch.groups.end(), node,
-                                      [](const Group& g, std::uint32_t wanted) { return g.node < wanted; });
-        if (found == scratch.groups.end() || found->node != node) continue;
-        for (std::size_t i = group.begin; i < group.end; ++i) {
-          for (std::size_t k = found->begin; k < found->end; ++k) {
-            // A pair of leaves of one row stands twice in the square of that row.
-            bool same = scratch.leaves[i].local == scratch.leaves[k].local;
-            add(scratch.leaves[i], scratch.leaves[k], (same ? 2.0f : 1.0f) / found->pixels);
-          }
-        }
+  /// The box round all that the window's camera pixels see of a projector, no further than `farthest` from
+  /// the tile, or from the centre of the light on a projector that is not the tile's.
+  void chooseRegions(const Block& tile, int projector, Scratch& scratch) const {
+    scratch.regions.clear();
+    for (int device = 0; device < static_cast<int>(layout_.projectors().devices()); ++device) {
+      Block box{INT_MAX, INT_MAX, 0, 0};
+      double x = 0.0, y = 0.0, light = 0.0;
+      for (const Group& group : scratch.groups) {
+        if (group.place.projector != device) continue;
+        Block block = layout_.block(group.place);
+        box = {std::min(box.x0, block.x0), std::min(box.y0, block.y0), std::max(box.x1, block.x1),
+               std::max(box.y1, block.y1)};
+        double sum = 0.0;
+        for (std::size_t i = group.begin; i < group.end; ++i)
+          sum += static_cast<double>(brightness(scratch.leaves[i].value));
+        x += sum * 0.5 * (block.x0 + block.x1);
+        y += sum * 0.5 * (block.y0 + block.y1);
+        light += sum;
       }
+      if (!(light > 0.0)) continue;
+      Block centre = tile;
+      if (device != projector) {
+        int left = static_cast<int>(x / light) - settings_.tile / 2;
+        int top = static_cast<int>(y / light) - settings_.tile / 2;
+        centre = {left, top, left + settings_.tile, top + settings_.tile};
+      }
+      box = {std::max(box.x0, centre.x0 - farthest), std::max(box.y0, centre.y0 - farthest),
+             std::min(box.x1, centre.x1 + farthest), std::min(box.y1, centre.y1 + farthest)};
+      if (box.x0 < box.x1 && box.y0 < box.y1) scratch.regions.push_back({device, box});
     }
   }
 
-  /// T_J^T: what every row of the window sees of every pixel of the tile, from leaves of all levels.
-  void columns(const Block& tile, std::size_t projector, std::size_t rows, Scratch& scratch) const {
-    for (MatrixF& matrix : scratch.columns)
-      matrix.setZero(static_cast<Eigen::Index>(rows), settings_.tile * settings_.tile);
-    for (const Group& group : scratch.groups) {
-      if (static_cast<std::size_t>(group.place.projector) != projector) continue;
+  /// Gathers what lies beyond all regions in areas of at least beyondLevel's blocks: its detail is of no use
+  /// to the tile, but must not pass for the tile's light either.
+  void gatherBeyond(Scratch& scratch) const {
+    scratch.beyondSpread.clear();
+    std::vector<std::pair<std::size_t, Eigen::Index>> areas;
+    for (Group& group : scratch.groups) {
       Block block = layout_.block(group.place);
-      for (int y = std::max(tile.y0, block.y0); y < std::min(tile.y1, block.y1); ++y)
-        for (int x = std::max(tile.x0, block.x0); x < std::min(tile.x1, block.x1); ++x)
+      group.beyond = -1;
+      if (std::any_of(scratch.regions.begin(), scratch.regions.end(), [&](const Region& region) {
+            return region.projector == group.place.projector && block.x0 < region.block.x1 &&
+                   region.block.x0 < block.x1 && block.y0 < region.block.y1 && region.block.y0 < block.y1;
+          }))
+        continue;
+      Node area = group.place;
+      int top = layout_.levels(static_cast<std::size_t>(area.projector)) - 1;
+      while (area.level < std::min(beyondLevel, top)) area = layout_.parent(area);
+      std::size_t key = layout_.index(area);
+      auto found = std::find_if(areas.begin(), areas.end(), [&](const auto& a) { return a.first == key; });
+      if (found == areas.end()) {
+        found = areas.insert(areas.end(), {key, static_cast<Eigen::Index>(areas.size())});
+        scratch.beyondSpread.push_back(prior_.spreadOfMean(1 << area.level));
+      }
+      group.beyond = found->second;
+    }
+  }
+
+  /// T_W over the areas beyond all regions, times the root of their covariance.
+  void expandBeyond(std::size_t rows, std::size_t channel, Scratch& scratch) const {
+    scratch.beyond.setZero(static_cast<Eigen::Index>(rows),
+                           static_cast<Eigen::Index>(scratch.beyondSpread.size()));
+    for (const Group& group : scratch.groups) {
+      if (group.beyond < 0) continue;
+      float spread = scratch.beyondSpread[static_cast<std::size_t>(group.beyond)];
+      for (std::size_t i = group.begin; i < group.end; ++i)
+        scratch.beyond(scratch.leaves[i].local, group.beyond) += spread * scratch.leaves[i].value[channel];
+    }
+  }
+
+  /// T_W over the pixels of a region, one channel, from leaves of all levels.
+  void expand(const Region& region, std::size_t rows, std::size_t channel, Scratch& scratch) const {
+    Size size = region.size();
+    scratch.seen.setZero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(size.count()));
+    for (const Group& group : scratch.groups) {
+      if (group.place.projector != region.projector) continue;
+      Block block = layout_.block(group.place);
+      for (int y = std::max(region.block.y0, block.y0); y < std::min(region.block.y1, block.y1); ++y)
+        for (int x = std::max(region.block.x0, block.x0); x < std::min(region.block.x1, block.x1); ++x) {
+          float* column = scratch.seen.col((y - region.block.y0) * size.width + x - region.block.x0).data();
           for (std::size_t i = group.begin; i < group.end; ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-              scratch.columns[c](scratch.leaves[i].local, (y - tile.y0) * settings_.tile + x - tile.x0) +=
-                  scratch.leaves[i].value[c] / group.pixels;
+            column[scratch.leaves[i].local] += scratch.leaves[i].value[channel] / group.pixels;
+        }
     }
   }
 
@@ -272,19 +331,15 @@ class WindowBuilder {
     Block block = blockOfTile(
         projector, pixelAt(result_.tiles_.size(projector), tile - result_.tiles_.offset(projector)));
     gatherLeaves(tile, scratch);
-    gram(rows, scratch);
-    columns(block, projector, rows, scratch);
+    chooseRegions(block, static_cast<int>(projector), scratch);
+    gatherBeyond(scratch);
 
-    auto n = static_cast<Eigen::Index>(rows);
     for (std::size_t c = 0; c < 3; ++c) {
-      scratch.g.setZero(n, n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index k = 0; k <= i; ++k)
-          scratch.g(i, k) = scratch.gram[static_cast<std::size_t>(i * n + k)][c];
-      float diagonal = scratch.g.diagonal().mean();
-      if (diagonal == 0.0f) continue;  // a colour that these camera pixels do not see at all
-      scratch.g.diagonal().array() += static_cast<float>(settings_.ridge) * diagonal;
-      Eigen::LLT<Eigen::Ref<MatrixF>> cholesky(scratch.g);
+      correlate(block, static_cast<int>(projector), rows, c, scratch);
+      float diagonal = scratch.gram.diagonal().mean();
+      if (!(diagonal > 0.0f)) continue;  // a colour that these camera pixels do not see at all
+      addRidge(first, c, static_cast<float>(settings_.ridge) * diagonal, scratch);
+      Eigen::LLT<Eigen::Ref<MatrixF>> cholesky(scratch.gram);
       if (cholesky.info() != Eigen::Success)
         throw Error(ErrorKind::numerics,
                     "the light transport around a tile of projector pixels cannot be inverted",
@@ -295,27 +350,58 @@ class WindowBuilder {
     }
   }
 
-  /// The weights of one channel: M^T = (G + lambda I)^-1 T_J, then what it takes to turn the flood image f
+  /// Camera noise is alike in all pixels; unmixing blows it up by |u| of the colour's row of U, most where
+  /// the surface is dark. The pixels are trusted accordingly; `ridge` is that of a window of equals.
+  void addRidge(std::size_t first, std::size_t channel, float ridge, Scratch& scratch) const {
+    Eigen::VectorXf noise(scratch.gram.rows());
+    for (Eigen::Index k = 0; k < noise.size(); ++k)
+      noise[k] = near_.unmix[result_.row_[first + static_cast<std::size_t>(k)]]
+                     .row(static_cast<Eigen::Index>(channel))
+                     .squaredNorm();
+    scratch.gram.diagonal() += ridge * noise.cwiseInverse().mean() * noise;
+  }
+
+  /// T_W C T_W^T and T_W C_J of one channel.
+  void correlate(const Block& tile, int projector, std::size_t rows, std::size_t channel,
+                 Scratch& scratch) const {
+    auto n = static_cast<Eigen::Index>(rows);
+    scratch.gram.setZero(n, n);
+    expandBeyond(rows, channel, scratch);
+    if (scratch.beyond.cols() > 0) scratch.gram.selfadjointView<Eigen::Lower>().rankUpdate(scratch.beyond);
+    scratch.columns.setZero(n, settings_.tile * settings_.tile);
+    for (const Region& region : scratch.regions) {
+      expand(region, rows, channel, scratch);
+      prior_.timesRoot(scratch.seen, region.size());
+      scratch.gram.selfadjointView<Eigen::Lower>().rankUpdate(scratch.seen);
+      if (region.projector != projector) continue;
+      prior_.timesRootTransposed(scratch.seen, region.size());
+      for (int y = std::max(tile.y0, region.block.y0); y < std::min(tile.y1, region.block.y1); ++y)
+        for (int x = std::max(tile.x0, region.block.x0); x < std::min(tile.x1, region.block.x1); ++x)
+          scratch.columns.col((y - tile.y0) * settings_.tile + x - tile.x0) =
+              scratch.seen.col((y - region.block.y0) * region.size().width + x - region.block.x0);
+    }
+  }
+
+  /// The weights of one channel: M^T = (G + lambda I)^-1 T C_J, then what it takes to turn the flood image f
   /// white, along the direction that the ridge charges least for:
   ///   m_j <- m_j + (1 - f^T m_j) a / (f^T a),   a = (G + lambda I)^-1 f.
   template <typename Cholesky>
   void solveChannel(std::size_t first, std::size_t channel, const Cholesky& cholesky,
                     Scratch& scratch) const {
-    const MatrixF& columns = scratch.columns[channel];
-    scratch.flood.resize(columns.rows());
-    for (Eigen::Index k = 0; k < columns.rows(); ++k)
+    scratch.flood.resize(scratch.columns.rows());
+    for (Eigen::Index k = 0; k < scratch.flood.size(); ++k)
       scratch.flood[k] = near_.flood[result_.row_[first + static_cast<std::size_t>(k)]][channel];
-    scratch.solution = columns;
+    scratch.solution = scratch.columns;
     cholesky.solveInPlace(scratch.solution);
     scratch.white = scratch.flood;
     cholesky.solveInPlace(scratch.white);
     float white = scratch.flood.dot(scratch.white);
-    for (Eigen::Index pixel = 0; pixel < columns.cols(); ++pixel) {
+    for (Eigen::Index pixel = 0; pixel < scratch.columns.cols(); ++pixel) {
       auto weights = scratch.solution.col(pixel);
-      if (white > 0.0f && !columns.col(pixel).isZero(0.0f))
+      if (white > 0.0f && !scratch.columns.col(pixel).isZero(0.0f))
         weights += (1.0f - scratch.flood.dot(weights)) / white * scratch.white;
       else
-        weights.setZero();  // no row of the window sees this pixel: nobody asks anything of it
+        weights.setZero();  // outside the projector, or beyond all that the window sees
     }
   }
 
@@ -336,6 +422,7 @@ class WindowBuilder {
   WindowSettings settings_;
   int tileLevel_;
   NearField near_;
+  SmoothPrior prior_;
   WindowInverse result_;
 };
 

@@ -61,10 +61,11 @@ def main():
         ratio = float(numpy.sqrt((residual**2).mean() / (noise**2).mean()))
         relative = float(numpy.sqrt((residual**2).mean()) / frames.mean())
         print(f"pattern {number}: residual {ratio:.2f} times a photograph's noise, {100 * relative:.2f} % of its mean")
-        worst = max(worst, relative)
-    # The calibration's own noise and its threshold come on top of the photograph's.
-    if worst > 0.03:
-        sys.exit(f"T p + e misses a fresh photograph by {100 * worst:.1f} % of its mean")
+        worst = max(worst, ratio)
+    # T was estimated from photographs as noisy as this one: at worst as much error again, sqrt(2) in all, and
+    # some for the threshold.
+    if worst > 1.6:
+        sys.exit(f"T p + e misses a fresh photograph by {worst:.2f} times its noise")
 
 
 main()

@@ -50,15 +50,26 @@ WrittenFiles writeAll(const fs::path& out, const Stack& stack, const Rasters& ra
   return written;
 }
 
+/// What relighting starts from, whichever way the light goes.
+struct Opened {
+  std::optional<Image> content;  // none: all white
+  MeasuredVenue venue;
+};
+
+Opened opened(const fs::path& path, const RelightSettings& settings, Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "name the file to write");
+  Opened result;
+  if (!settings.image.empty()) result.content = readLinearContent(settings.image);
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  result.venue = loadMeasuredVenue(folder, progress);
+  return result;
+}
+
 }  // namespace
 
 WrittenFiles relight(const fs::path& path, const RelightSettings& settings, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "name the file to write");
-  std::optional<Image> content;
-  if (!settings.image.empty()) content = readLinearContent(settings.image);
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  MeasuredVenue venue = loadMeasuredVenue(folder, progress);
+  auto [content, venue] = opened(path, settings, progress);
 
   const Rasters& projectors = venue.transport.projectors();
   Stack pattern(projectors.count() * 3, 1.0f);
@@ -70,12 +81,7 @@ WrittenFiles relight(const fs::path& path, const RelightSettings& settings, Prog
 }
 
 WrittenFiles dual(const fs::path& path, const RelightSettings& settings, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "name the file to write");
-  std::optional<Image> content;
-  if (!settings.image.empty()) content = readLinearContent(settings.image);
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  MeasuredVenue venue = loadMeasuredVenue(folder, progress);
+  auto [content, venue] = opened(path, settings, progress);
 
   const Rasters& cameras = venue.transport.cameras();
   Stack light(cameras.count() * 3, 1.0f);

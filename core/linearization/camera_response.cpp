@@ -196,6 +196,16 @@ ResponseCurve curveOf(const Estimate& estimate, std::size_t channel) {
 
 }  // namespace
 
+std::vector<double> responseBracket(const ExposureRange& range, const std::vector<double>& exposures) {
+  require(!exposures.empty(), "a response cannot be told without exposures");
+  double least = std::max(exposures.back() / 4.0, range.shortest);
+  std::vector<double> seconds;
+  for (double time = std::min(exposures.front(), range.longest); time >= 0.999 * least;
+       time /= seconds.size() % 2 == 1 ? 2.0 : 1.5)
+    seconds.push_back(time);
+  return seconds;
+}
+
 CameraResponse cameraResponse(const Shot& bracket, std::size_t camera, double saturation) {
   require(!bracket.frames.empty(), "a bracket without exposures tells no response");
   CameraResponse response;

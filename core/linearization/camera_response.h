@@ -15,6 +15,11 @@ struct CameraResponse {
   double deviation = 0.0;               // largest relative deviation from that power law
 };
 
+/// Exposures to tell a response from: from the longest of `exposures` to a quarter of the shortest, within
+/// the camera's range, in steps of 2 and 1.5 by turns. Equal steps would leave every response that repeats
+/// from step to step, f(2 z) = 2 f(z), as likely as the straight line.
+std::vector<double> responseBracket(const ExposureRange& range, const std::vector<double>& exposures);
+
 /// Least squares over pixels i and exposures k, in logarithms, after Debevec & Malik 1997:
 ///   u(z_ik) - ln t_k - d_k = l_i,
 /// u = ln response, linear between knots that are even in ln z, so that a linear camera and every power law

@@ -14,6 +14,7 @@ constexpr double wantedShare = 0.8;   // of saturation, at the 99.5th percentile
 constexpr double longerBy = 12.0;     // for what is dim
 constexpr double largestStep = 16.0;  // between neighbouring exposures
 constexpr double saturationMargin = 0.97;
+constexpr double clipping = 0.98;  // share of saturation that counts as clipped
 constexpr int mostRefinements = 8;
 
 /// The brightest channel of every pixel.
@@ -28,18 +29,6 @@ double quantile(std::vector<float> values, double share) {
   auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return static_cast<double>(*place);
-}
-
-ExposureRange commonRange(const Rig& rig) {
-  ExposureRange range = rig.cameras.front()->exposures();
-  for (const auto& camera : rig.cameras) {
-    range.shortest = std::max(range.shortest, camera->exposures().shortest);
-    range.longest = std::min(range.longest, camera->exposures().longest);
-  }
-  if (!(range.shortest > 0.0 && range.shortest <= range.longest))
-    throw Error(ErrorKind::device, "the cameras have no exposure time in common",
-                "set them to ranges of exposure times that overlap");
-  return range;
 }
 
 /// The whole range in steps of at most 4, longest first; at most 12.
@@ -76,6 +65,9 @@ struct Search {
   double seconds = 0.0;
   double level = 0.0;  // 99.5th percentile at `seconds`
   std::vector<std::size_t> lit;
+  bool highlightsClip = false;  // something lit clips at `seconds`, ...
+  double highlights = 0.0;      // nothing does at this exposure, ...
+  bool clips = false;           // unless something does at every one
   bool settled = false;
 
   double levelOf(const Image& signal) const {
@@ -84,12 +76,33 @@ struct Search {
     return quantile(lit.empty() ? all : values, 0.995);
   }
 
+  /// From the sweep: the exposure at which the brightest of what is lit comes to the wanted level.
+  void findHighlights(const Shot& white, std::size_t camera, const std::vector<double>& sweepSeconds) {
+    for (std::size_t exposure = 0; exposure < sweepSeconds.size(); ++exposure) {
+      double most = brightestLit(white.frames[exposure][camera].signal);
+      highlights = sweepSeconds[exposure];
+      clips = most > clipping * saturation;
+      if (clips) continue;
+      highlights *= std::clamp(wantedShare * saturation / most, 0.25, 4.0);
+      return;
+    }
+  }
+
+  double brightestLit(const Image& signal) const {
+    std::vector<float> values = brightest(signal);
+    float most = 0.0f;
+    for (std::size_t at : lit) most = std::max(most, values[at]);
+    return static_cast<double>(most);
+  }
+
   /// Takes in a photograph at `seconds` and moves on towards the wanted level.
   void learn(const Image& signal, const ExposureRange& range) {
     level = levelOf(signal);
+    highlightsClip = brightestLit(signal) > clipping * saturation;
     double wanted = wantedShare * saturation;
     bool good = level > 0.93 * wanted && level < 1.06 * wanted;
-    double next = level > 0.98 * saturation ? 0.5 * seconds : seconds * std::clamp(wanted / level, 0.25, 4.0);
+    double next =
+        level > clipping * saturation ? 0.5 * seconds : seconds * std::clamp(wanted / level, 0.25, 4.0);
     next = std::clamp(next, range.shortest, range.longest);
     settled = good || next == seconds;
     if (!settled) seconds = next;
@@ -145,6 +158,19 @@ std::vector<double> spread(const std::vector<Search>& searches, const ExposureRa
   return seconds;
 }
 
+/// Shorter exposures for the highlights that clip at the shortest of `seconds`, in even steps.
+void addHighlights(std::vector<double>& seconds, const std::vector<Search>& searches,
+                   const ExposureRange& range) {
+  double shortest = seconds.back(), least = shortest;
+  for (const Search& search : searches)
+    if (search.highlightsClip) least = std::min(least, search.highlights);
+  least = std::max(least, range.shortest);
+  if (least >= shortest) return;
+  int steps = static_cast<int>(std::ceil(std::log(shortest / least) / std::log(largestStep) - 1e-9));
+  for (int i = 1; i <= steps; ++i)
+    seconds.push_back(shortest * std::pow(least / shortest, static_cast<double>(i) / steps));
+}
+
 /// What a sweep over the whole range tells about every camera: where it clips, and the longest exposure at
 /// which it does not.
 std::vector<Search> startSearches(const Rig& rig, const Shot& white, const std::vector<double>& seconds) {
@@ -177,13 +203,14 @@ void findLight(std::vector<Search>& searches, const Shot& white, const std::vect
                   "check that the projector is on and shows the pictures, that the lens cap is off, and that "
                   "the camera looks at the projection",
                   search.name);
+    search.findHighlights(white, camera, sweepSeconds);
   }
 }
 
 std::vector<std::string> remarks(const std::vector<Search>& searches) {
   std::vector<std::string> findings;
   for (const Search& search : searches) {
-    if (search.level > 0.98 * search.saturation)
+    if (search.level > clipping * search.saturation)
       findings.push_back(
           fmt::format("{}: the projection is overexposed even at {:.3g} s, the shortest exposure; "
                       "close the aperture, lower the gain or add a grey filter.",
@@ -193,11 +220,28 @@ std::vector<std::string> remarks(const std::vector<Search>& searches) {
           fmt::format("{}: the projection reaches only {:.0f} % of the camera's range at {:.3g} s, the "
                       "longest exposure; open the aperture or raise the gain.",
                       search.name, 100.0 * search.level / search.saturation, search.seconds));
+    else if (search.highlightsClip && search.clips)
+      findings.push_back(fmt::format(
+          "{}: some highlights are overexposed even at {:.3g} s, the shortest exposure, and will not be "
+          "compensated; close the aperture or add a grey filter if they matter.",
+          search.name, search.highlights));
   }
   return findings;
 }
 
 }  // namespace
+
+ExposureRange commonRange(const Rig& rig) {
+  ExposureRange range = rig.cameras.front()->exposures();
+  for (const auto& camera : rig.cameras) {
+    range.shortest = std::max(range.shortest, camera->exposures().shortest);
+    range.longest = std::min(range.longest, camera->exposures().longest);
+  }
+  if (!(range.shortest > 0.0 && range.shortest <= range.longest))
+    throw Error(ErrorKind::device, "the cameras have no exposure time in common",
+                "set them to ranges of exposure times that overlap");
+  return range;
+}
 
 ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress) {
   const Rig& rig = shots.rig();
@@ -227,6 +271,7 @@ ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress) {
   }
 
   ExposureChoice choice{spread(searches, range), {}, remarks(searches)};
+  addHighlights(choice.seconds, searches, range);
   for (const Search& search : searches) choice.saturation.push_back(search.saturation);
   return choice;
 }

@@ -17,18 +17,6 @@ namespace {
 
 constexpr double flickerLimit = 0.01;  // of the light between photographs, relative
 
-/// Exposures from the longest in steps of 2 to a quarter of the shortest, within the cameras' range.
-std::vector<double> responseBracket(const Rig& rig, const std::vector<double>& exposures) {
-  double least = exposures.back() / 4.0, longest = exposures.front();
-  for (const auto& camera : rig.cameras) {
-    least = std::max(least, camera->exposures().shortest);
-    longest = std::min(camera->exposures().longest, longest);
-  }
-  std::vector<double> seconds;
-  for (double time = longest; time >= 0.999 * least; time /= 2.0) seconds.push_back(time);
-  return seconds;
-}
-
 std::vector<ShotPair> takePairs(ShotTaker& shots, const LinearizationSettings& settings,
                                 const std::vector<double>& exposures, Progress& progress) {
   // Full and half light, and what lies in the dark, so that all signals occur.
@@ -49,7 +37,8 @@ std::vector<ShotPair> takePairs(ShotTaker& shots, const LinearizationSettings& s
 void calibrateCameras(ShotTaker& shots, const LinearizationSettings& settings,
                       const std::vector<double>& saturation, Linearization& result, Progress& progress) {
   const Rig& rig = shots.rig();
-  Shot bracket = shots.take(evenPatterns(rig, {1, 1, 1}), responseBracket(rig, result.exposures), progress);
+  Shot bracket =
+      shots.take(evenPatterns(rig, {1, 1, 1}), responseBracket(commonRange(rig), result.exposures), progress);
   progress.report(0.3);
   Progress rest = progress.part(0.7, progress.stage());
   std::vector<ShotPair> pairs = takePairs(shots, settings, result.exposures, rest);

@@ -116,12 +116,37 @@ class TestCameraCalibration : public QObject {
     ScriptedCamera camera;
     camera.bits = bits;
     camera.timeError = timeError;
-    Shot bracket = take(venueWith(camera, seed), {1, 1, 1}, {0.48, 0.24, 0.12, 0.06, 0.03, 0.015});
+    Shot bracket = take(venueWith(camera, seed), {1, 1, 1}, responseBracket({1e-4, 10.0}, {0.48, 0.04}));
     CameraResponse response = cameraResponse(bracket, 0, 0.97);
     QVERIFY2(
         response.curves[0].isIdentity() && response.curves[1].isIdentity() && response.curves[2].isIdentity(),
         qPrintable(QString("exponent %1, shape %2").arg(response.exponent).arg(response.deviation)));
     if (timeError == 0.0) QVERIFY(std::abs(response.exponent - 1.0) < 0.01);
+  }
+
+  /// A response that repeats itself from step to step of the bracket fits as well as a straight one.
+  void noResponseFitsLinearLightButTheStraightOne_data() {
+    QTest::addColumn<double>("longest");
+    QTest::addColumn<double>("shortest");
+    QTest::newRow("two exposures") << 0.48 << 0.04;
+    QTest::newRow("three") << 0.12 << 0.0034;
+    QTest::newRow("one") << 0.04 << 0.04;
+  }
+  void noResponseFitsLinearLightButTheStraightOne() {
+    QFETCH(double, longest);
+    QFETCH(double, shortest);
+    std::vector<double> seconds = responseBracket({1e-4, 10.0}, {longest, shortest});
+    QVERIFY(seconds.size() >= 3);
+    QVERIFY(seconds.front() == longest && seconds.back() >= 0.24 * shortest);
+    // Periods in ln z that a wobble between knots can have. It must not come back to itself at all steps.
+    for (double period = 0.3; period < 1.5; period += 0.01) {
+      double farthest = 0.0;
+      for (std::size_t k = 1; k < seconds.size(); ++k) {
+        double turns = std::log(seconds[k - 1] / seconds[k]) / period;
+        farthest = std::max(farthest, std::abs(turns - std::round(turns)));
+      }
+      QVERIFY2(farthest > 0.05, qPrintable(QString("period %1").arg(period)));
+    }
   }
 
   void responseCurvesAreRecovered_data() {
@@ -145,7 +170,7 @@ class TestCameraCalibration : public QObject {
       if (shape == 1) return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
       return 1.4 * x / (x + 0.4);
     };
-    Shot bracket = take(venueWith(camera, seed), {1, 1, 1}, {0.48, 0.24, 0.12, 0.06, 0.03, 0.015});
+    Shot bracket = take(venueWith(camera, seed), {1, 1, 1}, responseBracket({1e-4, 10.0}, {0.48, 0.04}));
     CameraResponse response = cameraResponse(bracket, 0, 0.97);
     for (const ResponseCurve& curve : response.curves) {
       QVERIFY(!curve.isIdentity());
@@ -215,6 +240,48 @@ class TestCameraCalibration : public QObject {
     std::sort(top.begin(), top.end());
     double level = static_cast<double>(top[top.size() * 995 / 1000]);
     QVERIFY2(level > 0.7 && level < 0.86, qPrintable(QString::number(level)));
+  }
+
+  void highlightsGetAnExposure_data() {
+    QTest::addColumn<double>("brighter");
+    QTest::addColumn<double>("shortest");
+    QTest::addColumn<int>("exposures");
+    QTest::newRow("no highlight") << 1.0 << 1e-4 << 2;
+    QTest::newRow("a glint") << 6.0 << 1e-4 << 3;
+    QTest::newRow("a caustic") << 40.0 << 1e-4 << 4;
+    QTest::newRow("beyond the camera") << 40.0 << 0.01 << 3;
+  }
+  void highlightsGetAnExposure() {
+    QFETCH(double, brighter);
+    QFETCH(double, shortest);
+    QFETCH(int, exposures);
+    SyntheticSettings scene;
+    scene.cameras = {{80, 60}};
+    TransportMatrix plain = syntheticTransport(scene);
+    Stack factor(3 * plain.cameras().count(), 1.0f);
+    std::size_t highlight = 30 * 80 + 40;
+    for (std::size_t c = 0; c < 3; ++c) factor[3 * highlight + c] = static_cast<float>(brighter);
+    TransportMatrix transport(plain.cameras(), plain.projectors(), plain.leaves().withRowsScaled(factor));
+    Stack black = syntheticBlack(transport);
+    ScriptedSettings settings;
+    ScriptedCamera camera;
+    camera.exposures.shortest = shortest;
+    settings.cameras = {camera};
+    ScriptedVenue venue(std::move(transport), std::move(black), settings);
+    Rig rig = venue.rig();
+    NoShotLog log;
+    ShotTaker taker(rig, log, "exposures");
+    Progress progress;
+    ExposureChoice choice = chooseExposures(taker, progress);
+    QCOMPARE(int(choice.seconds.size()), exposures);
+    QVERIFY(std::is_sorted(choice.seconds.rbegin(), choice.seconds.rend()));
+    for (std::size_t i = 1; i < choice.seconds.size(); ++i)
+      QVERIFY(choice.seconds[i - 1] <= 16.01 * choice.seconds[i]);
+    Image seen = take(venue, {1, 1, 1}, {choice.seconds.back()}).frames[0][0].signal;
+    float most = *std::max_element(seen.pixel(highlight).begin(), seen.pixel(highlight).end());
+    bool reached = choice.seconds.back() > 1.01 * shortest;
+    QCOMPARE(most < 0.95f, reached);
+    QCOMPARE(choice.findings.empty(), reached);
   }
 
   void limitsOfTheCameraAreFindings_data() {

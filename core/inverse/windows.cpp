@@ -13,8 +13,6 @@ std::vector<std::string> problems(const WindowSettings& settings) {
     found.push_back("a window must have 1 to 1024 camera pixels");
   if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
     found.push_back("the ridge must lie above 0 and at most 100");
-  if (!(settings.smoothness >= 0.1 && settings.smoothness <= 1000.0))
-    found.push_back("the smoothness must lie between 0.1 and 1000 projector pixels");
   return found;
 }
 

@@ -11,21 +11,19 @@
 namespace relucent {
 
 struct WindowSettings {
-  int tile = 4;             // side of a tile of projector pixels, 4 or 8
-  int rows = 48;            // camera pixels of a window: those that see the tile strongest
-  double ridge = 0.05;      // lambda as a share of the mean diagonal of G
-  double smoothness = 4.0;  // projector pixels over which pictures are taken to resemble themselves
+  int tile = 4;        // side of a tile of projector pixels, 4 or 8
+  int rows = 48;       // camera pixels of a window: those that see the tile strongest
+  double ridge = 0.4;  // lambda as a share of the mean diagonal of G
 };
 std::vector<std::string> problems(const WindowSettings& settings);
 
 /// The default inverse operator: for every tile of projector pixels a small regularised inverse over the
 /// camera pixels that see it strongest; the windows of neighbouring tiles overlap.
-///   p_tile = M_tile U r,   M_tile = C_J T_W^T (G + lambda N)^-1,   G = T_W C T_W^T
+///   p_tile = M_tile U r,   M_tile = T_J^T (G + lambda N)^-1,   G = T_W T_W^T
 /// U unmixes the colours of every camera pixel by its own 3x3 mixing, after which each colour channel is a
-/// scalar system of its own. C is the covariance of smooth pictures, N the noise that U makes of the
-/// camera's. M is the best linear estimate under an unknown mean: the flood image T 1 gives white. Storage:
-/// 16-bit fixed point, 6 bytes for each projector pixel and row of its window. Immutable; made by
-/// computeWindows().  Source: core/inverse/README.md.
+/// scalar system of its own. N is the noise that U makes of the camera's. M is the best linear estimate under
+/// an unknown mean: the flood image T 1 gives white. Storage: 16-bit fixed point, 6 bytes for each projector
+/// pixel and row of its window. Immutable; made by computeWindows().  Source: core/inverse/README.md.
 class WindowInverse {
  public:
   WindowInverse() = default;
@@ -65,7 +63,7 @@ class WindowInverse {
 ///  2. Every row's near field: the leaves, of whatever level, that are bright per projector pixel.
 ///  3. For every tile the `rows` camera pixels whose near fields put most light into it.
 ///  4. G over the pixels round the tile, beyond them over areas of 8x8; Cholesky.
-///  5. M = C_J T^T (G + lambda N)^-1, and the least change to it that makes the flood image white.
+///  5. M = T_J^T (G + lambda N)^-1, and the least change to it that makes the flood image white.
 /// `usable`: per camera pixel, 0 where it must not be relied on. A thresholded T should have been rescaled to
 /// the flood image before.  Source: core/inverse/README.md.
 /// Throws: Error{numerics} if a G is not positive definite; Cancelled.

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
 #include "inverse/near_field.h"
-#include "inverse/smooth_prior.h"
 
 using namespace relucent;
 using namespace relucent::synthetic;
@@ -77,15 +76,6 @@ Eigen::MatrixXd expanded(const TransportMatrix& transport, const std::vector<Col
     }
   }
   return dense;
-}
-
-/// exp(-(|dx| + |dy|) / reach) between all pixels.
-Eigen::MatrixXd covariance(Size size, double reach) {
-  auto count = static_cast<Eigen::Index>(size.count());
-  return Eigen::MatrixXd::NullaryExpr(count, count, [&](Eigen::Index a, Eigen::Index b) {
-    Pixel p = pixelAt(size, static_cast<std::size_t>(a)), q = pixelAt(size, static_cast<std::size_t>(b));
-    return std::exp(-(std::abs(p.x - q.x) + std::abs(p.y - q.y)) / reach);
-  });
 }
 
 }  // namespace
@@ -173,7 +163,7 @@ class TestWindows : public QObject {
     QTest::newRow("leaves of two levels, nested") << 1;
     QTest::newRow("leaves wider than a tile") << 3;
   }
-  /// With a window that holds the whole camera, M must be the dense C T^T (T C T^T + lambda N)^-1 under an
+  /// With a window that holds the whole camera, M must be the dense T^T (T T^T + lambda N)^-1 under an
   /// unknown mean, however T is spread over levels.
   void equalsTheDenseInverse() {
     QFETCH(int, coarsest);
@@ -200,14 +190,13 @@ class TestWindows : public QObject {
     Eigen::MatrixXd t = expanded(scene.transport, near.unmix, 1);
     WindowSettings settings;
     settings.rows = 96;
-    Eigen::MatrixXd smooth = covariance(projector, settings.smoothness);
-    Eigen::MatrixXd g = t * smooth * t.transpose();
+    Eigen::MatrixXd g = t * t.transpose();
     Eigen::VectorXd noise(g.rows());
     for (Eigen::Index i = 0; i < noise.size(); ++i)
       noise[i] = static_cast<double>(near.unmix[static_cast<std::size_t>(i)].row(1).squaredNorm());
     g.diagonal() += settings.ridge * g.diagonal().mean() * noise.cwiseInverse().mean() * noise;
     Eigen::VectorXd flood = t.rowwise().sum();
-    Eigen::MatrixXd m = smooth * t.transpose() * g.inverse();
+    Eigen::MatrixXd m = t.transpose() * g.inverse();
     Eigen::VectorXd a = g.inverse() * flood;
     m += (Eigen::VectorXd::Ones(m.rows()) - m * flood) * a.transpose() / flood.dot(a);
 
@@ -226,17 +215,6 @@ class TestWindows : public QObject {
                    fixedPoint * m.cwiseAbs().maxCoeff(),
                qPrintable(
                    QString("%1 instead of %2").arg(p[3 * static_cast<std::size_t>(j) + 1]).arg(expected[j])));
-  }
-
-  void spreadOfAMeanIsThatOfTheCovariance_data() {
-    QTest::addColumn<int>("side");
-    for (int side : {1, 2, 8}) QTest::addRow("%d pixels", side) << side;
-  }
-  void spreadOfAMeanIsThatOfTheCovariance() {
-    QFETCH(int, side);
-    double variance = covariance({side, side}, 4.0).mean();
-    // Single precision of the neighbours' share, over a difference of numbers near one.
-    QVERIFY(std::abs(SmoothPrior(4.0).spreadOfMean(side) - std::sqrt(variance)) < 1e-5);
   }
 
   void unusablePixelsHaveNoSay() {
@@ -310,19 +288,16 @@ class TestWindows : public QObject {
     QTest::addColumn<int>("tile");
     QTest::addColumn<int>("rows");
     QTest::addColumn<double>("ridge");
-    QTest::addColumn<double>("smoothness");
-    QTest::newRow("tile") << 3 << 48 << 0.3 << 4.0;
-    QTest::newRow("rows") << 4 << 0 << 0.3 << 4.0;
-    QTest::newRow("no ridge") << 4 << 48 << 0.0 << 4.0;
-    QTest::newRow("ridge not a number") << 4 << 48 << std::nan("") << 4.0;
-    QTest::newRow("no smoothness") << 4 << 48 << 0.3 << 0.0;
+    QTest::newRow("tile") << 3 << 48 << 0.3;
+    QTest::newRow("rows") << 4 << 0 << 0.3;
+    QTest::newRow("no ridge") << 4 << 48 << 0.0;
+    QTest::newRow("ridge not a number") << 4 << 48 << std::nan("");
   }
   void checksSettings() {
     QFETCH(int, tile);
     QFETCH(int, rows);
     QFETCH(double, ridge);
-    QFETCH(double, smoothness);
-    WindowSettings settings{tile, rows, ridge, smoothness};
+    WindowSettings settings{tile, rows, ridge};
     QCOMPARE(problems(settings).size(), std::size_t{1});
     QVERIFY(problems(WindowSettings{}).empty());
     Scene scene = oneToOne({4, 4});

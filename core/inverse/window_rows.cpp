@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "inverse/window_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+/// A row whose near field spreads over more tiles than this carries no detail for the rest of them.
+constexpr std::size_t mostTilesOfARow = 64;
+
+/// A camera pixel that sees a tile, and how strongly.
+struct Candidate {
+  std::uint32_t row;
+  float strength;
+};
+
+/// Tiles' candidates in one array: those of tile t are [start[t], start[t + 1]).
+struct Candidates {
+  std::vector<std::size_t> start;
+  std::vector<Candidate> list;
+};
+
+using Reach = std::vector<std::pair<std::uint32_t, float>>;
+
+/// How strongly one row's near field reaches each tile, strongest first.
+Reach reachOf(std::size_t row, const NearField& near, const NodeLayout& layout, const Rasters& tiles,
+              int tileLevel) {
+  Reach reach;
+  for (std::size_t leaf = near.start[row]; leaf < near.start[row + 1]; ++leaf) {
+    Node node = layout.node(near.node[leaf]);
+    const NearField::Value& value = near.value[leaf];
+    float light = value[0] + value[1] + value[2];
+    auto projector = static_cast<std::size_t>(node.projector);
+    Size grid = tiles.size(projector);
+    int finer = std::max(0, node.level - tileLevel), coarser = std::max(0, tileLevel - node.level);
+    light /= static_cast<float>(std::size_t{1} << (2 * finer));
+    for (int y = (node.y << finer) >> coarser; y <= (((node.y + 1) << finer) - 1) >> coarser; ++y)
+      for (int x = (node.x << finer) >> coarser; x <= (((node.x + 1) << finer) - 1) >> coarser; ++x)
+        if (x < grid.width && y < grid.height)
+          reach.emplace_back(static_cast<std::uint32_t>(tiles.offset(projector) + indexOf(grid, {x, y})),
+                             light);
+  }
+  std::sort(reach.begin(), reach.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < reach.size(); ++i) {
+    if (kept > 0 && reach[kept - 1].first == reach[i].first)
+      reach[kept - 1].second += reach[i].second;
+    else
+      reach[kept++] = reach[i];
+  }
+  reach.resize(kept);
+  std::erase_if(reach, [](const auto& tile) { return !(tile.second > 0.0f); });
+  std::sort(reach.begin(), reach.end(), [](const auto& a, const auto& b) {
+    return a.second != b.second ? a.second > b.second : a.first < b.first;
+  });
+  if (reach.size() > mostTilesOfARow) reach.resize(mostTilesOfARow);
+  return reach;
+}
+
+/// The view by columns: for every tile the rows that reach it.
+Candidates candidatesOf(const std::vector<Reach>& reach, std::size_t tiles) {
+  Candidates result;
+  result.start.assign(tiles + 1, 0);
+  for (const Reach& reached : reach)
+    for (const auto& tile : reached) ++result.start[tile.first + 1];
+  for (std::size_t tile = 0; tile < tiles; ++tile) result.start[tile + 1] += result.start[tile];
+  result.list.resize(result.start.back());
+  std::vector<std::size_t> next(result.start.begin(), result.start.end() - 1);
+  for (std::size_t row = 0; row < reach.size(); ++row)
+    for (const auto& tile : reach[row])
+      result.list[next[tile.first]++] = {static_cast<std::uint32_t>(row), tile.second};
+  return result;
+}
+
+}  // namespace
+
+WindowRows chooseWindowRows(const NearField& near, const NodeLayout& layout, const Rasters& tiles,
+                            const WindowSettings& settings) {
+  int tileLevel = std::countr_zero(static_cast<unsigned>(settings.tile));
+  std::vector<Reach> reach(near.unmix.size());
+  parallelFor(0, reach.size(), 256,
+              [&](std::size_t row) { reach[row] = reachOf(row, near, layout, tiles, tileLevel); });
+  Candidates candidates = candidatesOf(reach, tiles.count());
+
+  auto most = static_cast<std::size_t>(settings.rows);
+  WindowRows result;
+  result.start.assign(tiles.count() + 1, 0);
+  for (std::size_t tile = 0; tile < tiles.count(); ++tile)
+    result.start[tile + 1] =
+        result.start[tile] + std::min(most, candidates.start[tile + 1] - candidates.start[tile]);
+  result.row.resize(result.start.back());
+  parallelFor(0, tiles.count(), 64, [&](std::size_t tile) {
+    auto first = candidates.list.begin() + static_cast<std::ptrdiff_t>(candidates.start[tile]);
+    auto last = candidates.list.begin() + static_cast<std::ptrdiff_t>(candidates.start[tile + 1]);
+    std::size_t count = result.start[tile + 1] - result.start[tile];
+    auto chosen = first + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(first, chosen, last, [](const Candidate& a, const Candidate& b) {
+      return a.strength != b.strength ? a.strength > b.strength : a.row < b.row;
+    });
+    std::uint32_t* row = result.row.data() + result.start[tile];
+    for (auto candidate = first; candidate != chosen; ++candidate) *row++ = candidate->row;
+    std::sort(row - count, row);
+  });
+  return result;
+}
+
+}  // namespace relucent

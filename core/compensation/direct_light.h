@@ -18,6 +18,13 @@ struct DirectLightSettings {
 };
 std::vector<std::string> problems(const DirectLightSettings& settings);
 
+/// Where a camera pixel looks to.
+struct DirectLook {
+  std::int32_t projectorPixel = -1;  // in the middle of the brightest leaf's block; -1: nothing lights it
+  float light = 0.0f;                // that leaf's per projector pixel of its block, sum over the channels
+  float share = 0.0f;                // of the flood image, how much of the pixel's light is direct
+};
+
 /// The direct part of T: of every camera pixel the leaves near the projector pixel that lights it most.
 ///  1. Per camera pixel and projector the leaf that is brightest per projector pixel of its block (sum over
 ///     the channels); the middle of its block is where the camera pixel looks to in that projector. Of
@@ -30,6 +37,10 @@ std::vector<std::string> problems(const DirectLightSettings& settings);
 /// Throws: Cancelled.
 TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSettings& settings,
                            Progress& progress);
+
+/// Of every camera pixel what directPart() is decided by, without making it.
+std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
+                                    Progress& progress);
 
 /// What somebody would measure who knows of defocus, but of no indirect light: the direct part, every row
 /// scaled so that all light of the flood image comes through it.

@@ -210,7 +210,7 @@ class Parser {
 
   static std::vector<std::string> methodNames() {
     std::vector<std::string> names;
-    for (const MethodDescription& method : methods()) names.push_back(method.name);
+    for (const MethodDescription& method : methodDescriptions) names.emplace_back(method.name);
     return names;
   }
 

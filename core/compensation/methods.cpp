@@ -11,13 +11,6 @@
 namespace relucent {
 namespace {
 
-constexpr std::array<std::pair<Method, std::string_view>, 6> methodNames{{{Method::none, "none"},
-                                                                          {Method::scalar, "scalar"},
-                                                                          {Method::mix, "mix"},
-                                                                          {Method::windows, "windows"},
-                                                                          {Method::refined, "refined"},
-                                                                          {Method::optimum, "optimum"}}};
-
 float clamp01(float value) {
   return std::clamp(value, 0.0f, 1.0f);
 }
@@ -55,20 +48,10 @@ double finish(Stack& p, const std::vector<std::uint8_t>& free) {
 
 }  // namespace
 
-std::string_view toString(Method method) {
-  for (const auto& [value, name] : methodNames)
-    if (value == method) return name;
-  return {};
-}
-
-std::optional<Method> methodFromName(std::string_view name) {
-  for (const auto& [value, text] : methodNames)
-    if (text == name) return value;
-  return std::nullopt;
-}
-
 std::vector<std::string> problems(const CompensatorSettings& settings) {
   std::vector<std::string> found = problems(settings.optimum);
+  for (const std::string& problem : problems(settings.sharpening)) found.push_back(problem);
+  for (const std::string& problem : problems(settings.direct)) found.push_back(problem);
   if (settings.corrections < 0) found.push_back("the corrections of the windows cannot be fewer than none");
   for (float step : settings.steps)
     if (!(step > 0.0f)) found.push_back("the steps of the refined method must be above 0");
@@ -144,7 +127,8 @@ Stack Compensator::perPixel(Method method, const Target& target) const {
           drive[c] = flood > 0.0f ? residual[c] / flood : 0.0f;
         }
         break;
-      case Method::mix: {
+      case Method::mix:
+      case Method::sharpen: {
         Eigen::Matrix3f inverse;
         bool invertible = false;
         Eigen::Matrix3f(mixing_[i]).computeInverseWithCheck(inverse, invertible, 1e-12f);
@@ -167,6 +151,19 @@ float Compensator::bestBrightness(const Target& target) const {
     seen += light * light;
   }
   return seen > 0.0 ? static_cast<float>(std::clamp(wanted / seen, 0.0, 1.0)) : 1.0f;
+}
+
+Compensation Compensator::sharpened(const Target& target, Compensation mixed,
+                                    const std::vector<std::uint8_t>& free, Progress& progress) const {
+  Progress separating = progress.part(0.3, "Finding the defocus");
+  TransportMatrix defocus = defocusOnly(venue_.transport, settings_.direct, separating);
+  Stack wantedLessBlack = difference(target.wanted, venue_.black);
+  ConstrainedProblem problem{defocus, wantedLessBlack, target.weight, free};
+  Progress solving = progress.part(0.7, "Sharpening");
+  SolveResult solved = solveConstrained(problem, mixed.projector, settings_.sharpening, solving);
+  mixed.projector = std::move(solved.x);
+  mixed.iterations = solved.iterations;
+  return mixed;
 }
 
 Compensation Compensator::windows(const Target& target, const std::vector<std::uint8_t>& free,
@@ -196,13 +193,15 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
           "a target of {} values for {} camera values", target.wanted.size(), venue_.black.size());
   std::vector<std::uint8_t> free = contentPixels(brightest_, target);
   Compensation result;
-  if (method == Method::none || method == Method::scalar || method == Method::mix) {
+  if (method == Method::none || method == Method::scalar || method == Method::mix ||
+      method == Method::sharpen) {
     result.projector = perPixel(method, target);
     if (method == Method::none) {
       float brightness = bestBrightness(target);
       for (float& value : result.projector) value *= brightness;
     }
     result.clipped = finish(result.projector, free);
+    if (method == Method::sharpen) result = sharpened(target, std::move(result), free, progress);
     progress.report(1.0);
     return result;
   }

@@ -1,34 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/progress.h"
+#include "compensation/direct_light.h"
+#include "compensation/method.h"
 #include "compensation/solver.h"
 #include "compensation/target.h"
 #include "inverse/windows.h"
 
 namespace relucent {
 
-/// The ways to compensate, from the least knowledge of the light transport to the most.
-enum class Method { none, scalar, mix, windows, refined, optimum };
-
-inline constexpr std::array allMethods{Method::none,    Method::scalar,  Method::mix,
-                                       Method::windows, Method::refined, Method::optimum};
-
-/// Names as on the command line: "none", "scalar", ...
-std::string_view toString(Method method);
-std::optional<Method> methodFromName(std::string_view name);
-
 struct CompensatorSettings {
   int corrections = 1;                      // times that `windows` sends its error through T and M again
   std::vector<float> steps = {1.0f, 3.0f};  // a_k of `refined`
   SolverSettings optimum;
+  /// Of `sharpen`: steepest descent, as Zhang & Nayar.
+  SolverSettings sharpening{SolverSettings::Algorithm::steepestDescent, 20};
+  DirectLightSettings direct;  // what `sharpen` takes for defocus
 };
 std::vector<std::string> problems(const CompensatorSettings& settings);
 
@@ -52,6 +44,8 @@ class Compensator {
   ///            b = <F c, o - e> / <F c, F c>, at most 1   (F flood, c content, pixels inside)
   ///   scalar   (o - e) / flood at i*(j), channel by channel                    [Bimber et al. 2005]
   ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
+  ///   sharpen  mix, then the constrained optimum through the defocus alone, see defocusOnly(): no light goes
+  ///            further than the direct light does                             [Zhang & Nayar 2006]
   ///   windows  p = clamp01(M r), r = o - e held between 0 and flood, then `corrections` times
   ///            p <- clamp01(p + M W (r - T p)): a window knows its own neighbourhood, T the whole venue
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
@@ -64,6 +58,9 @@ class Compensator {
 
  private:
   Stack perPixel(Method method, const Target& target) const;
+  /// Brings the projection of `mix` nearer to what was wanted through the defocus of T.
+  Compensation sharpened(const Target& target, Compensation mixed, const std::vector<std::uint8_t>& free,
+                         Progress& progress) const;
   /// The one factor that brings flood * content nearest to the wanted image in the least squares, at most 1.
   float bestBrightness(const Target& target) const;
   /// Projects what windows() and its corrections give; `free`: projector pixels of the content.

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -12,6 +13,9 @@ namespace relucent {
 namespace {
 
 constexpr double usableShare = 0.9;
+
+constexpr std::array<std::pair<Fit, std::string_view>, 3> fitNames{
+    {{Fit::fill, "fill"}, {Fit::fit, "fit"}, {Fit::cover, "cover"}}};
 
 /// Sums over rectangles of a mask in four look-ups.
 class MaskSums {
@@ -134,15 +138,52 @@ std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, S
   return std::nullopt;
 }
 
-Placed place(const Image& content, const Corners& corners, Size view) {
+std::string_view toString(Fit fit) {
+  for (const auto& [value, name] : fitNames)
+    if (value == fit) return name;
+  return {};
+}
+
+std::optional<Fit> fitFromName(std::string_view name) {
+  for (const auto& [value, text] : fitNames)
+    if (text == name) return value;
+  return std::nullopt;
+}
+
+Placement fitted(const Corners& quadrilateral, double aspect, Fit fit) {
+  require(aspect > 0.0, "content of an aspect of {}", aspect);
+  Placement whole{quadrilateral, {}};
+  if (fit == Fit::fill) return whole;
+  const Corners& q = quadrilateral;
+  double shape = (edge(q[0], q[1]) + edge(q[3], q[2])) / (edge(q[0], q[3]) + edge(q[1], q[2]));
+  if (fit == Fit::cover) {
+    // The centred part that has the quadrilateral's shape.
+    double x = std::min(1.0, shape / aspect), y = std::min(1.0, aspect / shape);
+    whole.part = {0.5 - 0.5 * x, 0.5 - 0.5 * y, 0.5 + 0.5 * x, 0.5 + 0.5 * y};
+    return whole;
+  }
+  double x = std::min(1.0, aspect / shape), y = std::min(1.0, shape / aspect);
+  Eigen::Matrix3d viewFromSquare = unitSquareFrom(quadrilateral).inverse();
+  Corners inner = uprightCorners(0.5 - 0.5 * x, 0.5 - 0.5 * y, x, y);
+  for (auto& corner : inner) {
+    Eigen::Vector3d p = viewFromSquare * Eigen::Vector3d(corner[0], corner[1], 1.0);
+    corner = {p[0] / p[2], p[1] / p[2]};
+  }
+  return {inner, {}};
+}
+
+Placed place(const Image& content, const Placement& placement, Size view) {
   require(!content.empty(), "there is no content to place");
+  const Corners& corners = placement.corners;
+  const ImagePart& part = placement.part;
   Eigen::Matrix3d contentFromView = unitSquareFrom(corners);
 
   // Content pixels along one view pixel at the quadrilateral's most crowded side.
   double acrossView = std::min(edge(corners[0], corners[1]), edge(corners[3], corners[2]));
   double downView = std::min(edge(corners[0], corners[3]), edge(corners[1], corners[2]));
   auto crowding = [&](const Image& image) {
-    return std::max(image.width() / acrossView, image.height() / downView);
+    return std::max((part.x1 - part.x0) * image.width() / acrossView,
+                    (part.y1 - part.y0) * image.height() / downView);
   };
   Image source = content;
   while (crowding(source) > 8.0 && source.width() > 1 && source.height() > 1) source = halved(source);
@@ -151,7 +192,8 @@ Placed place(const Image& content, const Corners& corners, Size view) {
   Placed placed{Image(view, content.channels()), std::vector<std::uint8_t>(view.count(), 0)};
   auto map = [&](double x, double y) {
     Eigen::Vector3d p = contentFromView * Eigen::Vector3d(x, y, 1.0);
-    return Eigen::Vector2d(p[0] / p[2], p[1] / p[2]);
+    return Eigen::Vector2d(part.x0 + (part.x1 - part.x0) * p[0] / p[2],
+                           part.y0 + (part.y1 - part.y0) * p[1] / p[2]);
   };
   parallelFor(0, static_cast<std::size_t>(view.height), 8, [&](std::size_t row) {
     int y = static_cast<int>(row);

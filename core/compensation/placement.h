@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "image/image.h"
@@ -31,12 +32,38 @@ Eigen::Matrix3d unitSquareFrom(const Corners& corners);
 /// Nothing if no rectangle at least 4 pixels high fits.
 std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, Size size, double aspect);
 
+/// What happens where content and quadrilateral differ in shape.
+enum class Fit {
+  fill,   // stretched
+  fit,    // the whole content with bars beside it that do not belong to it
+  cover,  // the whole quadrilateral, content cut off on two sides
+};
+/// Names as on the command line: "fill", "fit", "cover".
+std::string_view toString(Fit fit);
+std::optional<Fit> fitFromName(std::string_view name);
+
+/// A part of an image, in shares of its width and height.
+struct ImagePart {
+  double x0 = 0.0, y0 = 0.0, x1 = 1.0, y1 = 1.0;
+};
+
+/// Which part of the content lands where.
+struct Placement {
+  Corners corners{};
+  ImagePart part;
+};
+
+/// The placement of content of shape `aspect` (width / height) in a quadrilateral. Centred. The shape of a
+/// quadrilateral is the mean length of its upper and lower edge over that of the others; the bars of `fit`
+/// and the cuts of `cover` follow its perspective. Contract: isConvex(quadrilateral), aspect > 0.
+Placement fitted(const Corners& quadrilateral, double aspect, Fit fit);
+
 /// Content placed into a view: pixel centres within the corners are inside, and show the mean of the content
 /// over the area that the pixel covers (at the border the content's edge pixels continue outward).
 struct Placed {
   Image image;  // 0 outside
   std::vector<std::uint8_t> inside;
 };
-Placed place(const Image& content, const Corners& corners, Size view);
+Placed place(const Image& content, const Placement& placement, Size view);
 
 }  // namespace relucent

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/progress.h"
@@ -23,12 +25,22 @@ struct SolverSettings {
   enum class Algorithm {
     fista,            // accelerated projected gradient with restart
     barzilaiBorwein,  // projected spectral steps with exact line search
+    steepestDescent,  // the paper's: projected steepest descent with exact line search
+    dense,            // active set on the matrix written out: small scale only, starts from nothing
   };
   Algorithm algorithm = Algorithm::fista;
   int mostIterations = 200;
   double tolerance = 5e-4;  // of the projected gradient, see SolveResult
 };
 std::vector<std::string> problems(const SolverSettings& settings);
+
+/// Names as on the command line: "fista", "spectral", "descent", "dense".
+std::string_view toString(SolverSettings::Algorithm algorithm);
+std::optional<SolverSettings::Algorithm> algorithmFromName(std::string_view name);
+
+/// What an algorithm is meant to be used with. Steepest descent: the five steps of Wetzstein & Bimber 2007,
+/// section 3.1, with the step length of Zhang & Nayar 2006. Dense: as many subproblems as it takes.
+SolverSettings defaultsOf(SolverSettings::Algorithm algorithm);
 
 struct SolveResult {
   Stack x;
@@ -48,7 +60,8 @@ Stack diagonalPreconditioner(const ConstrainedProblem& problem);
 Stack gradient(const ConstrainedProblem& problem, const Stack& p);
 
 /// Solves from `start` (clamped first). Never ends worse than it began. Stop and keep: the best so far.
-/// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite.
+/// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite; Error{input} if there is
+/// too much for the dense algorithm.
 SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
                              const SolverSettings& settings, Progress& progress);
 

@@ -37,6 +37,42 @@ Corners chosenCorners(const Image& content, const MeasuredVenue& venue) {
   return *found;
 }
 
+/// Throws: Error{input} naming the first corner that the camera does not see.
+void checkInView(const Corners& corners, Size view) {
+  // Whoever drags a corner to the edge may end up a little beyond it.
+  constexpr double tolerance = 1.0;
+  constexpr std::array names{"upper left", "upper right", "lower right", "lower left"};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    auto [x, y] = corners[i];
+    if (x >= -tolerance && y >= -tolerance && x <= view.width + tolerance && y <= view.height + tolerance)
+      continue;
+    throw Error(
+        ErrorKind::input,
+        fmt::format("the {} corner of the content at ({:g}, {:g}) lies outside the camera's view of {}x{} "
+                    "pixels",
+                    names[i], x, y, view.width, view.height),
+        "move the corners into the view");
+  }
+}
+
+Placement placementOf(const Image& content, const MeasuredVenue& venue, const TargetSettings& settings) {
+  if (!settings.corners) return {chosenCorners(content, venue), {}};  // of the content's own shape
+  checkInView(*settings.corners, firstCamera(venue));
+  double aspect = static_cast<double>(content.width()) / content.height();
+  return fitted(*settings.corners, aspect, settings.fit);
+}
+
+/// What is wrong with the corners, empty if nothing is.
+std::string cornerProblem(const Corners& corners) {
+  for (const auto& corner : corners)
+    if (!std::isfinite(corner[0]) || !std::isfinite(corner[1]))
+      return "the corners of the content must be finite numbers";
+  if (isConvex(corners)) return {};
+  if (isConvex({corners[0], corners[3], corners[2], corners[1]}))
+    return "the corners of the content go counter-clockwise: they must go clockwise from top left";
+  return "the corners of the content span no convex quadrilateral: they must go clockwise from top left";
+}
+
 /// The brightest white that all but `percentile` percent of the usable pixels inside can show.
 float whiteLevel(const MeasuredVenue& venue, const std::vector<std::uint8_t>& inside, double percentile) {
   std::vector<float> brightest;
@@ -63,8 +99,8 @@ float whiteLevel(const MeasuredVenue& venue, const std::vector<std::uint8_t>& in
 
 std::vector<std::string> problems(const TargetSettings& settings) {
   std::vector<std::string> found;
-  if (settings.corners && !isConvex(*settings.corners))
-    found.push_back("the corners of the content must go clockwise round a convex quadrilateral");
+  if (settings.corners)
+    if (std::string problem = cornerProblem(*settings.corners); !problem.empty()) found.push_back(problem);
   if (!(settings.reachablePercentile >= 0.0 && settings.reachablePercentile <= 100.0))
     found.push_back("the share of pixels too dark for white must lie between 0 and 100 percent");
   if (!(settings.blackLift >= 0.0 && settings.blackLift < 1.0))
@@ -95,8 +131,9 @@ Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const T
   require(wrong.empty(), "target settings: {}", fmt::join(wrong, "; "));
 
   Target target;
-  target.corners = settings.corners ? *settings.corners : chosenCorners(linearContent, venue);
-  Placed placed = place(linearContent, target.corners, firstCamera(venue));
+  Placement placement = placementOf(linearContent, venue, settings);
+  target.corners = placement.corners;
+  Placed placed = place(linearContent, placement, firstCamera(venue));
   std::size_t pixels = venue.transport.cameras().count();
   target.inside = std::move(placed.inside);
   target.inside.resize(pixels, 0);

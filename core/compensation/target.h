@@ -24,6 +24,7 @@ struct MeasuredVenue {
 struct TargetSettings {
   /// Corners of the content in the first camera's view; none: largestUpright() over the usable pixels.
   std::optional<Corners> corners;
+  Fit fit = Fit::fill;                // where content and corners differ in shape
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
   double blackLift = 0.0;             // share of white added to black
   double unreachableWeight = 0.1;     // weight of pixels that cannot show what is wanted
@@ -38,7 +39,7 @@ struct Target {
   std::vector<std::uint8_t> reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
   std::vector<float> weight;     // per camera pixel: 1 inside, less where unreachable, 0 where of no use
   std::array<float, 3> white{};  // wanted signal of the content's white: the peak for PSNR
-  Corners corners{};             // where the content was placed
+  Corners corners{};             // where the content was placed: within the quadrilateral for Fit::fit
 };
 
 /// K: how the venue mixes the projector's colours on average,
@@ -51,7 +52,8 @@ ColourBlock meanColourMixing(const MeasuredVenue& venue);
 /// White is the same signal in all channels: as bright as `reachablePercentile` allows, that is so bright
 /// that this share of the usable pixels inside cannot show it (their T 1 + e lies below it in some channel).
 /// Source: core/compensation/README.md.
-/// Throws: Error{input} if no part of the view is lit or the corners enclose nothing usable.
+/// Throws: Error{input} if no part of the view is lit, a corner lies outside the view, or the corners enclose
+/// nothing usable.
 Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings);
 
 }  // namespace relucent

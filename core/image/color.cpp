@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -162,6 +163,20 @@ double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const 
   double sum = 0.0;
   for (double value : difference) sum += value;
   return sum / static_cast<double>(counted);
+}
+
+Image deltaEMap(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask) {
+  require(encodedA.size() == encodedB.size() && encodedA.channels() == 3 && encodedB.channels() == 3,
+          "two images of one size and three channels are compared");
+  require(mask.empty() || mask.size() == encodedA.pixels(), "a mask of {} values for {} pixels", mask.size(),
+          encodedA.pixels());
+  Image map(encodedA.size(), 1, std::numeric_limits<float>::quiet_NaN());
+  parallelFor(0, map.pixels(), 1024, [&](std::size_t i) {
+    if (detail::inside(mask, i))
+      map.data()[i] =
+          static_cast<float>(ciede2000(labOfEncoded(encodedA.pixel(i)), labOfEncoded(encodedB.pixel(i))));
+  });
+  return map;
 }
 
 }  // namespace relucent

@@ -40,4 +40,8 @@ Image viewed(const Image& linear, const std::array<float, 3>& white);
 /// Throws: std::logic_error if shapes differ or no pixel is left.
 double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
 
+/// CIEDE2000 of every pixel of two sRGB-encoded images: one channel, NaN where `mask` is 0.
+/// Throws: std::logic_error if shapes differ.
+Image deltaEMap(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
+
 }  // namespace relucent

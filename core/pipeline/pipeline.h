@@ -11,6 +11,7 @@
 
 #include "acquisition/acquisition.h"
 #include "base/progress.h"
+#include "compensation/method.h"
 #include "compensation/target.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
@@ -76,17 +77,9 @@ CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSe
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
                        Progress& progress);
 
-/// A method of compensation on offer; the names are those of the command line.
-struct MethodDescription {
-  std::string name;      // "refined"
-  std::string sentence;  // what it does
-};
-/// none, scalar, mix, windows, refined, optimum: from the simplest to the best.
-const std::vector<MethodDescription>& methods();
-
 struct CompensateSettings {
   std::filesystem::path image;     // content, sRGB file or linear EXR
-  std::string method = "refined";  // a name from methods()
+  std::string method = "refined";  // a name from methodDescriptions
   TargetSettings target;
   std::filesystem::path out;  // folder; created; files of the same names are replaced
 };

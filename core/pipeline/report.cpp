@@ -140,8 +140,8 @@ std::vector<MethodScore> meanScores(const EvaluateResult& evaluation) {
 }
 
 std::string explained(const std::string& method) {
-  for (const MethodDescription& known : methods())
-    if (known.name == method) return known.sentence;
+  for (const MethodDescription& known : methodDescriptions)
+    if (known.name == method) return std::string(known.sentence);
   return {};
 }
 

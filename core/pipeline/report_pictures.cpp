@@ -62,19 +62,7 @@ Image painted(const Image& values, ColorMap map, double low, double high) {
 Image deltaEMap(const Image& a, const Image& b, const std::array<float, 3>& white,
                 const std::vector<std::uint8_t>& inside) {
   require(a.size() == b.size() && a.channels() == 3 && b.channels() == 3, "images of one size are compared");
-  Image seenA = viewed(a, white);
-  Image seenB = viewed(b, white);
-  auto lab = [](std::span<const float> encoded) {
-    Color linear{};
-    for (std::size_t c = 0; c < 3; ++c) linear[c] = srgbDecode(static_cast<double>(encoded[c]));
-    return labFromXyz(xyzFromLinearRgb(linear));
-  };
-  Image result(a.size(), 1, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel)
-    if (inside.empty() || inside[pixel] != 0)
-      result.data()[pixel] = static_cast<float>(
-          ciede2000(lab(std::as_const(seenA).pixel(pixel)), lab(std::as_const(seenB).pixel(pixel))));
-  return result;
+  return deltaEMap(viewed(a, white), viewed(b, white), inside);
 }
 
 Image reachableLight(const Image& flood, const Image& black, const std::array<float, 3>& white) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "pipeline/pipeline.h"
 
 namespace relucent {
@@ -55,10 +53,10 @@ void checkTarget(Problems& problems, const TargetSettings& target) {
 }
 
 void checkMethod(Problems& problems, const std::string& name) {
-  auto has = [&](const MethodDescription& method) { return method.name == name; };
-  if (std::any_of(methods().begin(), methods().end(), has)) return;
+  if (methodFromName(name)) return;
   std::string names;
-  for (const MethodDescription& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
+  for (const MethodDescription& method : methodDescriptions)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
   problems.push_back(fmt::format("there is no method '{}': there are {}", name, names));
 }
 
@@ -98,17 +96,6 @@ Problems problems(const ExportSettings& settings) {
 Problems problems(const RelightSettings& settings) {
   if (!settings.out.empty()) return {};
   return {"no file for the result is given"};
-}
-
-const std::vector<MethodDescription>& methods() {
-  static const std::vector<MethodDescription> all{
-      {"none", "the picture warped into place, nothing corrected"},
-      {"scalar", "each pixel's brightness corrected on its own"},
-      {"mix", "each pixel's colour corrected on its own, by its 3x3 mixing"},
-      {"windows", "overlapping regularised inverses of the light transport"},
-      {"refined", "windows and two constrained steps: the one for video"},
-      {"optimum", "the constrained optimum: the best for still pictures, the slowest"}};
-  return all;
 }
 
 }  // namespace relucent

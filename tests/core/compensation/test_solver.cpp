@@ -3,14 +3,15 @@
 
 #include <tbb/global_control.h>
 
-#include <Eigen/Cholesky>
 #include <QtTest>
 #include <cmath>
 
 #include "base/error.h"
+#include "core/compensation/scipy_reference.h"
 #include "core/inverse/synthetic_transport.h"
 
 using namespace relucent;
+using namespace relucent::reference;
 using namespace relucent::synthetic;
 
 namespace {
@@ -18,6 +19,9 @@ namespace {
 Progress quiet;
 
 using Algorithm = SolverSettings::Algorithm;
+
+constexpr Algorithm allAlgorithms[] = {Algorithm::fista, Algorithm::barzilaiBorwein,
+                                       Algorithm::steepestDescent, Algorithm::dense};
 
 /// A problem that owns its parts.
 struct Case {
@@ -64,39 +68,37 @@ Case sceneCase(std::uint64_t seed) {
   return made;
 }
 
-/// T as a dense matrix of 3 rows and columns a pixel.
-Eigen::MatrixXd dense(const TransportMatrix& transport) {
-  std::size_t columns = 3 * transport.projectors().count();
-  Eigen::MatrixXd t(3 * transport.cameras().count(), columns);
-  for (std::size_t j = 0; j < columns; ++j) {
-    Stack one(columns, 0.0f);
-    one[j] = 1.0f;
-    Stack column = transport.apply(one);
-    for (std::size_t i = 0; i < column.size(); ++i)
-      t(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = column[i];
+/// The light transport of a case that SciPy solved, to the last bit: codes on rows whose largest value is
+/// one.
+Case scipyCase(const BoxCase& solved) {
+  auto sizeOf = [&](const char* key) {
+    std::vector<double> size = numbers(solved.json[key]);
+    return Size{static_cast<int>(size[0]), static_cast<int>(size[1])};
+  };
+  Size camera = sizeOf("camera"), projector = sizeOf("projector");
+  NodeLayout layout{Rasters(projector)};
+  BlockSparseWriter writer(layout.count(), std::vector<float>(camera.count(), 1.0f), 0);
+  for (std::size_t row = 0; row < camera.count(); ++row) {
+    for (std::size_t node = 0; node < projector.count(); ++node) {
+      BlockSparseWriter::Code code;
+      for (std::size_t k = 0; k < 9; ++k)
+        code[k] = static_cast<std::int16_t>(solved.codes(static_cast<Eigen::Index>(3 * row + k / 3),
+                                                         static_cast<Eigen::Index>(3 * node + k % 3)));
+      writer.add(node, code);
+    }
+    writer.endRow();
   }
-  return t;
+  Case made{TransportMatrix(camera, projector, writer.build()),
+            {},
+            {},
+            std::vector<std::uint8_t>(projector.count(), 1)};
+  for (double value : solved.b) made.wanted.push_back(static_cast<float>(value));
+  for (double value : numbers(solved.json["weight"])) made.weight.push_back(static_cast<float>(value));
+  return made;
 }
 
-/// The optimum by another way altogether, in double precision.
-double denseObjective(const Case& c) {
-  Eigen::MatrixXd t = dense(c.transport);
-  Eigen::VectorXd b(t.rows());
-  for (Eigen::Index i = 0; i < t.rows(); ++i) {
-    double root = std::sqrt(static_cast<double>(c.weight[static_cast<std::size_t>(i) / 3]));
-    t.row(i) *= root;
-    b[i] = root * static_cast<double>(c.wanted[static_cast<std::size_t>(i)]);
-  }
-  // Coordinate descent to machine precision: slow, and certain for a strictly convex function on a box.
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(t.cols()), residual = -b;
-  for (int sweep = 0; sweep < 20000; ++sweep) {
-    for (Eigen::Index j = 0; j < t.cols(); ++j) {
-      double next = std::clamp(x[j] - t.col(j).dot(residual) / t.col(j).squaredNorm(), 0.0, 1.0);
-      residual += (next - x[j]) * t.col(j);
-      x[j] = next;
-    }
-  }
-  return 0.5 * residual.squaredNorm();
+QString scipyFile() {
+  return QFINDTESTDATA("../../data/box_least_squares.json");
 }
 
 }  // namespace
@@ -104,14 +106,13 @@ double denseObjective(const Case& c) {
 class TestSolver : public QObject {
   Q_OBJECT
 
+  /// The iterative algorithms; the dense one has no use for scenes.
   void algorithms() {
     QTest::addColumn<int>("algorithm");
     QTest::addColumn<int>("seed");
-    for (int seed = 1; seed <= 3; ++seed) {
-      QTest::addRow("fista, seed %d", seed) << static_cast<int>(Algorithm::fista) << seed;
-      QTest::addRow("Barzilai-Borwein, seed %d", seed)
-          << static_cast<int>(Algorithm::barzilaiBorwein) << seed;
-    }
+    for (Algorithm algorithm : {Algorithm::fista, Algorithm::barzilaiBorwein, Algorithm::steepestDescent})
+      for (int seed = 1; seed <= 3; ++seed)
+        QTest::addRow("%s, seed %d", toString(algorithm).data(), seed) << static_cast<int>(algorithm) << seed;
   }
   SolverSettings exact(int algorithm) {
     SolverSettings settings;
@@ -122,17 +123,120 @@ class TestSolver : public QObject {
   }
 
  private slots:
-  void agreesWithCoordinateDescent_data() { algorithms(); }
-  void agreesWithCoordinateDescent() {
+  void agreesWithScipy_data() {
+    QTest::addColumn<int>("algorithm");
+    QTest::addColumn<int>("index");
+    std::vector<BoxCase> cases = boxCases(scipyFile(), "transport");
+    QVERIFY(!cases.empty());
+    for (Algorithm algorithm : allAlgorithms)
+      for (std::size_t i = 0; i < cases.size(); ++i)
+        QTest::addRow("%s, %s", toString(algorithm).data(), qPrintable(cases[i].name))
+            << static_cast<int>(algorithm) << static_cast<int>(i);
+  }
+  void agreesWithScipy() {
     QFETCH(int, algorithm);
-    QFETCH(int, seed);
-    Case c = smallCase(static_cast<std::uint64_t>(seed));
-    SolveResult result = solveConstrained(c.problem(), Stack(12, 0.5f), exact(algorithm), quiet);
-    double best = denseObjective(c);
-    QVERIFY(result.converged);
+    QFETCH(int, index);
+    BoxCase solved = boxCases(scipyFile(), "transport")[static_cast<std::size_t>(index)];
+    Case c = scipyCase(solved);
+    Stack start(static_cast<std::size_t>(solved.x.size()), 0.5f);
+    SolveResult result = solveConstrained(c.problem(), start, exact(algorithm), quiet);
+    QVERIFY2(result.converged, qPrintable(QString::number(result.projectedGradient)));
     // Single precision of T p, and a projected gradient of 1e-5.
+    double best = solved.objective;
     QVERIFY2(std::abs(result.objective - best) < 1e-5 * (1.0 + best),
              qPrintable(QString("%1 instead of %2").arg(result.objective).arg(best)));
+    if (!solved.unique) return;
+    for (std::size_t j = 0; j < result.x.size(); ++j) {
+      double expected = solved.x[static_cast<Eigen::Index>(j)];
+      // These matrices are conditioned well enough for a projected gradient of 1e-5 to be within this.
+      QVERIFY2(std::abs(static_cast<double>(result.x[j]) - expected) < 2e-3,
+               qPrintable(QString("%1 instead of %2").arg(static_cast<double>(result.x[j])).arg(expected)));
+    }
+  }
+
+  void nothingToSolveHasAResult_data() {
+    QTest::addColumn<int>("algorithm");
+    for (Algorithm algorithm : allAlgorithms)
+      QTest::newRow(toString(algorithm).data()) << static_cast<int>(algorithm);
+  }
+  void nothingToSolveHasAResult() {
+    QFETCH(int, algorithm);
+    SolverSettings settings = exact(algorithm);
+    Stack start(12, 0.5f);
+
+    Case nothingFree = smallCase(1);
+    nothingFree.free.assign(4, 0);
+    SolveResult dark = solveConstrained(nothingFree.problem(), start, settings, quiet);
+    QVERIFY(dark.x == Stack(12, 0.0f));
+    QCOMPARE(dark.projectedGradient, 0.0);
+
+    Case nothingWeighted = smallCase(1);
+    nothingWeighted.weight.assign(6, 0.0f);
+    SolveResult free = solveConstrained(nothingWeighted.problem(), start, settings, quiet);
+    QCOMPARE(free.objective, 0.0);
+
+    Case noLight = smallCase(1);
+    BlockSparseBuilder empty(noLight.transport.leaves().columns(), std::vector<float>(6, 0.0f));
+    noLight.transport =
+        TransportMatrix(noLight.transport.cameras(), noLight.transport.projectors(), empty.build());
+    SolveResult unseen = solveConstrained(noLight.problem(), start, settings, quiet);
+    for (float value : unseen.x) QVERIFY(value >= 0.0f && value <= 1.0f);
+
+    // The way out of the box and into it again: a start beyond the limits, some of it not free.
+    Case partly = smallCase(2);
+    partly.free[1] = 0;
+    SolveResult clamped = solveConstrained(partly.problem(), Stack(12, 7.0f), settings, quiet);
+    QVERIFY(clamped.converged);
+    for (std::size_t j = 3; j < 6; ++j) QCOMPARE(clamped.x[j], 0.0f);
+  }
+
+  void denseRefusesWhatIsTooLarge() {
+    Case c = sceneCase(1);
+    QVERIFY_EXCEPTION_THROWN(
+        solveConstrained(c.problem(), Stack(3 * c.free.size(), 0.0f), defaultsOf(Algorithm::dense), quiet),
+        Error);
+  }
+
+  void denseTakesPartOfAScene() {
+    Case c = sceneCase(2);
+    for (std::size_t j = 0; j < c.free.size(); ++j) c.free[j] = j % 32 < 8 && j / 32 < 8;
+    Stack start(3 * c.free.size(), 0.0f);
+    SolveResult dense = solveConstrained(c.problem(), start, defaultsOf(Algorithm::dense), quiet);
+    SolveResult fista = solveConstrained(c.problem(), start, exact(0), quiet);
+    QVERIFY(dense.converged);
+    // f counts the pixels too that these few cannot light: the tolerance is relative to a large number.
+    QVERIFY2(dense.objective <= fista.objective * (1.0 + 1e-6),
+             qPrintable(QString("%1 %2").arg(dense.objective, 0, 'g', 9).arg(fista.objective, 0, 'g', 9)));
+    QVERIFY(std::abs(dense.objective - fista.objective) < 1e-4 * fista.objective);
+  }
+
+  void everyAlgorithmHasAName() {
+    for (Algorithm algorithm : allAlgorithms) {
+      QVERIFY(algorithmFromName(toString(algorithm)) == algorithm);
+      QVERIFY(defaultsOf(algorithm).algorithm == algorithm);
+      QVERIFY(problems(defaultsOf(algorithm)).empty());
+    }
+    QVERIFY(!algorithmFromName("magic"));
+  }
+
+  /// The paper's five steps: each goes down, and they get the larger part of what there is to gain.
+  void fiveStepsOfDescentGetMostOfIt() {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      Case c = sceneCase(seed);
+      Stack start(3 * c.free.size(), 0.0f);
+      SolverSettings settings = defaultsOf(Algorithm::steepestDescent);
+      QCOMPARE(settings.mostIterations, 5);
+      std::vector<double> f;
+      for (settings.mostIterations = 1; settings.mostIterations <= 5; ++settings.mostIterations)
+        f.push_back(solveConstrained(c.problem(), start, settings, quiet).objective);
+      for (std::size_t i = 1; i < f.size(); ++i) QVERIFY(f[i] < f[i - 1]);
+      Stack lit = c.transport.apply(start);
+      double black = 0.0;
+      for (std::size_t i = 0; i < lit.size(); ++i) black += 0.5 * c.weight[i / 3] * std::pow(c.wanted[i], 2);
+      double best = solveConstrained(c.problem(), start, exact(0), quiet).objective;
+      QVERIFY2(black - f.back() > 0.8 * (black - best),
+               qPrintable(QString("%1 of %2").arg(black - f.back()).arg(black - best)));
+    }
   }
 
   void meetsTheOptimalityConditions_data() { algorithms(); }
@@ -159,7 +263,7 @@ class TestSolver : public QObject {
     }
   }
 
-  void bothAlgorithmsAgree() {
+  void iterativeAlgorithmsAgree() {
     Case c = sceneCase(4);
     SolverSettings settings = exact(0);
     settings.tolerance = 1e-4;
@@ -167,8 +271,11 @@ class TestSolver : public QObject {
     double fista = solveConstrained(c.problem(), start, settings, quiet).objective;
     settings.algorithm = Algorithm::barzilaiBorwein;
     double spectral = solveConstrained(c.problem(), start, settings, quiet).objective;
-    QVERIFY2(std::abs(fista - spectral) < 1e-3 * fista,
-             qPrintable(QString("%1 %2").arg(fista).arg(spectral)));
+    settings.algorithm = Algorithm::steepestDescent;
+    double descent = solveConstrained(c.problem(), start, settings, quiet).objective;
+    QString values = QString("%1 %2 %3").arg(fista).arg(spectral).arg(descent);
+    QVERIFY2(std::abs(fista - spectral) < 1e-3 * fista, qPrintable(values));
+    QVERIFY2(std::abs(fista - descent) < 1e-3 * fista, qPrintable(values));
   }
 
   void neverEndsWorseThanItBegan() {
@@ -201,28 +308,40 @@ class TestSolver : public QObject {
     QVERIFY(solveConstrained(c.problem(), start, settings, quiet).x == many);
   }
 
+  void saysWhatIsNotFinite_data() { nothingToSolveHasAResult_data(); }
   void saysWhatIsNotFinite() {
+    QFETCH(int, algorithm);
+    SolverSettings settings = exact(algorithm);
     Case c = smallCase(7);
     c.wanted[4] = std::nanf("");
-    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), Stack(12, 0.5f), {}, quiet), Error);
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), Stack(12, 0.5f), settings, quiet), Error);
+    Case weights = smallCase(7);
+    weights.weight[2] = std::nanf("");
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(weights.problem(), Stack(12, 0.5f), settings, quiet), Error);
+    Case fine = smallCase(7);
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(fine.problem(), Stack(12, std::nanf("")), settings, quiet),
+                             Error);
   }
 
+  void stopsWhenAsked_data() { nothingToSolveHasAResult_data(); }
   void stopsWhenAsked() {
+    QFETCH(int, algorithm);
     struct Sink : ProgressSink {
       void progressed(double, std::string_view) override {}
     } sink;
-    Case c = sceneCase(8);
-    Stack start(3 * c.free.size(), 0.5f);
+    Case c = smallCase(8);
+    Stack start(12, 0.5f);
+    SolverSettings settings = defaultsOf(static_cast<Algorithm>(algorithm));
     StopRequest keep;
     keep.ask(StopRequest::Kind::keep);
     Progress kept(sink, keep);
-    SolveResult early = solveConstrained(c.problem(), start, {}, kept);
+    SolveResult early = solveConstrained(c.problem(), start, settings, kept);
     QCOMPARE(early.iterations, 0);
     QCOMPARE(early.x[3], 0.5f);
     StopRequest cancel;
     cancel.ask(StopRequest::Kind::cancel);
     Progress cancelled(sink, cancel);
-    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), start, {}, cancelled), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), start, settings, cancelled), Cancelled);
   }
 
   void checksSettings() {

@@ -81,7 +81,7 @@ class TestTarget : public QObject {
               c == 0 ? 0.25f : static_cast<float>((x * 7 + y * 3) % content) / static_cast<float>(content);
           if (c == 1) mean += picture.at(x, y, c) / (content * content);
         }
-    Placed placed = place(picture, uprightCorners(4, 4, 24, 24), {32, 32});
+    Placed placed = place(picture, {uprightCorners(4, 4, 24, 24), {}}, {32, 32});
     double placedMean = 0.0;
     int inside = 0;
     for (std::size_t i = 0; i < placed.inside.size(); ++i) {
@@ -107,12 +107,123 @@ class TestTarget : public QObject {
         ramp.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / 240.0f;
         ramp.at(x, y, 1) = (static_cast<float>(y) + 0.5f) / 240.0f;
       }
-    Placed placed = place(ramp, uprightCorners(4, 6, 24, 20), {32, 32});
+    Placed placed = place(ramp, {uprightCorners(4, 6, 24, 20), {}}, {32, 32});
     for (int y = 7; y < 25; ++y)
       for (int x = 5; x < 27; ++x) {
         QVERIFY(std::abs(placed.image.at(x, y, 0) - (static_cast<float>(x) - 3.5f) / 24.0f) < 1e-4f);
         QVERIFY(std::abs(placed.image.at(x, y, 1) - (static_cast<float>(y) - 5.5f) / 20.0f) < 1e-4f);
       }
+  }
+
+  void fittingKeepsTheShape_data() {
+    QTest::addColumn<double>("aspect");
+    for (double aspect : {0.3, 0.8, 1.0, 2.0, 5.0}) QTest::addRow("%g", aspect) << aspect;
+  }
+  /// In an upright rectangle a circle stays one, all of it inside (fit) or all of the rectangle covered.
+  void fittingKeepsTheShape() {
+    QFETCH(double, aspect);
+    Corners rectangle = uprightCorners(5, 7, 40, 30);
+    auto sides = [](const Corners& c) {
+      return std::array{c[1][0] - c[0][0], c[3][1] - c[0][1], 0.5 * (c[0][0] + c[2][0]),
+                        0.5 * (c[0][1] + c[2][1])};
+    };
+    Placement fill = fitted(rectangle, aspect, Fit::fill);
+    QVERIFY(fill.corners == rectangle);
+    Placement fit = fitted(rectangle, aspect, Fit::fit);
+    auto [width, height, x, y] = sides(fit.corners);
+    QVERIFY(std::abs(width / height / aspect - 1.0) < 1e-9);
+    QVERIFY(std::abs(x - 25.0) < 1e-9 && std::abs(y - 22.0) < 1e-9);
+    QVERIFY(std::abs(std::max(width / 40.0, height / 30.0) - 1.0) < 1e-9);
+    Placement cover = fitted(rectangle, aspect, Fit::cover);
+    QVERIFY(cover.corners == rectangle);
+    double shown = (cover.part.x1 - cover.part.x0) / (cover.part.y1 - cover.part.y0) * aspect;
+    QVERIFY(std::abs(shown / (40.0 / 30.0) - 1.0) < 1e-9);
+    QVERIFY(cover.part.x0 >= 0.0 && cover.part.y0 >= 0.0);
+    QVERIFY(std::abs(std::max(cover.part.x1 - cover.part.x0, cover.part.y1 - cover.part.y0) - 1.0) < 1e-9);
+  }
+
+  /// Bars lie along the lines that meet in the quadrilateral's vanishing points.
+  void barsFollowThePerspective() {
+    Corners quadrilateral{{{3, 4}, {40, 7}, {35, 30}, {1, 26}}};
+    Placement fit = fitted(quadrilateral, 3.0, Fit::fit);
+    QVERIFY(isConvex(fit.corners));
+    Eigen::Matrix3d map = unitSquareFrom(quadrilateral);
+    for (const auto& corner : fit.corners) {
+      Eigen::Vector3d p = map * Eigen::Vector3d(corner[0], corner[1], 1.0);
+      double u = p[0] / p[2], v = p[1] / p[2];
+      QVERIFY(std::abs(u * (1.0 - u)) < 1e-9);  // on the left or right edge
+      QVERIFY(v > 0.05 && v < 0.95);
+    }
+  }
+
+  void coverShowsTheMiddle() {
+    // A ramp three times as wide as high in a square: the middle third of it.
+    Image ramp({300, 100}, 3);
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 300; ++x) ramp.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / 300.0f;
+    Placed placed = place(ramp, fitted(uprightCorners(0, 0, 30, 30), 3.0, Fit::cover), {30, 30});
+    for (int x = 0; x < 30; ++x) {
+      float expected = 1.0f / 3.0f + (static_cast<float>(x) + 0.5f) / 90.0f;
+      QVERIFY2(std::abs(placed.image.at(x, 15, 0) - expected) < 1e-3f,
+               qPrintable(QString::number(placed.image.at(x, 15, 0))));
+    }
+  }
+
+  void barsAreNotContent() {
+    Scene scene = makeScene({});
+    TargetSettings settings;
+    settings.corners = uprightCorners(8, 6, 24, 18);
+    settings.fit = Fit::fit;
+    Target wide = fitTarget(Image({40, 10}, 3, 0.5f), venueOf(scene), settings);
+    std::size_t inside = 0;
+    for (std::uint8_t flag : wide.inside) inside += flag;
+    // 24 pixels wide and a quarter of that high.
+    QCOMPARE(inside, std::size_t{24 * 6});
+    settings.fit = Fit::cover;
+    Target covered = fitTarget(Image({40, 10}, 3, 0.5f), venueOf(scene), settings);
+    inside = 0;
+    for (std::uint8_t flag : covered.inside) inside += flag;
+    QCOMPARE(inside, std::size_t{24 * 18});
+  }
+
+  void saysWhatIsWrongWithCorners_data() {
+    QTest::addColumn<QList<double>>("corners");
+    QTest::addColumn<QString>("says");
+    using List = QList<double>;
+    QTest::newRow("larger than the view") << List{-5, -5, 60, -5, 60, 40, -5, 40} << "upper left corner";
+    QTest::newRow("one outside") << List{2, 2, 30, 2, 30, 99, 2, 20} << "lower right corner";
+    QTest::newRow("beside the view") << List{100, 2, 130, 2, 130, 20, 100, 20} << "upper left corner";
+    QTest::newRow("on a line") << List{2, 2, 10, 10, 20, 20, 30, 30} << "no convex";
+    QTest::newRow("a point") << List{5, 5, 5, 5, 5, 5, 5, 5} << "no convex";
+    QTest::newRow("crossed") << List{2, 2, 30, 20, 30, 2, 2, 20} << "no convex";
+    QTest::newRow("dented") << List{2, 2, 30, 2, 10, 6, 2, 20} << "no convex";
+    QTest::newRow("the other way round") << List{2, 2, 2, 20, 30, 20, 30, 2} << "counter-clockwise";
+    double nan = std::nan(""), infinite = HUGE_VAL;
+    QTest::newRow("no number") << List{nan, 2, 30, 2, 30, 20, 2, 20} << "finite";
+    QTest::newRow("infinite") << List{2, 2, infinite, 2, infinite, 20, 2, 20} << "finite";
+  }
+  void saysWhatIsWrongWithCorners() {
+    QFETCH(QList<double>, corners);
+    QFETCH(QString, says);
+    TargetSettings settings;
+    settings.corners.emplace();
+    for (int i = 0; i < 8; ++i)
+      (*settings.corners)[static_cast<std::size_t>(i / 2)][static_cast<std::size_t>(i % 2)] = corners[i];
+    QString sentence;
+    for (const std::string& problem : problems(settings)) sentence = QString::fromStdString(problem);
+    if (sentence.isEmpty()) {
+      try {
+        fitTarget(Image({4, 3}, 3, 1.0f), venueOf(makeScene({})), settings);
+      } catch (const Error& error) {
+        sentence = error.what();
+      }
+    }
+    QVERIFY2(sentence.contains(says), qPrintable(sentence));
+  }
+
+  void fitsHaveNames() {
+    for (Fit fit : {Fit::fill, Fit::fit, Fit::cover}) QVERIFY(fitFromName(toString(fit)) == fit);
+    QVERIFY(!fitFromName("stretch"));
   }
 
   void greyStaysGreyAndWhiteIsReachable_data() {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/constrained_iteration.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace relucent::detail {
+
+Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit) {
+  Stack residual = stackOf(lit.size(), [&](std::size_t i) {
+    return problem.weight[i / 3] * (lit[i] - problem.wantedLessBlack[i]);
+  });
+  Stack g = problem.transport.applyTransposed(residual);
+  parallelFor(0, g.size(), 4096, [&](std::size_t j) {
+    if (!problem.free[j / 3]) g[j] = 0.0f;
+  });
+  return g;
+}
+
+Iteration::Iteration(const ConstrainedProblem& problem)
+    : problem_(problem), preconditioner_(diagonalPreconditioner(problem)) {
+  for (std::uint8_t free : problem.free) freeValues_ += free ? 3 : 0;
+}
+
+Stack Iteration::feasible(const Stack& x) const {
+  return stackOf(x.size(), [&](std::size_t j) { return problem_.free[j / 3] ? clamp01(x[j]) : 0.0f; });
+}
+
+double Iteration::objective(const Stack& lit) const {
+  double f = sumOf(lit.size(), [&](std::size_t i) {
+    double r = static_cast<double>(lit[i]) - static_cast<double>(problem_.wantedLessBlack[i]);
+    return 0.5 * static_cast<double>(problem_.weight[i / 3]) * r * r;
+  });
+  if (!std::isfinite(f))
+    throw Error(ErrorKind::numerics,
+                "the light transport or the wanted image holds values that are not finite",
+                "measure the venue again");
+  return f;
+}
+
+Stack Iteration::projectedStep(const Stack& x, const Stack& g, double step) const {
+  auto length = static_cast<float>(step);
+  return stackOf(x.size(), [&](std::size_t j) { return clamp01(x[j] - length * preconditioner_[j] * g[j]); });
+}
+
+double Iteration::metric(const Stack& a, const Stack& b, const Stack& c, const Stack& d) const {
+  return sumOf(a.size(), [&](std::size_t j) {
+    if (!(preconditioner_[j] > 0.0f)) return 0.0;
+    return static_cast<double>(a[j] - b[j]) * static_cast<double>(c[j] - d[j]) /
+           static_cast<double>(preconditioner_[j]);
+  });
+}
+
+double Iteration::energy(const Stack& a, const Stack& b) const {
+  return sumOf(a.size(), [&](std::size_t i) {
+    double difference = static_cast<double>(a[i]) - static_cast<double>(b[i]);
+    return static_cast<double>(problem_.weight[i / 3]) * difference * difference;
+  });
+}
+
+double Iteration::projectedGradient(const Stack& x, const Stack& g) const {
+  Stack next = projectedStep(x, g, 1.0);
+  double sum = sumOf(x.size(), [&](std::size_t j) {
+    double change = static_cast<double>(x[j] - next[j]);
+    return change * change;
+  });
+  return freeValues_ > 0 ? std::sqrt(sum / static_cast<double>(freeValues_)) : 0.0;
+}
+
+double Iteration::bestShare(const Stack& x, const Stack& trial, const Stack& g, double energyOfStep) const {
+  double slope = sumOf(x.size(), [&](std::size_t j) {
+    return static_cast<double>(g[j]) * static_cast<double>(trial[j] - x[j]);
+  });
+  return energyOfStep > 0.0 ? std::clamp(-slope / energyOfStep, 0.0, 1.0) : 1.0;
+}
+
+void reportDescent(Progress& progress, double norm, double firstNorm, int iteration,
+                   const SolverSettings& settings) {
+  double fallen = 0.0;
+  if (firstNorm > settings.tolerance && norm > 0.0)
+    fallen = std::log(firstNorm / norm) / std::log(firstNorm / settings.tolerance);
+  double counted = static_cast<double>(iteration) / static_cast<double>(settings.mostIterations);
+  progress.report(std::clamp(std::max(fallen, counted), 0.0, 1.0));
+}
+
+}  // namespace relucent::detail

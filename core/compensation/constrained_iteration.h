@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "compensation/solver.h"
+
+/// What the solvers of solver.h share; nobody else includes this.
+namespace relucent::detail {
+
+/// Sum of term(i), the same bits for every number of threads.
+template <typename Term>
+double sumOf(std::size_t count, const Term& term) {
+  constexpr std::size_t chunks = 64;
+  std::array<double, chunks> partial{};
+  parallelChunks(0, count, chunks, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    partial[chunk] = sum;
+  });
+  return std::accumulate(partial.begin(), partial.end(), 0.0);
+}
+
+template <typename Value>
+Stack stackOf(std::size_t count, const Value& value) {
+  Stack stack(count);
+  parallelFor(0, count, 4096, [&](std::size_t i) { stack[i] = value(i); });
+  return stack;
+}
+
+inline float clamp01(float value) {
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
+/// grad f from T x, 0 on pixels that are not free.
+Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit);
+
+/// Products with T and sums that the iterative solvers need, in the metric of the preconditioner C.
+class Iteration {
+ public:
+  explicit Iteration(const ConstrainedProblem& problem);
+
+  /// x with every value in [0, 1] and the pixels that are not free at 0.
+  Stack feasible(const Stack& x) const;
+  Stack light(const Stack& x) const { return problem_.transport.apply(x); }
+
+  /// f from T x. Throws: Error{numerics} if it is not finite.
+  double objective(const Stack& lit) const;
+  /// grad f from T x.
+  Stack gradientAt(const Stack& lit) const { return gradientFrom(problem_, lit); }
+  /// clamp01(x - step C g).
+  Stack projectedStep(const Stack& x, const Stack& g, double step) const;
+  /// <a - b, C^-1 (c - d)>.
+  double metric(const Stack& a, const Stack& b, const Stack& c, const Stack& d) const;
+  /// sum_i w_i |(a - b)_i|^2 of two camera stacks.
+  double energy(const Stack& a, const Stack& b) const;
+  /// Root mean square over the free pixels of x - clamp01(x - C g).
+  double projectedGradient(const Stack& x, const Stack& g) const;
+  /// What share of the way from x to trial is best: f is quadratic, so this is known in closed form.
+  double bestShare(const Stack& x, const Stack& trial, const Stack& g, double energyOfStep) const;
+
+ private:
+  const ConstrainedProblem& problem_;
+  Stack preconditioner_;
+  std::size_t freeValues_ = 0;
+};
+
+/// Progress of something that ends when a norm has fallen below a tolerance or after so many steps.
+void reportDescent(Progress& progress, double norm, double firstNorm, int iteration,
+                   const SolverSettings& settings);
+
+/// One algorithm a file. They leave `objective` and `projectedGradient` of the result to solveConstrained().
+SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings,
+                       Progress& progress);
+SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const SolverSettings& settings,
+                                 Progress& progress);
+SolveResult solveSteepestDescent(const Iteration& at, const Stack& start, const SolverSettings& settings,
+                                 Progress& progress);
+SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
+                       Progress& progress);
+
+}  // namespace relucent::detail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+struct DirectLightSettings {
+  /// How far round a camera pixel's brightest projector pixel light counts as direct, as a share of the
+  /// projector's larger side; at least three pixels. Wider than the defocus of any of the simulated venues,
+  /// narrow beside the smooth patterns of diffuse interreflection.
+  double reach = 1.0 / 32.0;
+};
+std::vector<std::string> problems(const DirectLightSettings& settings);
+
+/// Where a camera pixel looks to.
+struct DirectLook {
+  std::int32_t projectorPixel = -1;  // in the middle of the brightest leaf's block; -1: nothing lights it
+  float light = 0.0f;                // that leaf's per projector pixel of its block, sum over the channels
+  float share = 0.0f;                // of the flood image, how much of the pixel's light is direct
+};
+
+/// The direct part of T: of every camera pixel the leaves near the projector pixel that lights it most.
+///  1. Per camera pixel and projector the leaf that is brightest per projector pixel of its block (sum over
+///     the channels); the middle of its block is where the camera pixel looks to in that projector. Of
+///     several projectors only those count that light it a tenth as much as the brightest does.
+///  2. A leaf is direct if its block's middle is no further from there than the reach, along x and along y,
+///     and its block no wider than the reach. Light over a wider area comes from no single place: indirect.
+/// The rest, T - direct, is indirect: interreflections, scattering, caustics; and light that a second way
+/// takes straight to the camera pixel, through glass or past a depth edge: T does not tell it from those.
+/// Law: direct + indirect = T, leaf by leaf.  Source: core/compensation/README.md.
+/// Throws: Cancelled.
+TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSettings& settings,
+                           Progress& progress);
+
+/// Of every camera pixel what directPart() is decided by, without making it.
+std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
+                                    Progress& progress);
+
+/// What somebody would measure who knows of defocus, but of no indirect light: the direct part, every row
+/// scaled so that all light of the flood image comes through it.
+/// Rows without direct light are empty.
+TransportMatrix defocusOnly(const TransportMatrix& transport, const DirectLightSettings& settings,
+                            Progress& progress);
+
+}  // namespace relucent

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace relucent {
+
+/// The ways to compensate, from the least knowledge of the light transport to the most.
+enum class Method { none, scalar, mix, sharpen, windows, refined, optimum };
+
+/// A way to compensate that is on offer.
+struct MethodDescription {
+  Method method;
+  std::string_view name;      // as on the command line
+  std::string_view sentence;  // what it does
+};
+
+/// All of them: the one list that names, help, reports and comparisons are made from.
+inline constexpr std::array methodDescriptions{
+    MethodDescription{Method::none, "none", "the picture warped into place, nothing corrected"},
+    MethodDescription{Method::scalar, "scalar", "each pixel's brightness corrected on its own"},
+    MethodDescription{Method::mix, "mix", "each pixel's colour corrected on its own, by its 3x3 mixing"},
+    MethodDescription{Method::sharpen, "sharpen",
+                      "mix, and the projector's defocus sharpened; no indirect light"},
+    MethodDescription{Method::windows, "windows", "overlapping regularised inverses of the light transport"},
+    MethodDescription{Method::refined, "refined", "windows and two constrained steps: the one for video"},
+    MethodDescription{Method::optimum, "optimum",
+                      "the constrained optimum: the best for still pictures, the slowest"}};
+
+inline constexpr auto allMethods = [] {
+  std::array<Method, methodDescriptions.size()> methods{};
+  std::transform(methodDescriptions.begin(), methodDescriptions.end(), methods.begin(),
+                 [](const MethodDescription& description) { return description.method; });
+  return methods;
+}();
+
+constexpr std::string_view toString(Method method) {
+  for (const MethodDescription& description : methodDescriptions)
+    if (description.method == method) return description.name;
+  return {};
+}
+
+constexpr std::optional<Method> methodFromName(std::string_view name) {
+  for (const MethodDescription& description : methodDescriptions)
+    if (description.name == name) return description.method;
+  return std::nullopt;
+}
+
+}  // namespace relucent

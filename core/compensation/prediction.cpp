@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "image/color.h"
+#include "image/metrics.h"
+
+namespace relucent {
+
+Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation) {
+  const Rasters& cameras = venue.transport.cameras();
+  require(target.wanted.size() == 3 * cameras.count() && target.inside.size() == cameras.count(),
+          "a target of {} values for {} camera pixels", target.wanted.size(), cameras.count());
+  Prediction prediction;
+  prediction.clipped = compensation.clipped;
+  prediction.camera = venue.transport.apply(compensation.projector);
+  parallelFor(0, prediction.camera.size(), 4096,
+              [&](std::size_t i) { prediction.camera[i] += venue.black[i]; });
+
+  std::size_t pixels = cameras.size(0).count();
+  std::span<const std::uint8_t> inside(target.inside.data(), pixels),
+      reachable(target.reachable.data(), pixels);
+  Image seen = imageFromStack(prediction.camera, cameras, 0),
+        wanted = imageFromStack(target.wanted, cameras, 0);
+  prediction.deltaE = deltaEMap(viewed(seen, target.white), viewed(wanted, target.white), inside);
+  auto covered =
+      static_cast<double>(pixels) - static_cast<double>(std::count(inside.begin(), inside.end(), 0));
+  double sum = 0.0;
+  for (float value : prediction.deltaE.data())
+    if (!std::isnan(value)) sum += static_cast<double>(value);
+  prediction.meanDeltaE = covered > 0.0 ? sum / covered : 0.0;
+
+  double reached =
+      static_cast<double>(pixels) - static_cast<double>(std::count(reachable.begin(), reachable.end(), 0));
+  prediction.reachable = covered > 0.0 ? reached / covered : 0.0;
+  prediction.psnrReachable =
+      reached > 0.0 ? psnr(seen, wanted, target.white, reachable) : std::numeric_limits<double>::quiet_NaN();
+  return prediction;
+}
+
+}  // namespace relucent

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compensation/methods.h"
+#include "image/image.h"
+
+namespace relucent {
+
+/// What the cameras should see, and how far that is from what was wanted.
+struct Prediction {
+  Stack camera;                // T p + e
+  Image deltaE;                // CIEDE2000 of the first camera's pixels; NaN outside the content
+  double meanDeltaE = 0.0;     // over the content, as a viewer adapted to its white sees it
+  double psnrReachable = 0.0;  // dB over the reachable pixels; infinite without error, NaN if there are none
+  double reachable = 0.0;      // share of the content's pixels
+  double clipped = 0.0;        // share of the content's projector values that were cut off
+};
+
+/// The preview of a compensation: T is believed.
+/// Shapes: `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.
+Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation);
+
+}  // namespace relucent

@@ -41,6 +41,22 @@ std::size_t sortAndMerge(std::uint32_t* column, Code* code, std::size_t count) {
 
 }  // namespace
 
+BlockSparse BlockSparse::assembled(std::size_t columns, std::vector<std::size_t> rowStart,
+                                   std::vector<std::uint32_t> column, std::vector<Code> code,
+                                   std::vector<float> scale) {
+  require(rowStart.size() == scale.size() + 1 && rowStart.front() == 0 && rowStart.back() == column.size() &&
+              column.size() == code.size(),
+          "{} row starts, {} columns and {} blocks for {} rows", rowStart.size(), column.size(), code.size(),
+          scale.size());
+  BlockSparse result;
+  result.columns_ = columns;
+  result.rowStart_ = std::move(rowStart);
+  result.column_ = std::move(column);
+  result.code_ = std::move(code);
+  result.scale_ = std::move(scale);
+  return result;
+}
+
 std::size_t BlockSparse::bytes() const {
   return column_.size() * sizeof(std::uint32_t) + code_.size() * sizeof(code_[0]) +
          rowStart_.size() * sizeof(std::size_t) + scale_.size() * sizeof(float);
@@ -130,6 +146,30 @@ BlockSparse BlockSparse::withRowsScaled(const Stack& factor) const {
       for (std::size_t i = 0; i < 9; ++i)
         result.code_[entry][i] = static_cast<std::int16_t>(
             std::lround(static_cast<float>(code_[entry][i]) * (factor[3 * row + i / 3] / largest)));
+  });
+  return result;
+}
+
+BlockSparse BlockSparse::filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const {
+  BlockSparse result;
+  result.columns_ = columns_;
+  result.scale_ = scale_;
+  result.rowStart_.assign(rows() + 1, 0);
+  parallelFor(0, rows(), 256, [&](std::size_t row) {
+    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry)
+      result.rowStart_[row + 1] += keep(row, entry) ? 1 : 0;
+  });
+  for (std::size_t row = 0; row < rows(); ++row) result.rowStart_[row + 1] += result.rowStart_[row];
+
+  result.column_.resize(result.rowStart_.back());
+  result.code_.resize(result.rowStart_.back());
+  parallelFor(0, rows(), 256, [&](std::size_t row) {
+    std::size_t next = result.rowStart_[row];
+    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
+      if (!keep(row, entry)) continue;
+      result.column_[next] = column_[entry];
+      result.code_[next++] = code_[entry];
+    }
   });
   return result;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,12 @@ using ColourBlock = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 class BlockSparse {
  public:
   BlockSparse() = default;
+  /// From finished arrays, none of them copied: rowStart has one more than scale and ends at the number of
+  /// blocks; columns ascend within a row; scale is the rows' quantisation step.
+  /// Throws: std::logic_error unless the sizes agree.
+  static BlockSparse assembled(std::size_t columns, std::vector<std::size_t> rowStart,
+                               std::vector<std::uint32_t> column,
+                               std::vector<std::array<std::int16_t, 9>> code, std::vector<float> scale);
 
   std::size_t rows() const { return rowStart_.size() - 1; }
   std::size_t columns() const { return columns_; }
@@ -46,9 +53,8 @@ class BlockSparse {
   BlockSparse transposed() const;
   /// Row r times the factor of each camera channel: block(r) <- diag(factor[3r..3r+2]) block(r).
   BlockSparse withRowsScaled(const Stack& factor) const;
-  /// Only the entries for which keep(row, entry) is true.
-  template <typename Keep>
-  BlockSparse filtered(const Keep& keep) const;
+  /// Only the entries for which keep(row, entry) is true; it is asked twice for each, on all cores.
+  BlockSparse filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const;
 
   bool operator==(const BlockSparse&) const = default;
 
@@ -106,22 +112,5 @@ class BlockSparseWriter {
 
 /// A block as codes on a row's scale (fullScale / 32767), saturating.
 BlockSparseWriter::Code codeOf(const ColourBlock& block, float scale);
-
-template <typename Keep>
-BlockSparse BlockSparse::filtered(const Keep& keep) const {
-  BlockSparse result;
-  result.columns_ = columns_;
-  result.scale_ = scale_;
-  result.rowStart_.assign(1, 0);
-  for (std::size_t row = 0; row < rows(); ++row) {
-    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
-      if (!keep(row, entry)) continue;
-      result.column_.push_back(column_[entry]);
-      result.code_.push_back(code_[entry]);
-    }
-    result.rowStart_.push_back(result.column_.size());
-  }
-  return result;
-}
 
 }  // namespace relucent

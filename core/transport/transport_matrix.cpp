@@ -46,28 +46,4 @@ TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Sta
                          transport.leaves().withRowsScaled(factor));
 }
 
-TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
-                            const Stack& flood) {
-  const BlockSparse& leaves = transport.leaves();
-  const NodeLayout& layout = transport.layout();
-  std::vector<float> pixelsOf(layout.count());
-  for (std::size_t node = 0; node < layout.count(); ++node)
-    pixelsOf[node] = static_cast<float>(layout.block(layout.node(node)).count());
-  auto strength = [&](std::size_t row, std::size_t entry) {
-    return leaves.block(row, entry).cwiseAbs().maxCoeff() / pixelsOf[leaves.column(entry)];
-  };
-  std::vector<float> limit(leaves.rows());
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
-    float strongest = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
-      strongest = std::max(strongest, strength(row, entry));
-    // The strongest connection always stays: a camera pixel never leaves the matrix.
-    limit[row] = std::min(strongest, std::max(settings.absolute, settings.shareOfRowMax * strongest));
-  });
-  BlockSparse kept =
-      leaves.filtered([&](std::size_t row, std::size_t entry) { return strength(row, entry) >= limit[row]; });
-  return rescaledToFloodlight(TransportMatrix(transport.cameras(), transport.projectors(), std::move(kept)),
-                              flood);
-}
-
 }  // namespace relucent

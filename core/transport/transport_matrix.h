@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "base/raster.h"
 #include "transport/block_sparse.h"
 #include "transport/node_layout.h"
@@ -45,15 +48,21 @@ class TransportMatrix {
 TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood,
                                      float floor = 0.0f);
 
-/// Thresholding settings: a leaf is dropped where, per projector pixel of its block, the largest magnitude
-/// in its 3x3 block stays below either limit. By default nothing is dropped.
+/// Thresholding settings. A leaf's strength is the largest magnitude in its 3x3 block per projector pixel of
+/// its node; a leaf is dropped where that stays below any of the limits. By default nothing is dropped.
 struct ThresholdSettings {
   float absolute = 0.0f;       // camera signal per second: the paper's "HDR value of a camera pixel"
   float shareOfRowMax = 0.0f;  // of the row's strongest single connection
+  double energyKept = 1.0;     // of the light in all leaves: the strongest that hold at least this much stay
 };
+std::vector<std::string> problems(const ThresholdSettings& settings);
+
+/// Per row the least strength that stays. The row's strongest leaf always does: a camera pixel never leaves
+/// the matrix. Source: Wetzstein & Bimber 2007, section 3.
+std::vector<float> thresholdLimits(const TransportMatrix& transport, const ThresholdSettings& settings);
 
 /// Drops weak leaves, then rescales to `flood`.
-/// Law: never adds energy beyond the flood image.
+/// Law: never adds energy beyond the flood image.  Throws: Error{usage} for wrong settings.
 TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
                             const Stack& flood);
 

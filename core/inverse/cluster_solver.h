@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "inverse/cluster_inverse.h"
+
+namespace relucent {
+
+/// Regularised inverse of one cluster's matrix (see computeClusterInverse()), scaled to white if asked for.
+/// Shapes: rows x columns -> columns x rows.  `lambda`: absolute, for the ridge.
+/// Throws: Error{numerics} if A^T A + lambda I cannot be factored.
+Eigen::MatrixXf clusterPseudoInverse(const Eigen::MatrixXf& block, double lambda,
+                                     const ClusterInverseSettings& settings);
+
+}  // namespace relucent

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "transport/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+// Sums are taken in this many fixed parts, so that they are the same bits for every number of threads.
+constexpr std::size_t parts = 64;
+
+std::size_t binOf(float strength) {
+  double place = (std::log10(static_cast<double>(strength)) - StrengthHistogram::lowestDecade) *
+                 StrengthHistogram::binsPerDecade;
+  return static_cast<std::size_t>(
+      std::clamp(std::floor(place), 0.0, static_cast<double>(StrengthHistogram::bins - 1)));
+}
+
+/// Strength and light of one leaf, in steps of its row's scale.
+struct CodeSize {
+  int largest = 0;
+  int sum = 0;
+};
+
+CodeSize sizeOf(const std::array<std::int16_t, 9>& code) {
+  CodeSize size;
+  for (std::int16_t value : code) {
+    int magnitude = std::abs(static_cast<int>(value));
+    size.largest = std::max(size.largest, magnitude);
+    size.sum += magnitude;
+  }
+  return size;
+}
+
+/// Adds what light of two leaves falls on the same pixels, for the leaf at `entry` and its ancestors.
+/// `holds` marks the row's wide leaves.
+double sharedWithAncestors(const BlockSparse& leaves, const NodeTable& nodes, std::size_t row,
+                           std::size_t entry, const std::vector<std::uint8_t>& holds) {
+  double sum = 0.0;
+  std::uint32_t node = leaves.column(entry);
+  for (std::uint32_t above = nodes.parent[node]; above != node; node = above, above = nodes.parent[node]) {
+    if (!holds[above]) continue;
+    std::size_t begin = entry + 1, end = leaves.rowBegin(row + 1);
+    while (begin < end) {
+      std::size_t middle = begin + (end - begin) / 2;
+      if (leaves.column(middle) < above)
+        begin = middle + 1;
+      else
+        end = middle;
+    }
+    Eigen::Matrix3d inner = leaves.block(row, entry).cast<double>();
+    Eigen::Matrix3d outer = leaves.block(row, begin).cast<double>();
+    sum += 2.0 * inner.cwiseProduct(outer).sum() / static_cast<double>(nodes.pixels[above]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+NodeTable::NodeTable(const NodeLayout& layout) : pixels(layout.count()), parent(layout.count()) {
+  parallelFor(0, layout.count(), 1024, [&](std::size_t index) {
+    Node node = layout.node(index);
+    pixels[index] = static_cast<float>(layout.block(node).count());
+    bool top = node.level + 1 == layout.levels(static_cast<std::size_t>(node.projector));
+    parent[index] = static_cast<std::uint32_t>(top ? index : layout.index(layout.parent(node)));
+  });
+}
+
+TransportStatistics statisticsOf(const TransportMatrix& transport, const ThresholdSettings& settings) {
+  const BlockSparse& leaves = transport.leaves();
+  std::vector<float> limit = thresholdLimits(transport, settings);
+  NodeTable nodes(transport.layout());
+
+  struct Part {
+    TransportStatistics kept;
+    double all = 0.0;
+  };
+  std::vector<Part> sums(parts);
+  parallelChunks(0, leaves.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Part& sum = sums[part];
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+        CodeSize size = sizeOf(leaves.code(entry));
+        float pixels = nodes.pixels[leaves.column(entry)];
+        float strength = leaves.scale(row) * static_cast<float>(size.largest) / pixels;
+        double energy = static_cast<double>(leaves.scale(row)) * size.sum;
+        sum.all += energy;
+        if (strength < limit[row]) continue;
+        ++sum.kept.leaves;
+        sum.kept.connections += static_cast<std::uint64_t>(pixels);
+        sum.kept.energy += energy;
+        if (!(strength > 0.0f)) continue;
+        std::size_t bin = binOf(strength);
+        ++sum.kept.histogram.leaves[bin];
+        sum.kept.histogram.energy[bin] += energy;
+      }
+    }
+  });
+
+  TransportStatistics result;
+  double all = 0.0;
+  for (const Part& part : sums) {
+    result.leaves += part.kept.leaves;
+    result.connections += part.kept.connections;
+    result.energy += part.kept.energy;
+    all += part.all;
+    for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
+      result.histogram.leaves[bin] += part.kept.histogram.leaves[bin];
+      result.histogram.energy[bin] += part.kept.histogram.energy[bin];
+    }
+  }
+  if (all > 0.0) result.energyKept = result.energy / all;
+  constexpr std::uint64_t bytesPerLeaf = sizeof(std::uint32_t) + sizeof(std::array<std::int16_t, 9>);
+  result.bytes = leaves.bytes() - (leaves.blocks() - result.leaves) * bytesPerLeaf;
+  return result;
+}
+
+std::vector<double> squaredRowNorms(const TransportMatrix& transport, const NodeTable& nodes,
+                                    std::vector<std::uint8_t>* nested) {
+  const BlockSparse& leaves = transport.leaves();
+  std::size_t pixels = transport.projectors().count();
+  std::vector<double> norms(leaves.rows());
+  if (nested) nested->assign(leaves.rows(), 0);
+  parallelChunks(0, leaves.rows(), parts, [&](std::size_t, std::size_t firstRow, std::size_t lastRow) {
+    std::vector<std::uint8_t> holds(nodes.pixels.size(), 0);
+    for (std::size_t row = firstRow; row < lastRow; ++row) {
+      std::size_t begin = leaves.rowBegin(row), end = leaves.rowBegin(row + 1);
+      for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
+        holds[leaves.column(entry)] = 1;
+      double steps = 0.0, shared = 0.0;
+      for (std::size_t entry = begin; entry < end; ++entry) {
+        double squares = 0.0;
+        for (std::int16_t value : leaves.code(entry)) squares += static_cast<double>(value) * value;
+        std::uint32_t node = leaves.column(entry);
+        steps += squares / static_cast<double>(nodes.pixels[node]);
+        bool inside = false;
+        for (std::uint32_t above = nodes.parent[node]; above != node && !inside;
+             node = above, above = nodes.parent[node])
+          inside = holds[above] != 0;
+        if (!inside) continue;
+        if (nested) (*nested)[row] = 1;
+        shared += sharedWithAncestors(leaves, nodes, row, entry, holds);
+      }
+      for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
+        holds[leaves.column(entry)] = 0;
+      double scale = static_cast<double>(leaves.scale(row));
+      norms[row] = steps * scale * scale + shared;
+    }
+  });
+  return norms;
+}
+
+}  // namespace relucent

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+/// Pixels of every node, and the node of the next coarser level that holds it (itself at the top): what
+/// passes over all leaves look up instead of working it out each time.
+struct NodeTable {
+  explicit NodeTable(const NodeLayout& layout);
+  std::vector<float> pixels;
+  std::vector<std::uint32_t> parent;
+};
+
+/// How strong connections are: how many leaves, and how much of the light, per decade of strength.
+struct StrengthHistogram {
+  static constexpr int lowestDecade = -9;  // weaker ones are counted in the first bin ...
+  static constexpr int highestDecade = 3;  // ... stronger ones in the last
+  static constexpr int binsPerDecade = 4;
+  static constexpr std::size_t bins = (highestDecade - lowestDecade) * binsPerDecade;
+  std::array<std::uint64_t, bins> leaves{};
+  std::array<double, bins> energy{};
+};
+
+/// What T holds, or would hold after a threshold.
+struct TransportStatistics {
+  std::uint64_t leaves = 0;
+  std::uint64_t connections = 0;  // pairs of a camera pixel and a projector pixel
+  std::uint64_t bytes = 0;        // in memory
+  double energy = 0.0;            // sum of the magnitudes of all values: the light in all leaves
+  double energyKept = 1.0;        // share of it that the threshold leaves, before rows are rescaled
+  StrengthHistogram histogram;    // of what is left, log10 of strength in camera signal per second
+};
+
+/// One pass over the leaves, nothing is copied: what `thresholded` would leave with these settings. Same
+/// bits for every number of threads.  Throws: Error{usage} for wrong settings.
+TransportStatistics statisticsOf(const TransportMatrix& transport, const ThresholdSettings& settings = {});
+
+/// |T_i|^2 of every row over all single projector pixels and nine values, exact for nested leaves, without
+/// expanding them: with densities d = value / pixels of the node,
+///   |T_i|^2 = sum_k n_k |d_k|^2 + 2 sum_k n_k d_k . (sum of the densities of k's ancestors).
+/// `nested` says which rows have leaves inside leaves, if given.
+std::vector<double> squaredRowNorms(const TransportMatrix& transport, const NodeTable& nodes,
+                                    std::vector<std::uint8_t>* nested = nullptr);
+
+}  // namespace relucent

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "transport/statistics.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::size_t parts = 64;
+
+/// Largest magnitude of a leaf's nine values, in steps of its row's scale.
+int largestOf(const std::array<std::int16_t, 9>& code) {
+  int largest = 0;
+  for (std::int16_t value : code) largest = std::max(largest, std::abs(static_cast<int>(value)));
+  return largest;
+}
+
+float strengthOf(const BlockSparse& leaves, const NodeTable& nodes, std::size_t row, std::size_t entry) {
+  return leaves.scale(row) * static_cast<float>(largestOf(leaves.code(entry))) /
+         nodes.pixels[leaves.column(entry)];
+}
+
+/// The strength above which leaves hold `share` of all light. Strengths are told apart by their leading 16
+/// bits, which is 1 % of their value; of a tie everything stays.
+float limitOfEnergy(const TransportMatrix& transport, const NodeTable& nodes, double share) {
+  if (share >= 1.0) return 0.0f;
+  const BlockSparse& leaves = transport.leaves();
+  constexpr std::size_t bins = 1 << 15;  // positive floats by their leading bits, in order
+  std::vector<std::vector<double>> partial(parts);
+  parallelChunks(0, leaves.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    partial[part].assign(bins, 0.0);
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+        int sum = 0;
+        for (std::int16_t value : leaves.code(entry)) sum += std::abs(static_cast<int>(value));
+        auto bits = std::bit_cast<std::uint32_t>(strengthOf(leaves, nodes, row, entry));
+        partial[part][(bits >> 16) & (bins - 1)] += static_cast<double>(leaves.scale(row)) * sum;
+      }
+    }
+  });
+  std::vector<double> energy(bins, 0.0);
+  double all = 0.0;
+  for (const auto& part : partial)
+    for (std::size_t bin = 0; bin < part.size(); ++bin) energy[bin] += part[bin];
+  for (double value : energy) all += value;
+
+  double held = 0.0;
+  std::size_t bin = bins;
+  while (bin > 0 && held < share * all) held += energy[--bin];
+  return std::bit_cast<float>(static_cast<std::uint32_t>(bin) << 16);
+}
+
+void requireValid(const ThresholdSettings& settings) {
+  if (auto found = problems(settings); !found.empty())
+    throw Error(ErrorKind::usage, found.front(), "choose another threshold", "threshold");
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const ThresholdSettings& settings) {
+  std::vector<std::string> found;
+  if (!(settings.absolute >= 0.0f)) found.push_back("the threshold must not be negative");
+  if (!(settings.shareOfRowMax >= 0.0f && settings.shareOfRowMax <= 1.0f))
+    found.push_back("the share of a row's strongest connection must lie between 0 and 1");
+  if (!(settings.energyKept >= 0.0 && settings.energyKept <= 1.0))
+    found.push_back("the share of the energy to keep must lie between 0 and 1");
+  return found;
+}
+
+std::vector<float> thresholdLimits(const TransportMatrix& transport, const ThresholdSettings& settings) {
+  requireValid(settings);
+  const BlockSparse& leaves = transport.leaves();
+  std::vector<float> limit(leaves.rows(), 0.0f);
+  if (settings.absolute == 0.0f && settings.shareOfRowMax == 0.0f && settings.energyKept == 1.0) return limit;
+
+  NodeTable nodes(transport.layout());
+  float everywhere = std::max(settings.absolute, limitOfEnergy(transport, nodes, settings.energyKept));
+  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+    float strongest = 0.0f;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      strongest = std::max(strongest, strengthOf(leaves, nodes, row, entry));
+    limit[row] = std::min(strongest, std::max(everywhere, settings.shareOfRowMax * strongest));
+  });
+  return limit;
+}
+
+TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
+                            const Stack& flood) {
+  std::vector<float> limit = thresholdLimits(transport, settings);
+  NodeTable nodes(transport.layout());
+  BlockSparse kept = transport.leaves().filtered([&](std::size_t row, std::size_t entry) {
+    return strengthOf(transport.leaves(), nodes, row, entry) >= limit[row];
+  });
+  return rescaledToFloodlight(TransportMatrix(transport.cameras(), transport.projectors(), std::move(kept)),
+                              flood);
+}
+
+}  // namespace relucent

@@ -52,7 +52,9 @@ std::vector<std::string> problems(const CompensatorSettings& settings) {
   std::vector<std::string> found = problems(settings.optimum);
   for (const std::string& problem : problems(settings.sharpening)) found.push_back(problem);
   for (const std::string& problem : problems(settings.direct)) found.push_back(problem);
-  if (settings.corrections < 0) found.push_back("the corrections of the windows cannot be fewer than none");
+  if (!(settings.correctionByInverse >= 0.0f && settings.correctionByInverse <= 2.0f) ||
+      !(settings.correctionByAdjoint >= 0.0f && settings.correctionByAdjoint <= 2.0f))
+    found.push_back("the correction of the windows must lie between 0 and 2");
   for (float step : settings.steps)
     if (!(step > 0.0f)) found.push_back("the steps of the refined method must be above 0");
   return found;
@@ -167,7 +169,7 @@ Compensation Compensator::sharpened(const Target& target, Compensation mixed,
 }
 
 Compensation Compensator::windows(const Target& target, const std::vector<std::uint8_t>& free,
-                                  const Progress& progress) const {
+                                  const Stack& preconditioner, const Progress& progress) const {
   // What no projection can reach would be asked of its neighbours too: wanted as nearly as it can be had.
   Stack wantedLessBlack(target.wanted.size());
   parallelFor(0, wantedLessBlack.size(), 4096, [&](std::size_t i) {
@@ -177,14 +179,17 @@ Compensation Compensator::windows(const Target& target, const std::vector<std::u
   Compensation result;
   result.projector = inverse_.apply(wantedLessBlack);
   result.clipped = finish(result.projector, free);
-  for (; result.iterations < settings_.corrections; ++result.iterations) {
-    progress.checkpoint();
-    Stack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
-    parallelFor(0, residual.size(), 4096, [&](std::size_t i) { residual[i] *= target.weight[i / 3]; });
-    Stack change = inverse_.apply(residual);
-    parallelFor(0, change.size(), 4096, [&](std::size_t j) { result.projector[j] += change[j]; });
-    result.clipped = finish(result.projector, free);
-  }
+  progress.checkpoint();
+  Stack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
+  parallelFor(0, residual.size(), 4096, [&](std::size_t i) { residual[i] *= target.weight[i / 3]; });
+  Stack byInverse = inverse_.apply(residual);
+  Stack byAdjoint = venue_.transport.applyTransposed(residual);
+  parallelFor(0, byInverse.size(), 4096, [&](std::size_t j) {
+    result.projector[j] += settings_.correctionByInverse * byInverse[j] +
+                           settings_.correctionByAdjoint * preconditioner[j] * byAdjoint[j];
+  });
+  result.clipped = finish(result.projector, free);
+  result.iterations = 1;
   return result;
 }
 
@@ -206,11 +211,11 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
     return result;
   }
 
-  result = windows(target, free, progress);
   Stack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{venue_.transport, wantedLessBlack, target.weight, free};
+  Stack c = diagonalPreconditioner(problem);
+  result = windows(target, free, c, progress);
   if (method == Method::refined) {
-    Stack c = diagonalPreconditioner(problem);
     for (float step : settings_.steps) {
       progress.checkpoint();
       Stack g = gradient(problem, result.projector);

@@ -15,8 +15,13 @@
 namespace relucent {
 
 struct CompensatorSettings {
-  int corrections = 1;                      // times that `windows` sends its error through T and M again
-  std::vector<float> steps = {1.0f, 3.0f};  // a_k of `refined`
+  /// How `windows` sends its error back once: share of M W r, and of C T^T W r.
+  float correctionByInverse = 0.5f;
+  float correctionByAdjoint = 1.0f;
+  /// a_k of `refined`, in pairs: short steps settle what T passes on in full (low frequencies), long ones
+  /// reach what it dims. |prod (1 - a_k s)| <= 1 for all 0 <= s <= 1, the spectrum of C T^T W T: nothing
+  /// grows.
+  std::vector<float> steps = {1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 10.0f};
   SolverSettings optimum;
   /// Of `sharpen`: steepest descent, as Zhang & Nayar.
   SolverSettings sharpening{SolverSettings::Algorithm::steepestDescent, 20};
@@ -46,8 +51,9 @@ class Compensator {
   ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
   ///   sharpen  mix, then the constrained optimum through the defocus alone, see defocusOnly(): no light goes
   ///            further than the direct light does                             [Zhang & Nayar 2006]
-  ///   windows  p = clamp01(M r), r = o - e held between 0 and flood, then `corrections` times
-  ///            p <- clamp01(p + M W (r - T p)): a window knows its own neighbourhood, T the whole venue
+  ///   windows  p = clamp01(M b), b = o - e held between 0 and flood, then
+  ///            p <- clamp01(p + (m M + a C T^T) W (b - T p)): a window knows its own neighbourhood, T the
+  ///            whole venue; the adjoint takes back light where many pixels' light meets (caustics)
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does.
@@ -63,9 +69,9 @@ class Compensator {
                          Progress& progress) const;
   /// The one factor that brings flood * content nearest to the wanted image in the least squares, at most 1.
   float bestBrightness(const Target& target) const;
-  /// Projects what windows() and its corrections give; `free`: projector pixels of the content.
+  /// `free`: projector pixels of the content; `preconditioner`: C.
   Compensation windows(const Target& target, const std::vector<std::uint8_t>& free,
-                       const Progress& progress) const;
+                       const Stack& preconditioner, const Progress& progress) const;
 
   const MeasuredVenue& venue_;
   const WindowInverse& inverse_;

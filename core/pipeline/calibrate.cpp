@@ -81,14 +81,21 @@ class Calibrating {
     return acquisition;
   }
 
-  /// The operator itself is not stored: making it again is quicker than reading it. What is kept is that it
-  /// can be made, and how long it took.
+  /// The operator itself is not stored: making it again is quicker than reading it. What is kept is how it
+  /// is made: the ridge, and the trials that chose it.
   void inverted(const MeasuredVenue& venue, Progress& progress) {
     std::string inputs = inverseFingerprint(folder_);
     if (folder_.isCurrent(stage::inverse, inputs)) return;
     auto begin = Clock::now();
-    WindowInverse inverse = computeWindows(venue.transport, venue.usable, settings_.windows, progress);
-    folder_.store(stage::inverse, inputs, Json{{"cost", cost(begin, nullptr)}, {"bytes", inverse.bytes()}});
+    RidgeChoice choice = invert(venue, settings_, progress);
+    Json curve = Json::array();
+    for (const RidgeTrial& trial : choice.curve)
+      curve.push_back({{"ridge", trial.ridge}, {"psnr", trial.psnr}});
+    folder_.store(stage::inverse, inputs,
+                  Json{{"ridge", choice.ridge},
+                       {"curve", curve},
+                       {"bytes", choice.inverse.bytes()},
+                       {"cost", cost(begin, nullptr)}});
   }
 
   CalibrationFolder& folder_;

@@ -118,12 +118,27 @@ MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progr
   return loadMeasurements(folder, progress).venue;
 }
 
+RidgeChoice invert(const MeasuredVenue& venue, const CalibrateSettings& settings, Progress& progress) {
+  if (settings.chooseRidge) return chooseRidge(venue, settings.windows, progress);
+  return {
+      settings.windows.ridge, {}, computeWindows(venue.transport, venue.usable, settings.windows, progress)};
+}
+
 MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress) {
   Progress reading = progress.part(0.5, "Reading the calibration");
   MeasuredCalibration measured = loadMeasurements(folder, reading);
   Progress inverting = progress.part(0.5, "Inverting the light transport");
-  measured.inverse =
-      computeWindows(measured.venue.transport, measured.venue.usable, settingsOf(folder).windows, inverting);
+  CalibrateSettings settings = settingsOf(folder);
+  // Which ridge is best has been tried already, unless an older version made the calibration.
+  if (auto done = folder.find(stage::inverse, inverseFingerprint(folder))) {
+    settings.windows.ridge = done->values.value("ridge", settings.windows.ridge);
+    settings.chooseRidge = false;
+    for (const Json& trial : done->values.value("curve", Json::array()))
+      measured.ridgeCurve.push_back({trial.value("ridge", 0.0), trial.value("psnr", 0.0)});
+  }
+  RidgeChoice choice = invert(measured.venue, settings, inverting);
+  measured.inverse = std::move(choice.inverse);
+  if (measured.ridgeCurve.empty()) measured.ridgeCurve = std::move(choice.curve);
   return measured;
 }
 

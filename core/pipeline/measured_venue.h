@@ -3,6 +3,7 @@
 
 #include "acquisition/acquisition.h"
 #include "calibration/calibration_folder.h"
+#include "compensation/ridge_choice.h"
 #include "compensation/target.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
@@ -17,6 +18,7 @@ struct MeasuredCalibration {
   Acquisition acquisition;  // T has moved on to `venue`
   MeasuredVenue venue;
   WindowInverse inverse;
+  std::vector<RidgeTrial> ridgeCurve;  // how its ridge was found
 };
 
 /// Which camera pixels compensation may rely on: lit by the projectors well above noise and black in every
@@ -29,6 +31,9 @@ MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSetting
 
 /// Reads what was measured, without inverting it. Throws: as loadCalibration().
 MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progress);
+
+/// The windows as the settings want them: with the ridge that suits the venue best, or the one given.
+RidgeChoice invert(const MeasuredVenue& venue, const CalibrateSettings& settings, Progress& progress);
 
 /// Reads a finished calibration. The inverse operator is made anew: quicker than reading it.
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.

@@ -44,6 +44,7 @@ struct CalibrateSettings {
   AcquisitionSettings acquisition;
   ThresholdSettings threshold;  // none by default: every leaf that was measured counts
   WindowSettings windows;
+  bool chooseRidge = true;  // windows.ridge is where the search for the best one starts
 };
 /// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.
 std::vector<std::string> problems(const CalibrateSettings& settings);

@@ -80,7 +80,8 @@ Json stagesToJson(const CalibrateSettings& settings) {
   return Json(Sorted{{"linearization", settings.linearization},
                      {"acquisition", settings.acquisition},
                      {"threshold", settings.threshold},
-                     {"windows", settings.windows}});
+                     {"windows", settings.windows},
+                     {"choose_ridge", settings.chooseRidge}});
 }
 
 void stagesFromJson(const Json& json, CalibrateSettings& settings) {
@@ -90,6 +91,7 @@ void stagesFromJson(const Json& json, CalibrateSettings& settings) {
     settings.acquisition = sorted.value("acquisition", settings.acquisition);
     settings.threshold = sorted.value("threshold", settings.threshold);
     settings.windows = sorted.value("windows", settings.windows);
+    settings.chooseRidge = sorted.value("choose_ridge", settings.chooseRidge);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

@@ -30,7 +30,8 @@ std::string acquisitionFingerprint(const CalibrationFolder& folder) {
 
 std::string inverseFingerprint(const CalibrationFolder& folder) {
   std::string thresholded = chained(acquisitionFingerprint(folder), folder.settings(), "threshold");
-  return chained(thresholded, folder.settings(), "windows");
+  std::string windows = chained(thresholded, folder.settings(), "windows");
+  return chained(windows, folder.settings(), "choose_ridge");
 }
 
 }  // namespace relucent

@@ -8,65 +8,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
-#include "base/random.h"
-#include "image/color.h"
+#include "image/dead_leaves.h"
+#include "image/drawing.h"
 
 namespace relucent {
 namespace {
 
-// Drawn at four times the size and averaged down: edges then have the soft steps of a photograph.
-constexpr int oversampling = 4;
-
-cv::Mat canvas(Size size, const cv::Scalar& encoded) {
-  return cv::Mat(size.height * oversampling, size.width * oversampling, CV_32FC3, encoded);
-}
-
-/// Encoded RGB to linear, averaged down in linear light.
-Image finished(const cv::Mat& encoded, Size size) {
-  cv::Mat linear = encoded.clone();
-  linear.forEach<cv::Vec3f>([](cv::Vec3f& pixel, const int*) {
-    for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(srgbDecode(std::clamp(pixel[c], 0.0f, 1.0f)));
-  });
-  cv::Mat small;
-  cv::resize(linear, small, cv::Size(size.width, size.height), 0, 0, cv::INTER_AREA);
-  return Image(size, 3, std::vector<float>(small.ptr<float>(), small.ptr<float>() + size.count() * 3));
-}
-
-/// A colour of moderate saturation at a given hue (turns), saturation and value.
-cv::Scalar hsv(double hue, double saturation, double value) {
-  std::array<double, 3> rgb{};
-  for (int c = 0; c < 3; ++c) {
-    double distance = std::abs(std::remainder(hue - c / 3.0, 1.0)) * 6.0;
-    double pure = std::clamp(2.0 - distance, 0.0, 1.0);
-    rgb[static_cast<std::size_t>(c)] = value * (1.0 - saturation * (1.0 - pure));
-  }
-  return {rgb[0], rgb[1], rgb[2]};
-}
-
-/// Discs hide one another, the number of those with radius above r falling as r^-2.
-Image deadLeaves(Size size) {
-  cv::Mat picture = canvas(size, {0.5, 0.5, 0.5});
-  Random random{20071028};
-  double largest = 0.3 * picture.rows;
-  double smallest = 0.004 * picture.rows;
-  // From the bottom up; enough discs that the whole picture is covered many times over.
-  constexpr int discs = 9000;
-  for (int i = 0; i < discs; ++i) {
-    // Inverse of the cumulative distribution of a density falling as r^-3 between the two radii.
-    double u = random.uniform();
-    double a = 1.0 / (smallest * smallest);
-    double b = 1.0 / (largest * largest);
-    double radius = 1.0 / std::sqrt(a + u * (b - a));
-    cv::Point centre(static_cast<int>(random.below(static_cast<std::uint64_t>(picture.cols))),
-                     static_cast<int>(random.below(static_cast<std::uint64_t>(picture.rows))));
-    double hue = random.uniform();
-    double saturation = 0.5 * random.uniform();
-    double value = 0.15 + 0.8 * random.uniform();
-    cv::circle(picture, centre, std::max(1, static_cast<int>(radius)), hsv(hue, saturation, value),
-               cv::FILLED);
-  }
-  return finished(picture, size);
-}
+using namespace drawing;
 
 Image lettering(Size size) {
   cv::Mat picture = canvas(size, {0.92, 0.92, 0.9});
@@ -132,7 +80,9 @@ Image saturatedColours(Size size) {
 std::vector<NamedImage> standardImages(Size size) {
   require(size.width >= 8 && size.height >= 8, "no picture can be drawn in {}x{} pixels", size.width,
           size.height);
-  return {{"natural", deadLeaves(size)}, {"text", lettering(size)}, {"colours", saturatedColours(size)}};
+  return {{"natural", deadLeaves(size, 20071028)},
+          {"text", lettering(size)},
+          {"colours", saturatedColours(size)}};
 }
 
 }  // namespace relucent

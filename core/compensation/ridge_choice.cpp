@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/ridge_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "compensation/methods.h"
+#include "compensation/prediction.h"
+#include "image/dead_leaves.h"
+
+namespace relucent {
+namespace {
+
+constexpr double asGoodAs = 0.1;  // dB
+constexpr int mostSteps = 4;      // factors of 2 either way
+constexpr Size pictureSize{320, 240};
+
+/// The targets of the trial pictures; none where no content fits.
+std::vector<Target> trialTargets(const MeasuredVenue& venue) {
+  std::vector<Target> targets;
+  Size view = venue.transport.cameras().size(0);
+  std::vector<std::uint8_t> usable(venue.usable.begin(),
+                                   venue.usable.begin() + static_cast<std::ptrdiff_t>(view.count()));
+  if (!largestUpright(usable, view, static_cast<double>(pictureSize.width) / pictureSize.height))
+    return targets;
+  for (std::uint64_t seed : {1, 2}) targets.push_back(fitTarget(deadLeaves(pictureSize, seed), venue, {}));
+  return targets;
+}
+
+/// The trials so far, by factors of 2 from the ridge that it starts at.
+class Search {
+ public:
+  Search(const MeasuredVenue& venue, const WindowSettings& settings, std::vector<Target> targets)
+      : venue_(venue), settings_(settings), targets_(std::move(targets)) {}
+
+  double ridge(int step) const { return std::ldexp(settings_.ridge, step); }
+
+  WindowInverse windows(int step, Progress& progress) const {
+    WindowSettings settings = settings_;
+    settings.ridge = ridge(step);
+    return computeWindows(venue_.transport, venue_.usable, settings, progress);
+  }
+
+  double trial(int step, Progress& progress) {
+    Progress computing = progress.part(0.8, progress.stage());
+    WindowInverse inverse = windows(step, computing);
+    Compensator compensator(venue_, inverse);
+    double sum = 0.0;
+    for (const Target& target : targets_) {
+      Progress solving = progress.part(0.2 / static_cast<double>(targets_.size()), progress.stage());
+      Compensation compensation = compensator.solve(Method::windows, target, solving);
+      sum += predict(venue_, target, compensation).psnrReachable;
+    }
+    double psnr = sum / static_cast<double>(targets_.size());
+    psnr_[step] = psnr;
+    if (step == best()) kept_ = {step, std::move(inverse)};
+    return psnr;
+  }
+
+  int best() const {
+    return std::max_element(psnr_.begin(), psnr_.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+  }
+  int chosen() const {
+    double enough = psnr_.at(best()) - asGoodAs;
+    int step = best();
+    for (const auto& [tried, psnr] : psnr_)
+      if (psnr >= enough) step = std::max(step, tried);
+    return step;
+  }
+
+  /// The windows of the step, from its trial where they were kept.
+  WindowInverse take(int step, Progress& progress) {
+    return kept_ && kept_->first == step ? std::move(kept_->second) : windows(step, progress);
+  }
+  std::vector<RidgeTrial> curve() const {
+    std::vector<RidgeTrial> trials;
+    for (const auto& [step, psnr] : psnr_) trials.push_back({ridge(step), psnr});
+    return trials;
+  }
+
+ private:
+  const MeasuredVenue& venue_;
+  WindowSettings settings_;
+  std::vector<Target> targets_;
+  std::map<int, double> psnr_;
+  std::optional<std::pair<int, WindowInverse>> kept_;
+};
+
+}  // namespace
+
+RidgeChoice chooseRidge(const MeasuredVenue& venue, const WindowSettings& settings, Progress& progress) {
+  std::vector<Target> targets = trialTargets(venue);
+  if (targets.empty())
+    return {settings.ridge, {}, computeWindows(venue.transport, venue.usable, settings, progress)};
+
+  Search search(venue, settings, std::move(targets));
+  // Nobody knows how many trials it takes: each gets a third of what is left.
+  double left = 1.0;
+  auto trial = [&](int step) {
+    Progress part = progress.part(left / 3.0, progress.stage());
+    left -= left / 3.0;
+    return search.trial(step, part);
+  };
+  double start = trial(0);
+  for (int direction : {1, -1}) {
+    double before = start;
+    for (int step = direction; std::abs(step) <= mostSteps; step += direction) {
+      double psnr = trial(step);
+      if (!(psnr > before)) break;
+      before = psnr;
+    }
+    if (search.best() != 0) break;  // better this way: it will not be better the other way too
+  }
+  RidgeChoice choice{search.ridge(search.chosen()), search.curve(), {}};
+  choice.inverse = search.take(search.chosen(), progress);
+  progress.report(1.0);
+  return choice;
+}
+
+}  // namespace relucent

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "compensation/target.h"
+#include "inverse/windows.h"
+
+namespace relucent {
+
+/// How well the windows did with one ridge.
+struct RidgeTrial {
+  double ridge = 0.0;
+  double psnr = 0.0;  // dB, `windows` through T, mean over the pictures
+  bool operator==(const RidgeTrial&) const = default;
+};
+
+struct RidgeChoice {
+  double ridge = 0.0;
+  std::vector<RidgeTrial> curve;  // ridge ascending; empty where nothing could be compensated
+  WindowInverse inverse;          // with that ridge
+};
+
+/// Finds the ridge of the windows by trying them: pictures of natural statistics are compensated, clamped as
+/// a projector must, and sent through T. Too small a ridge asks for light below black and above white, too
+/// large a one leaves defocus; where between is best depends on the venue.
+///  1. From settings.ridge in factors of 2, upwards and downwards, as long as the mean PSNR over the
+///     reachable pixels grows; within 1/16 and 16 times settings.ridge.
+///  2. Of those within 0.1 dB of the best the largest: T's own errors, which the trial cannot see, speak for
+///     more ridge, never for less.
+/// A venue without a lit part that content would fit into keeps settings.ridge.
+/// Throws: as computeWindows().
+RidgeChoice chooseRidge(const MeasuredVenue& venue, const WindowSettings& settings, Progress& progress);
+
+}  // namespace relucent

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "image/image.h"
+
+/// What drawn pictures have in common. OpenCV's types: for the .cpp files of drawn pictures alone.
+namespace relucent::drawing {
+
+/// Pictures are drawn at four times the size and averaged down: edges then have the soft steps of a
+/// photograph.
+inline constexpr int oversampling = 4;
+
+cv::Mat canvas(Size size, const cv::Scalar& encoded);
+
+/// Encoded RGB to linear, averaged down in linear light.
+Image finished(const cv::Mat& encoded, Size size);
+
+/// Encoded RGB of a hue (turns), saturation and value.
+cv::Scalar hsv(double hue, double saturation, double value);
+
+}  // namespace relucent::drawing

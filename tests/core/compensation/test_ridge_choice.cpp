@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "compensation/ridge_choice.h"
+
+#include <QtTest>
+#include <algorithm>
+
+#include "core/inverse/synthetic_transport.h"
+
+using namespace relucent;
+using namespace relucent::synthetic;
+
+namespace {
+
+Progress quiet;
+
+MeasuredVenue venueOf(const Scene& scene) {
+  return {scene.transport, scene.black, scene.transport.floodlight(), scene.usable};
+}
+
+}  // namespace
+
+class TestRidgeChoice : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theBestOfTheTrialsIsTaken_data() {
+    QTest::addColumn<double>("softest");
+    QTest::addColumn<double>("start");
+    for (double softest : {0.4, 1.5})
+      for (double start : {0.02, 0.4, 4.0})
+        QTest::addRow("defocus %g, from %g", softest, start) << softest << start;
+  }
+  void theBestOfTheTrialsIsTaken() {
+    QFETCH(double, softest);
+    QFETCH(double, start);
+    SceneSettings s;
+    s.softest = softest;
+    Scene scene = makeScene(s);
+    WindowSettings settings;
+    settings.ridge = start;
+    RidgeChoice choice = chooseRidge(venueOf(scene), settings, quiet);
+
+    QVERIFY(choice.curve.size() >= 2);
+    auto best = std::max_element(choice.curve.begin(), choice.curve.end(),
+                                 [](const auto& a, const auto& b) { return a.psnr < b.psnr; });
+    double largest = 0.0;
+    for (std::size_t i = 0; i < choice.curve.size(); ++i) {
+      if (i > 0) QCOMPARE(choice.curve[i].ridge, 2.0 * choice.curve[i - 1].ridge);
+      if (choice.curve[i].psnr >= best->psnr - 0.1) largest = choice.curve[i].ridge;
+    }
+    QCOMPARE(choice.ridge, largest);
+    settings.ridge = choice.ridge;
+    QVERIFY(choice.inverse == computeWindows(scene.transport, scene.usable, settings, quiet));
+    // The search ends beyond a maximum, or where it may go no further.
+    bool above = best + 1 != choice.curve.end() || best->ridge >= 15.9 * start;
+    bool below = best != choice.curve.begin() || best->ridge <= start / 15.9;
+    QVERIFY2(above || below, qPrintable(QString::number(best->ridge)));
+  }
+
+  void sameChoiceEveryTime() {
+    Scene scene = makeScene({});
+    RidgeChoice first = chooseRidge(venueOf(scene), {}, quiet);
+    RidgeChoice second = chooseRidge(venueOf(scene), {}, quiet);
+    QCOMPARE(first.ridge, second.ridge);
+    QVERIFY(first.curve == second.curve && first.inverse == second.inverse);
+  }
+
+  void darkVenuesKeepTheRidge() {
+    Scene scene = makeScene({});
+    std::fill(scene.usable.begin(), scene.usable.end(), std::uint8_t{0});
+    WindowSettings settings;
+    settings.ridge = 0.7;
+    RidgeChoice choice = chooseRidge(venueOf(scene), settings, quiet);
+    QCOMPARE(choice.ridge, 0.7);
+    QVERIFY(choice.curve.empty());
+  }
+
+  void cancels() {
+    struct Sink : ProgressSink {
+      void progressed(double, std::string_view) override {}
+    } sink;
+    StopRequest stop;
+    stop.ask(StopRequest::Kind::cancel);
+    Progress progress(sink, stop);
+    Scene scene = makeScene({});
+    QVERIFY_EXCEPTION_THROWN(chooseRidge(venueOf(scene), {}, progress), Cancelled);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestRidgeChoice)
+#include "test_ridge_choice.moc"

@@ -103,6 +103,12 @@ class Parser {
            "Corners of the content in the camera's view, pixels: x y, clockwise from top left")
         ->expected(8)
         ->type_name("X Y ...");
+    sub->add_option_function<std::string>(
+           "--fit", [&target](const std::string& name) { target.fit = fitFromName(name).value(); },
+           "Content in corners of another shape: fill stretches, fit leaves bars, cover cuts off")
+        ->check(CLI::IsMember({"fill", "fit", "cover"}))
+        ->type_name("FIT")
+        ->default_str("fill");
     sub->add_option("--dark-share", target.reachablePercentile,
                     "Percent of the pixels that may be too dark to show white: more is brighter")
         ->type_name("PERCENT")
@@ -134,6 +140,13 @@ class Parser {
     sub->add_option("--method", settings.method, "How to compensate")
         ->check(CLI::IsMember(methodNames()))
         ->type_name("METHOD")
+        ->capture_default_str();
+    sub->add_option(
+           "--solver", settings.solver,
+           "How optimum is found: fista, spectral (Barzilai-Borwein), descent (the paper's five steps), "
+           "dense (small scale)")
+        ->check(CLI::IsMember({"fista", "spectral", "descent", "dense"}))
+        ->type_name("SOLVER")
         ->capture_default_str();
     sub->add_option("--out", settings.out, "Folder for pattern.png, pattern.exr, target.exr, predicted.exr")
         ->type_name("DIR")

@@ -171,9 +171,10 @@ Json toJson(const CalibrateResult& result) {
 }
 
 Json toJson(const CompensateResult& result) {
-  return {{"method", result.method},   {"psnr_predicted", result.psnrPredicted},
-          {"clipped", result.clipped}, {"reachable", result.reachable},
-          {"seconds", result.seconds}, {"files", pathsToJson(result.files)}};
+  return {{"method", result.method},       {"psnr_predicted", result.psnrPredicted},
+          {"delta_e", result.deltaE},      {"clipped", result.clipped},
+          {"reachable", result.reachable}, {"uncorrectable", result.uncorrectable},
+          {"seconds", result.seconds},     {"files", pathsToJson(result.files)}};
 }
 
 Json toJson(const EvaluateResult& result) {

@@ -98,7 +98,9 @@ class TestArguments : public QObject {
   void otherCommandsTakeTheirOptions() {
     Compensate compensate = parsed<Compensate>(
         "compensate d --image a.png --out o --method mix --corners 1 2 3 4 5 6 7 8 --black-lift 0.02 "
-        "--dark-share 5");
+        "--dark-share 5 --fit cover --solver descent");
+    QVERIFY(compensate.settings.target.fit == Fit::cover);
+    QCOMPARE(compensate.settings.solver, std::string("descent"));
     QCOMPARE(compensate.settings.method, std::string("mix"));
     QCOMPARE(compensate.settings.image, std::filesystem::path("a.png"));
     QCOMPARE(compensate.settings.target.corners->at(2).at(1), 6.0);

@@ -143,6 +143,11 @@ class TestPipeline : public QObject {
     QVERIFY((readRgbExr(settings.out / "pattern.exr").size() == Size{40, 30}));
     QVERIFY((readRgbExr(settings.out / "target.exr").size() == Size{28, 21}));
     QVERIFY((readRgbExr(settings.out / "predicted.exr").size() == Size{28, 21}));
+    QVERIFY(result.deltaE > 0.0 && result.deltaE < 50.0);
+    QVERIFY((readExr(settings.out / "uncorrectable.exr").pixels.size() == Size{28, 21}));
+    QVERIFY((readPicture(settings.out / "uncorrectable.png").encoded.size() == Size{28, 21}));
+    QCOMPARE(result.uncorrectable.size(), std::size_t{5});
+    for (const fs::path& file : result.files) QVERIFY(fs::exists(file));
   }
 
   void exportsWhatOthersRead() {

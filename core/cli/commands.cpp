@@ -76,6 +76,18 @@ std::string textOf(const EvaluateResult& result) {
   return text;
 }
 
+std::string textOf(const SeparateResult& result) {
+  return fmt::format("{:.1f} % of the light is direct.\n", 100.0 * result.directShare) +
+         textOf(WrittenFiles{result.files});
+}
+
+std::string textOf(const DifferenceResult& result) {
+  return fmt::format(
+             "They differ by {:.4g} (root mean square), {:.2f} % of the second; shown {:.3g} times.\n",
+             result.rms, 100.0 * result.relative, result.gain) +
+         textOf(WrittenFiles{result.files});
+}
+
 std::string textOf(const BenchResult& result) {
   std::string text = fmt::format("{}, {} threads, copies {:.1f} GB/s\n", result.machine.processor,
                                  result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
@@ -129,6 +141,16 @@ struct Executor {
   Outcome operator()(const Relight& command) const {
     return outcomeOf(command.dual ? dual(command.calibration, command.settings, progress)
                                   : relight(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Separate& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(separate(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Difference& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(pictureDifference(command.settings, progress));
   }
 
   Outcome operator()(const Report& command) const {

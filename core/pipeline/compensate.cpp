@@ -11,6 +11,7 @@
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
+#include "pipeline/pictures.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/projection.h"
 
@@ -21,13 +22,6 @@ namespace {
 constexpr const char* radianceUnits = "camera signal per second";
 constexpr const char* driveUnits = "linear projector drive";
 
-/// "pattern.exr" for the only or first device, "pattern-2.exr" for the second.
-fs::path numbered(const fs::path& folder, const std::string& stem, std::size_t device,
-                  const std::string& extension) {
-  std::string number = device == 0 ? "" : fmt::format("-{}", device + 1);
-  return folder / (stem + number + extension);
-}
-
 /// Writes the images that compensation makes, remembering their names.
 class Writer {
  public:
@@ -35,7 +29,7 @@ class Writer {
 
   void writeLinear(const std::string& stem, const Stack& stack, const Rasters& rasters, const char* units) {
     for (std::size_t device = 0; device < rasters.devices(); ++device) {
-      fs::path path = numbered(folder_, stem, device, ".exr");
+      fs::path path = numbered(folder_ / (stem + ".exr"), device);
       writeExr(path, imageFromStack(stack, rasters, device), ExrType::floatType,
                {{exr_attribute::units, std::string(units)}});
       files_.push_back(path);
@@ -44,7 +38,7 @@ class Writer {
 
   void writeDrive(const std::string& stem, const std::vector<Image>& drive) {
     for (std::size_t device = 0; device < drive.size(); ++device) {
-      fs::path path = numbered(folder_, stem, device, ".png");
+      fs::path path = numbered(folder_ / (stem + ".png"), device);
       writePng(path, drive[device], 8);
       files_.push_back(path);
     }
@@ -54,7 +48,7 @@ class Writer {
   void writeViewed(const std::string& stem, const Stack& stack, const Rasters& rasters,
                    const std::array<float, 3>& white) {
     for (std::size_t device = 0; device < rasters.devices(); ++device) {
-      fs::path path = numbered(folder_, stem, device, ".png");
+      fs::path path = numbered(folder_ / (stem + ".png"), device);
       writePng(path, viewed(imageFromStack(stack, rasters, device), white), 8);
       files_.push_back(path);
     }

@@ -197,6 +197,17 @@ Json toJson(const WrittenFiles& result) {
   return {{"files", pathsToJson(result.files)}, {"notes", result.notes}};
 }
 
+Json toJson(const SeparateResult& result) {
+  return {{"direct_share", result.directShare}, {"files", pathsToJson(result.files)}};
+}
+
+Json toJson(const DifferenceResult& result) {
+  return {{"rms", result.rms},
+          {"relative", result.relative},
+          {"gain", result.gain},
+          {"files", pathsToJson(result.files)}};
+}
+
 Json toJson(const BenchResult& result) {
   Json benchmarks = Json::array();
   for (const Benchmark& benchmark : result.benchmarks)

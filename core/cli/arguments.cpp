@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "cli/options.h"
+
 #ifndef RELUCENT_VERSION
 #define RELUCENT_VERSION "development"
 #endif
@@ -40,6 +42,8 @@ class Parser {
     addExport();
     addRelight("relight", "Predict what the camera sees under a pattern", false);
     addRelight("dual", "Show the venue as the projector sees it, lit from the camera", true);
+    addSeparate();
+    addDifference();
     addReport();
     addBench();
   }
@@ -76,24 +80,6 @@ class Parser {
     return sub;
   }
 
-  static CLI::Option* addFolder(CLI::App* sub, std::filesystem::path& folder, const char* what) {
-    return sub->add_option("CALIBRATION", folder, what)->required();
-  }
-
-  static void addCache(CLI::App* sub, std::filesystem::path& cache) {
-    cache = defaultCache();
-    sub->add_option("--cache", cache, "Folder where simulated venues are kept once they are traced")
-        ->type_name("DIR")
-        ->capture_default_str();
-  }
-
-  static CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const char* what) {
-    return sub
-        ->add_option_function<std::string>(
-            name, [&size](const std::string& text) { size = parseSize(text); }, what)
-        ->type_name("WxH");
-  }
-
   static void addTarget(CLI::App* sub, TargetSettings& target) {
     sub->add_option_function<std::vector<double>>(
            "--corners",
@@ -103,6 +89,12 @@ class Parser {
            "Corners of the content in the camera's view, pixels: x y, clockwise from top left")
         ->expected(8)
         ->type_name("X Y ...");
+    sub->add_option_function<std::string>(
+           "--fit", [&target](const std::string& name) { target.fit = fitFromName(name).value(); },
+           "Content in corners of another shape: fill stretches, fit leaves bars, cover cuts off")
+        ->check(CLI::IsMember({"fill", "fit", "cover"}))
+        ->type_name("FIT")
+        ->default_str("fill");
     sub->add_option("--dark-share", target.reachablePercentile,
                     "Percent of the pixels that may be too dark to show white: more is brighter")
         ->type_name("PERCENT")
@@ -114,7 +106,11 @@ class Parser {
 
   void addVenues() { add("venues", "List the simulated venues", std::make_shared<ListVenues>()); }
 
-  void addCalibrate();
+  void addCalibrate() {
+    CLI::App* sub = app_.add_subcommand("calibrate", "Measure a venue into a new calibration");
+    sub->callback([this, make = addCalibrateOptions(sub)] { make_ = make; });
+  }
+
   void addResume() {
     auto command = std::make_shared<Resume>();
     CLI::App* sub = add("resume", "Go on with an interrupted calibration", command);
@@ -134,6 +130,13 @@ class Parser {
     sub->add_option("--method", settings.method, "How to compensate")
         ->check(CLI::IsMember(methodNames()))
         ->type_name("METHOD")
+        ->capture_default_str();
+    sub->add_option(
+           "--solver", settings.solver,
+           "How optimum is found: fista, spectral (Barzilai-Borwein), descent (the paper's five steps), "
+           "dense (small scale)")
+        ->check(CLI::IsMember({"fista", "spectral", "descent", "dense"}))
+        ->type_name("SOLVER")
         ->capture_default_str();
     sub->add_option("--out", settings.out, "Folder for pattern.png, pattern.exr, target.exr, predicted.exr")
         ->type_name("DIR")
@@ -189,6 +192,37 @@ class Parser {
         ->required();
   }
 
+  void addSeparate() {
+    auto command = std::make_shared<Separate>();
+    CLI::App* sub = add("separate", "Tell direct from indirect light", command);
+    addFolder(sub, command->calibration, "Folder of the calibration");
+    sub->add_option("--image", command->settings.image, "The pattern; all white if it is left out")
+        ->type_name("FILE");
+    sub->add_option("--reach", command->settings.direct.reach,
+                    "How far direct light spreads, as a share of the projector's larger side")
+        ->type_name("SHARE")
+        ->capture_default_str();
+    sub->add_option("--out", command->settings.out, "Folder for direct and indirect, .exr and .png")
+        ->type_name("DIR")
+        ->required();
+  }
+
+  void addDifference() {
+    auto command = std::make_shared<Difference>();
+    DifferenceSettings& settings = command->settings;
+    CLI::App* sub = add("difference", "Show how two pictures differ, with enhanced contrast", command);
+    sub->add_option("A", settings.first, "A picture: PNG, JPEG or TIFF (sRGB), or EXR (linear)")->required();
+    sub->add_option("B", settings.second, "What is subtracted from it; of the same size")->required();
+    sub->add_option_function<std::string>(
+           "--gain", [&settings](const std::string& text) { settings.gain = parseGain(text); },
+           "Factor of the difference; auto uses the whole contrast of a .png")
+        ->type_name("auto|N")
+        ->default_str("auto");
+    sub->add_option("--out", settings.out, "Result: .exr (gain * (A - B)) or .png (that around grey)")
+        ->type_name("FILE")
+        ->required();
+  }
+
   void addReport() {
     auto command = std::make_shared<Report>();
     CLI::App* sub = add("report", "Write one HTML file about a calibration", command);
@@ -206,6 +240,16 @@ class Parser {
     auto command = std::make_shared<Bench>();
     CLI::App* sub = add("bench", "Time the parts that decide how fast everything is", command);
     sub->add_option("NAME", command->name, "Only benchmarks with this in their name");
+  }
+
+  /// "auto" is nothing.
+  static std::optional<double> parseGain(const std::string& text) {
+    if (text == "auto") return std::nullopt;
+    char* end = nullptr;
+    double gain = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0')
+      throw WrongUsage(fmt::format("'{}' is no gain: write auto or a number, like 1.75", text));
+    return gain;
   }
 
   static std::vector<std::string> methodNames() {
@@ -237,108 +281,6 @@ class Parser {
   bool json_ = false;
   std::function<Command()> make_;
 };
-
-void Parser::addCalibrate() {
-  struct Places {
-    VenueSettings venue;
-    CommandRigSettings commands;
-    Size projector{256, 192};
-    Size camera{160, 120};
-    std::uint64_t seed = 1;
-    std::string acquisition = "adaptive";
-    std::string colour = "rgb";
-  };
-  auto command = std::make_shared<Calibrate>();
-  auto places = std::make_shared<Places>();
-  CalibrateSettings& settings = command->settings;
-
-  CLI::App* sub = app_.add_subcommand("calibrate", "Measure a venue into a new calibration");
-  addFolder(sub, command->calibration, "Folder of the calibration; created");
-  CLI::Option* venue = sub->add_option("--venue", places->venue.name, "A simulated venue, see `venues`")
-                           ->type_name("NAME")
-                           ->capture_default_str();
-  CLI::Option* projector =
-      addSize(sub, "--projector", places->projector, "Size of the projector")->default_str("256x192");
-  CLI::Option* camera =
-      addSize(sub, "--camera", places->camera, "Size of the camera")->default_str("160x120");
-  sub->add_option("--seed", places->seed, "Seed of everything random: the same seed gives the same bits")
-      ->type_name("N")
-      ->capture_default_str();
-  sub->add_option("--acquisition", places->acquisition, "How the light transport is measured")
-      ->check(CLI::IsMember({"adaptive"}))
-      ->type_name("MODE")
-      ->capture_default_str();
-  sub->add_option("--colour", places->colour, "Colours that are lit: red, green and blue in turn")
-      ->check(CLI::IsMember({"rgb"}))
-      ->type_name("MODE")
-      ->capture_default_str();
-  sub->add_option("--threshold", settings.acquisition.relativeThreshold,
-                  "Faintest light that is followed, as a share of the flood image: 0.006 fine, 0.02 fast")
-      ->type_name("SHARE")
-      ->capture_default_str();
-  sub->add_option("--levels", settings.linearization.levels, "Levels measured per projector colour")
-      ->type_name("N")
-      ->capture_default_str();
-  addCache(sub, command->cache);
-
-  CLI::Option_group* real = sub->add_option_group("External programs", "Any projector and camera by script");
-  CLI::Option* show =
-      real->add_option("--projector-command", places->commands.projectorCommand,
-                       "Command that shows the file {image} and returns when the light is out");
-  CLI::Option* photograph =
-      real->add_option("--camera-command", places->commands.cameraCommand,
-                       "Command that photographs {exposure} seconds into the file {output}");
-  show->type_name("CMD");
-  photograph->type_name("CMD");
-  real->add_option("--shortest", places->commands.shortestExposure, "Shortest exposure of the camera")
-      ->type_name("SECONDS")
-      ->capture_default_str();
-  real->add_option("--longest", places->commands.longestExposure, "Longest exposure of the camera")
-      ->type_name("SECONDS")
-      ->capture_default_str();
-
-  DeviceModelSettings& devices = places->venue.devices;
-  CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Imperfections to rehearse with");
-  auto simulate = [&](const char* name, auto& value, const char* what) {
-    simulated->add_option(name, value, what)->capture_default_str();
-  };
-  simulate("--paths", places->venue.pathsPerPixel, "Light paths traced for each camera pixel");
-  simulate("--projector-bits", devices.projectorBits, "Bits of the projector's drive values");
-  simulate("--camera-bits", devices.cameraBits, "Bits of the camera");
-  simulate("--contrast", devices.contrast, "White of the projector over its black");
-  simulate("--ambient", devices.ambient, "Room light, as a share of the mean flood image");
-  simulate("--drift", devices.drift, "Relative change of the lamp over 1000 photographs");
-  simulate("--flicker", devices.flicker, "Relative deviation of the lamp between photographs");
-  simulate("--camera-gamma", devices.cameraGamma, "Response of the camera; 1 is linear");
-  simulated->add_flag("--white-segment", devices.whiteSegment, "White is brighter than red + green + blue");
-
-  auto external = [=] {
-    if (show->count() + photograph->count() == 0) return false;
-    if (show->count() == 0 || photograph->count() == 0 || projector->count() == 0)
-      throw WrongUsage("external programs need --projector-command, --camera-command and --projector");
-    if (venue->count() > 0) throw WrongUsage("give --venue or external programs, not both");
-    for (const CLI::Option* option : simulated->get_options())
-      if (option->count() > 0) throw WrongUsage(option->get_name() + " is for simulated venues only");
-    return true;
-  };
-  sub->callback([this, command, places, external, camera] {
-    make_ = [command, places, external, camera] {
-      if (external()) {
-        places->commands.projector = places->projector;
-        if (camera->count() > 0) places->commands.camera = places->camera;
-        command->settings.rig = places->commands;
-      } else {
-        places->venue.projector = places->projector;
-        places->venue.camera = places->camera;
-        places->venue.seed = places->seed;
-        command->settings.rig = places->venue;
-      }
-      command->settings.linearization.seed = places->seed;
-      command->settings.acquisition.seed = places->seed;
-      return Command(*command);
-    };
-  });
-}
 
 }  // namespace
 

@@ -43,6 +43,13 @@ struct Relight {
   RelightSettings settings;
   bool dual = false;
 };
+struct Separate {
+  std::filesystem::path calibration;
+  SeparateSettings settings;
+};
+struct Difference {
+  DifferenceSettings settings;
+};
 struct Report {
   std::filesystem::path calibration;
   ReportSettings settings;
@@ -52,7 +59,7 @@ struct Bench {
   std::string name;
 };
 using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Compensate, Evaluate, Export, Relight,
-                             Report, Bench>;
+                             Separate, Difference, Report, Bench>;
 
 struct Arguments {
   Command command;

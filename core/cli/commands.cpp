@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <new>
 
@@ -49,12 +50,17 @@ std::string textOf(const WrittenFiles& result) {
 }
 
 std::string textOf(const CompensateResult& result) {
-  return fmt::format(
-             "Predicted: {:.1f} dB where it can be reached, which is {:.1f} % of the picture; {:.1f} % of "
-             "the "
-             "drive values are at their limits.\n",
-             result.psnrPredicted, 100.0 * result.reachable, 100.0 * result.clipped) +
-         textOf(WrittenFiles{result.files});
+  std::string text = fmt::format(
+      "Predicted: {:.1f} dB where it can be reached, which is {:.1f} % of the picture; colour error {:.1f} "
+      "(CIEDE2000) over all of it; {:.1f} % of the drive values are at their limits.\n",
+      result.psnrPredicted, 100.0 * result.reachable, result.deltaE, 100.0 * result.clipped);
+  for (const auto& [key, share] : result.uncorrectable) {
+    if (share < 0.0005) continue;
+    std::string reason = key;
+    std::replace(reason.begin(), reason.end(), '_', ' ');
+    text += fmt::format("Cannot be corrected: {:.1f} % {}.\n", 100.0 * share, reason);
+  }
+  return text + textOf(WrittenFiles{result.files});
 }
 
 std::string textOf(const EvaluateResult& result) {
@@ -68,6 +74,18 @@ std::string textOf(const EvaluateResult& result) {
                           score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
   }
   return text;
+}
+
+std::string textOf(const SeparateResult& result) {
+  return fmt::format("{:.1f} % of the light is direct.\n", 100.0 * result.directShare) +
+         textOf(WrittenFiles{result.files});
+}
+
+std::string textOf(const DifferenceResult& result) {
+  return fmt::format(
+             "They differ by {:.4g} (root mean square), {:.2f} % of the second; shown {:.3g} times.\n",
+             result.rms, 100.0 * result.relative, result.gain) +
+         textOf(WrittenFiles{result.files});
 }
 
 std::string textOf(const BenchResult& result) {
@@ -123,6 +141,16 @@ struct Executor {
   Outcome operator()(const Relight& command) const {
     return outcomeOf(command.dual ? dual(command.calibration, command.settings, progress)
                                   : relight(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Separate& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(separate(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Difference& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(pictureDifference(command.settings, progress));
   }
 
   Outcome operator()(const Report& command) const {

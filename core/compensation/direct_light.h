@@ -12,8 +12,8 @@ namespace relucent {
 
 struct DirectLightSettings {
   /// How far round a camera pixel's brightest projector pixel light counts as direct, as a share of the
-  /// projector's larger side; at least three pixels. Wider than the defocus of any of the simulated venues,
-  /// narrow beside the smooth patterns of diffuse interreflection.
+  /// projector's larger side; at least three pixels. A rule of thumb: wide
+  /// enough for defocus, narrow beside the smooth patterns of diffuse interreflection.
   double reach = 1.0 / 32.0;
 };
 std::vector<std::string> problems(const DirectLightSettings& settings);

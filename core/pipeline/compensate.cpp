@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "compensation/methods.h"
+#include "compensation/prediction.h"
+#include "compensation/uncorrectable.h"
 #include "image/color.h"
 #include "image/exr.h"
-#include "image/metrics.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
+#include "pipeline/pictures.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/projection.h"
 
@@ -19,13 +22,6 @@ namespace {
 constexpr const char* radianceUnits = "camera signal per second";
 constexpr const char* driveUnits = "linear projector drive";
 
-/// "pattern.exr" for the only or first device, "pattern-2.exr" for the second.
-fs::path numbered(const fs::path& folder, const std::string& stem, std::size_t device,
-                  const std::string& extension) {
-  std::string number = device == 0 ? "" : fmt::format("-{}", device + 1);
-  return folder / (stem + number + extension);
-}
-
 /// Writes the images that compensation makes, remembering their names.
 class Writer {
  public:
@@ -33,7 +29,7 @@ class Writer {
 
   void writeLinear(const std::string& stem, const Stack& stack, const Rasters& rasters, const char* units) {
     for (std::size_t device = 0; device < rasters.devices(); ++device) {
-      fs::path path = numbered(folder_, stem, device, ".exr");
+      fs::path path = numbered(folder_ / (stem + ".exr"), device);
       writeExr(path, imageFromStack(stack, rasters, device), ExrType::floatType,
                {{exr_attribute::units, std::string(units)}});
       files_.push_back(path);
@@ -42,7 +38,7 @@ class Writer {
 
   void writeDrive(const std::string& stem, const std::vector<Image>& drive) {
     for (std::size_t device = 0; device < drive.size(); ++device) {
-      fs::path path = numbered(folder_, stem, device, ".png");
+      fs::path path = numbered(folder_ / (stem + ".png"), device);
       writePng(path, drive[device], 8);
       files_.push_back(path);
     }
@@ -52,10 +48,20 @@ class Writer {
   void writeViewed(const std::string& stem, const Stack& stack, const Rasters& rasters,
                    const std::array<float, 3>& white) {
     for (std::size_t device = 0; device < rasters.devices(); ++device) {
-      fs::path path = numbered(folder_, stem, device, ".png");
+      fs::path path = numbered(folder_ / (stem + ".png"), device);
       writePng(path, viewed(imageFromStack(stack, rasters, device), white), 8);
       files_.push_back(path);
     }
+  }
+
+  /// One image of the first camera.
+  void writeMap(const std::string& stem, const Image& map, const char* units) {
+    files_.push_back(folder_ / (stem + ".exr"));
+    writeExr(files_.back(), map, ExrType::floatType, {{exr_attribute::units, std::string(units)}});
+  }
+  void writeColours(const std::string& stem, const Image& encoded) {
+    files_.push_back(folder_ / (stem + ".png"));
+    writePng(files_.back(), encoded, 8);
   }
 
   const std::vector<fs::path>& files() const { return files_; }
@@ -64,6 +70,28 @@ class Writer {
   fs::path folder_;
   std::vector<fs::path> files_;
 };
+
+/// Reasons as colours that also differ in brightness: what can be corrected is grey, what is not asked for
+/// black.
+Image reasonColours(const std::vector<Uncorrectable>& map, Size size) {
+  constexpr std::array<std::array<float, 3>, allReasons.size()> colours{{{0.55f, 0.55f, 0.55f},
+                                                                         {0.0f, 0.0f, 0.0f},
+                                                                         {0.25f, 0.15f, 0.35f},
+                                                                         {0.1f, 0.35f, 0.65f},
+                                                                         {0.15f, 0.7f, 0.5f},
+                                                                         {0.85f, 0.45f, 0.1f},
+                                                                         {1.0f, 0.95f, 0.45f}}};
+  Image picture(size, 3);
+  for (std::size_t i = 0; i < picture.pixels(); ++i)
+    std::copy_n(colours[static_cast<std::size_t>(map[i])].begin(), 3, picture.pixel(i).begin());
+  return picture;
+}
+
+Image reasonNumbers(const std::vector<Uncorrectable>& map, Size size) {
+  Image numbers(size, 1);
+  for (std::size_t i = 0; i < numbers.pixels(); ++i) numbers.data()[i] = static_cast<float>(map[i]);
+  return numbers;
+}
 
 }  // namespace
 
@@ -79,7 +107,9 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   const MeasuredVenue& venue = measured.venue;
 
   Target target = fitTarget(content, venue, settings.target);
-  Compensator compensator(venue, measured.inverse);
+  CompensatorSettings compensatorSettings;
+  compensatorSettings.optimum = defaultsOf(algorithmFromName(settings.solver).value());
+  Compensator compensator(venue, measured.inverse, compensatorSettings);
   Progress solving = progress.part(0.5, "Compensating");
   auto begin = std::chrono::steady_clock::now();
   Compensation compensation = compensator.solve(method, target, solving);
@@ -87,35 +117,34 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   CompensateResult result;
   result.method = settings.method;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  result.clipped = compensation.clipped;
 
-  Stack predicted = venue.transport.apply(compensation.projector);
-  for (std::size_t i = 0; i < predicted.size(); ++i) predicted[i] += venue.black[i];
-  const Rasters& cameras = venue.transport.cameras();
-  std::size_t pixels = cameras.size(0).count();
-  std::size_t inside = 0;
-  std::size_t reachable = 0;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    inside += target.inside[i] != 0;
-    reachable += target.reachable[i] != 0;
-  }
-  if (reachable == 0)
+  Prediction prediction = predict(venue, target, compensation);
+  if (prediction.reachable == 0.0)
     throw Error(ErrorKind::input, "no part of the picture can be shown in this venue",
                 "make the content darker, or place it where the projector reaches", settings.image.string());
-  result.reachable = static_cast<double>(reachable) / static_cast<double>(inside);
-  result.psnrPredicted =
-      psnr(imageFromStack(predicted, cameras, 0), imageFromStack(target.wanted, cameras, 0), target.white,
-           std::span<const std::uint8_t>(target.reachable.data(), pixels));
+  result.clipped = prediction.clipped;
+  result.reachable = prediction.reachable;
+  result.psnrPredicted = prediction.psnrReachable;
+  result.deltaE = prediction.meanDeltaE;
+  Progress explaining = progress.part(0.05, "Looking for what cannot be corrected");
+  std::vector<Uncorrectable> reasons = uncorrectableMap(venue, target, {}, explaining);
+  auto shares = sharesOf(reasons);
+  for (Uncorrectable reason : allReasons)
+    if (reason != Uncorrectable::none && reason != Uncorrectable::outside)
+      result.uncorrectable.emplace(toString(reason), shares[static_cast<std::size_t>(reason)]);
 
-  Progress writing = progress.part(0.1, "Writing the results");
-  const Rasters& projectors = venue.transport.projectors();
+  Progress writing = progress.part(0.05, "Writing the results");
+  const Rasters &cameras = venue.transport.cameras(), &projectors = venue.transport.projectors();
   Writer writer(settings.out);
   writer.writeDrive("pattern", encodedDrive(compensation.projector, projectors, measured.linearization));
   writer.writeLinear("pattern", compensation.projector, projectors, driveUnits);
   writer.writeLinear("target", target.wanted, cameras, radianceUnits);
-  writer.writeLinear("predicted", predicted, cameras, radianceUnits);
+  writer.writeLinear("predicted", prediction.camera, cameras, radianceUnits);
   writer.writeViewed("target", target.wanted, cameras, target.white);
-  writer.writeViewed("predicted", predicted, cameras, target.white);
+  writer.writeViewed("predicted", prediction.camera, cameras, target.white);
+  writer.writeMap("delta_e", prediction.deltaE, "CIEDE2000");
+  writer.writeMap("uncorrectable", reasonNumbers(reasons, cameras.size(0)), "number of the reason");
+  writer.writeColours("uncorrectable", reasonColours(reasons, cameras.size(0)));
   result.files = writer.files();
   progress.report(1.0);
   return result;

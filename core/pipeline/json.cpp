@@ -171,9 +171,10 @@ Json toJson(const CalibrateResult& result) {
 }
 
 Json toJson(const CompensateResult& result) {
-  return {{"method", result.method},   {"psnr_predicted", result.psnrPredicted},
-          {"clipped", result.clipped}, {"reachable", result.reachable},
-          {"seconds", result.seconds}, {"files", pathsToJson(result.files)}};
+  return {{"method", result.method},       {"psnr_predicted", result.psnrPredicted},
+          {"delta_e", result.deltaE},      {"clipped", result.clipped},
+          {"reachable", result.reachable}, {"uncorrectable", result.uncorrectable},
+          {"seconds", result.seconds},     {"files", pathsToJson(result.files)}};
 }
 
 Json toJson(const EvaluateResult& result) {
@@ -194,6 +195,17 @@ Json toJson(const EvaluateResult& result) {
 
 Json toJson(const WrittenFiles& result) {
   return {{"files", pathsToJson(result.files)}, {"notes", result.notes}};
+}
+
+Json toJson(const SeparateResult& result) {
+  return {{"direct_share", result.directShare}, {"files", pathsToJson(result.files)}};
+}
+
+Json toJson(const DifferenceResult& result) {
+  return {{"rms", result.rms},
+          {"relative", result.relative},
+          {"gain", result.gain},
+          {"files", pathsToJson(result.files)}};
 }
 
 Json toJson(const BenchResult& result) {

@@ -12,6 +12,8 @@ Json toJson(const CalibrateResult& result);
 Json toJson(const CompensateResult& result);
 Json toJson(const EvaluateResult& result);
 Json toJson(const WrittenFiles& result);
+Json toJson(const SeparateResult& result);
+Json toJson(const DifferenceResult& result);
 Json toJson(const BenchResult& result);
 Json toJson(const std::vector<VenueDescription>& venues);
 

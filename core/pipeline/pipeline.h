@@ -11,6 +11,7 @@
 
 #include "acquisition/acquisition.h"
 #include "base/progress.h"
+#include "compensation/direct_light.h"
 #include "compensation/method.h"
 #include "compensation/target.h"
 #include "inverse/windows.h"
@@ -81,6 +82,7 @@ CalibrateResult resume(const std::filesystem::path& folder, const std::filesyste
 struct CompensateSettings {
   std::filesystem::path image;     // content, sRGB file or linear EXR
   std::string method = "refined";  // a name from methodDescriptions
+  std::string solver = "fista";    // of `optimum`: a name of SolverSettings::Algorithm
   TargetSettings target;
   std::filesystem::path out;  // folder; created; files of the same names are replaced
 };
@@ -93,11 +95,14 @@ struct CompensateResult {
   double reachable = 0.0;      // share of the content's camera pixels
   double seconds = 0.0;        // solving alone
   std::vector<std::filesystem::path> files;
+  double deltaE = 0.0;  // mean CIEDE2000, prediction against target over the whole content
+  std::map<std::string, double> uncorrectable{};  // reason -> share of the content's pixels
 };
 
 /// Computes the pattern that makes the venue look like an image, and what the camera should then see.
 /// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr (camera signal per
-/// second) and target.png, predicted.png (to look at) into `out`.
+/// second), target.png, predicted.png (to look at), delta_e.exr (CIEDE2000) and uncorrectable.exr, .png (the
+/// number of its reason a pixel, see Uncorrectable; colours) into `out`.
 CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
                             Progress& progress);
 
@@ -179,6 +184,45 @@ WrittenFiles relight(const std::filesystem::path& folder, const RelightSettings&
 /// Dual photography: the venue as the projector would see it, lit from the camera: T^T c. No image: all
 /// white.
 WrittenFiles dual(const std::filesystem::path& folder, const RelightSettings& settings, Progress& progress);
+
+struct SeparateSettings {
+  std::filesystem::path image;  // the pattern whose light is separated; empty: all white
+  std::filesystem::path out;    // folder; created; files of the same names are replaced
+  DirectLightSettings direct;
+};
+std::vector<std::string> problems(const SeparateSettings& settings);
+
+struct SeparateResult {
+  double directShare = 0.0;  // of all light in the picture
+  std::vector<std::filesystem::path> files;
+};
+
+/// Direct and indirect light at the scale of the projector's pixels, out of T: D p and (T - D) p, e in
+/// neither, D as directPart() says. Writes direct and indirect as .exr (camera signal per second) and .png
+/// (to look at, under one white) into `out`.
+SeparateResult separate(const std::filesystem::path& folder, const SeparateSettings& settings,
+                        Progress& progress);
+
+struct DifferenceSettings {
+  std::filesystem::path first;
+  std::filesystem::path second;  // of the same size
+  std::filesystem::path out;     // EXR: gain * (first - second); PNG: that around grey
+  /// None: PNG as much as shows all but the largest half percent of the differences, EXR 1.
+  std::optional<double> gain;
+};
+std::vector<std::string> problems(const DifferenceSettings& settings);
+
+struct DifferenceResult {
+  double rms = 0.0;       // of the difference of linear values
+  double relative = 0.0;  // norm of the difference over that of the second picture
+  double gain = 1.0;      // that was applied
+  std::vector<std::filesystem::path> files;
+};
+
+/// Two pictures' difference in linear light with enhanced contrast (paper, fig. 2 d and g): what compensation
+/// changed, or a prediction against a photograph. Values are compared as they are, unscaled.
+/// Throws: Error{input} if the sizes differ or values are not finite; as readPicture().
+DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress);
 
 struct ReportSettings {
   std::filesystem::path out;                  // the HTML file; empty: report.html in the calibration folder

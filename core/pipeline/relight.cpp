@@ -2,53 +2,15 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "image/color.h"
-#include "image/exr.h"
 #include "image/picture_files.h"
-#include "image/resample.h"
 #include "pipeline/measured_venue.h"
+#include "pipeline/pictures.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/projection.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
-
-/// The value that a picture for people shows as white: all but the brightest half percent stay below it.
-float displayWhite(const Image& linear) {
-  std::vector<float> values = linear.data();
-  auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 995 / 1000);
-  std::nth_element(values.begin(), place, values.end());
-  return std::max(*place, 1e-9f);
-}
-
-void writePicture(const fs::path& path, const Image& linear, const std::string& units) {
-  std::string extension = path.extension().string();
-  if (extension == ".exr") {
-    writeExr(path, linear, ExrType::floatType, {{exr_attribute::units, units}});
-    return;
-  }
-  if (extension != ".png")
-    throw Error(ErrorKind::input, fmt::format("pictures are not written as \"{}\"", extension),
-                "choose a name that ends in .exr (linear values) or .png (to look at)", path.string());
-  float white = displayWhite(linear);
-  writePng(path, viewed(linear, {white, white, white}), 8);
-}
-
-/// One picture per device; the second and later ones are numbered.
-WrittenFiles writeAll(const fs::path& out, const Stack& stack, const Rasters& rasters,
-                      const std::string& units) {
-  WrittenFiles written;
-  for (std::size_t device = 0; device < rasters.devices(); ++device) {
-    fs::path path = out;
-    if (device > 0)
-      path.replace_filename(
-          fmt::format("{}-{}{}", out.stem().string(), device + 1, out.extension().string()));
-    writePicture(path, imageFromStack(stack, rasters, device), units);
-    written.files.push_back(path);
-  }
-  return written;
-}
 
 /// What relighting starts from, whichever way the light goes.
 struct Opened {
@@ -59,6 +21,7 @@ struct Opened {
 Opened opened(const fs::path& path, const RelightSettings& settings, Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "name the file to write");
+  checkPictureName(settings.out);
   Opened result;
   if (!settings.image.empty()) result.content = readLinearContent(settings.image);
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
@@ -77,7 +40,7 @@ WrittenFiles relight(const fs::path& path, const RelightSettings& settings, Prog
   for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
   Stack relit = venue.transport.apply(pattern);
   for (std::size_t i = 0; i < relit.size(); ++i) relit[i] += venue.black[i];
-  return writeAll(settings.out, relit, venue.transport.cameras(), "camera signal per second");
+  return writePictures(settings.out, relit, venue.transport.cameras(), "camera signal per second");
 }
 
 WrittenFiles dual(const fs::path& path, const RelightSettings& settings, Progress& progress) {
@@ -86,8 +49,8 @@ WrittenFiles dual(const fs::path& path, const RelightSettings& settings, Progres
   const Rasters& cameras = venue.transport.cameras();
   Stack light(cameras.count() * 3, 1.0f);
   if (content) light = patternFrom(*content, cameras);
-  return writeAll(settings.out, venue.transport.applyTransposed(light), venue.transport.projectors(),
-                  "camera signal per second and linear projector drive");
+  return writePictures(settings.out, venue.transport.applyTransposed(light), venue.transport.projectors(),
+                       "camera signal per second and linear projector drive");
 }
 
 }  // namespace relucent

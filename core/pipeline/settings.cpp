@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "compensation/solver.h"
 #include "pipeline/pipeline.h"
 
 namespace relucent {
@@ -75,6 +76,9 @@ Problems problems(const CompensateSettings& settings) {
   if (settings.image.empty()) found.push_back("no image is given");
   if (settings.out.empty()) found.push_back("no folder for the results is given");
   checkMethod(found, settings.method);
+  if (!algorithmFromName(settings.solver))
+    found.push_back(
+        fmt::format("there is no solver '{}': there are fista, spectral, descent, dense", settings.solver));
   checkTarget(found, settings.target);
   return found;
 }

@@ -98,7 +98,9 @@ class TestArguments : public QObject {
   void otherCommandsTakeTheirOptions() {
     Compensate compensate = parsed<Compensate>(
         "compensate d --image a.png --out o --method mix --corners 1 2 3 4 5 6 7 8 --black-lift 0.02 "
-        "--dark-share 5");
+        "--dark-share 5 --fit cover --solver descent");
+    QVERIFY(compensate.settings.target.fit == Fit::cover);
+    QCOMPARE(compensate.settings.solver, std::string("descent"));
     QCOMPARE(compensate.settings.method, std::string("mix"));
     QCOMPARE(compensate.settings.image, std::filesystem::path("a.png"));
     QCOMPARE(compensate.settings.target.corners->at(2).at(1), 6.0);
@@ -114,6 +116,13 @@ class TestArguments : public QObject {
     QCOMPARE(parsed<Export>("export d --transport T.npz").settings.transport, std::filesystem::path("T.npz"));
     QVERIFY(!parsed<Relight>("relight d --image a.png --out o.exr").dual);
     QVERIFY(parsed<Relight>("dual d --out o.exr").dual);
+    Separate separate = parsed<Separate>("separate d --reach 0.1 --out o");
+    QCOMPARE(separate.settings.direct.reach, 0.1);
+    QCOMPARE(separate.settings.out, std::filesystem::path("o"));
+    Difference difference = parsed<Difference>("difference a.exr b.exr --out o.png --gain 1.75");
+    QCOMPARE(difference.settings.second, std::filesystem::path("b.exr"));
+    QCOMPARE(difference.settings.gain.value(), 1.75);
+    QVERIFY(!parsed<Difference>("difference a b --out o.png --gain auto").settings.gain);
     QVERIFY(parsed<Report>("report d").settings.evaluate);
     QVERIFY(!parsed<Report>("report d --no-evaluate").settings.evaluate);
     QCOMPARE(parsed<Bench>("bench windows").name, std::string("windows"));
@@ -133,7 +142,7 @@ class TestArguments : public QObject {
     QTest::newRow("help") << QByteArray("--help") << QByteArray("Subcommands");
     QTest::newRow("version") << QByteArray("--version") << QByteArray("relucent-cli ");
     for (const char* name : {"venues", "calibrate", "resume", "compensate", "evaluate", "export", "relight",
-                             "dual", "report", "bench"})
+                             "separate", "difference", "dual", "report", "bench"})
       QTest::newRow(name) << QByteArray(name) + " --help" << QByteArray("relucent-cli ") + name;
   }
   void helpAndVersionArePrinted() {
@@ -158,6 +167,9 @@ class TestArguments : public QObject {
     QTest::newRow("mode") << QByteArray("calibrate d --acquisition sen") << QByteArray("adaptive");
     QTest::newRow("method") << QByteArray("compensate d --image a --out b --method clusters")
                             << QByteArray("optimum");
+    QTest::newRow("gain") << QByteArray("difference a b --out o.png --gain much") << QByteArray("no gain");
+    QTest::newRow("fit") << QByteArray("compensate d --image a --out b --fit squeeze")
+                         << QByteArray("squeeze");
     QTest::newRow("no image") << QByteArray("compensate d --out b") << QByteArray("--image is required");
     QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
                                    << QByteArray("--corners");

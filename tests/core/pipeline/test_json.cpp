@@ -35,11 +35,11 @@ class TestJson : public QObject {
   }
 
   void compensateDocument() {
-    CompensateResult result{"mix", 20.0, 0.1, 0.9, 0.5, {"out/pattern.png"}};
+    CompensateResult result{"mix", 20.0, 0.1, 0.9, 0.5, {"out/pattern.png"}, 4.5, {{"unlit", 0.25}}};
     QCOMPARE(
         toJson(result).dump(),
-        std::string(R"({"method":"mix","psnr_predicted":20.0,"clipped":0.1,"reachable":0.9,"seconds":0.5,)"
-                    R"("files":["out/pattern.png"]})"));
+        std::string(R"({"method":"mix","psnr_predicted":20.0,"delta_e":4.5,"clipped":0.1,"reachable":0.9,)"
+                    R"("uncorrectable":{"unlit":0.25},"seconds":0.5,"files":["out/pattern.png"]})"));
   }
 
   void benchDocument() {

@@ -2,6 +2,7 @@
 // The stages in order, on small simulated venues, through folders on disk.
 #include <QTemporaryDir>
 #include <QTest>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -143,6 +144,98 @@ class TestPipeline : public QObject {
     QVERIFY((readRgbExr(settings.out / "pattern.exr").size() == Size{40, 30}));
     QVERIFY((readRgbExr(settings.out / "target.exr").size() == Size{28, 21}));
     QVERIFY((readRgbExr(settings.out / "predicted.exr").size() == Size{28, 21}));
+    QVERIFY(result.deltaE > 0.0 && result.deltaE < 50.0);
+    QVERIFY((readExr(settings.out / "uncorrectable.exr").pixels.size() == Size{28, 21}));
+    QVERIFY((readPicture(settings.out / "uncorrectable.png").encoded.size() == Size{28, 21}));
+    QCOMPARE(result.uncorrectable.size(), std::size_t{5});
+    for (const fs::path& file : result.files) QVERIFY(fs::exists(file));
+  }
+
+  /// Direct and indirect light add up to what relighting shows beyond the black level.
+  void separatedLightAddsUp() {
+    Progress silent;
+    SeparateSettings settings;
+    settings.out = root() / "separated";
+    SeparateResult result = separate(root() / "plain", settings, silent);
+    QCOMPARE(result.files.size(), std::size_t{4});
+    // A flat wall has next to no indirect light; what there is comes from the measurement.
+    QVERIFY2(result.directShare > 0.8 && result.directShare <= 1.0,
+             qPrintable(QString::number(result.directShare)));
+    Image direct = readRgbExr(settings.out / "direct.exr"),
+          indirect = readRgbExr(settings.out / "indirect.exr");
+
+    fs::path white = root() / "white.png", black = root() / "black.png";
+    writePng(white, Image({8, 8}, 3, 1.0f), 8);
+    writePng(black, Image({8, 8}, 3, 0.0f), 8);
+    relight(root() / "plain", {white, root() / "lit.exr"}, silent);
+    relight(root() / "plain", {black, root() / "dark.exr"}, silent);
+    Image lit = readRgbExr(root() / "lit.exr"), dark = readRgbExr(root() / "dark.exr");
+    for (std::size_t i = 0; i < lit.data().size(); ++i) {
+      float apart = direct.data()[i] + indirect.data()[i] - (lit.data()[i] - dark.data()[i]);
+      QVERIFY(std::abs(apart) < 1e-5f * (1.0f + lit.data()[i]));  // single precision
+    }
+    settings.image = black;
+    QCOMPARE(separate(root() / "plain", settings, silent).directShare, 0.0);
+  }
+
+  /// Helmholtz: what p sends to c is what c sends to p.
+  void dualTakesALightPattern() {
+    Progress silent;
+    Image p = standardImages({40, 30})[0].linear, c = standardImages({28, 21})[1].linear;
+    writeExr(root() / "p.exr", p, ExrType::floatType);
+    writeExr(root() / "c.exr", c, ExrType::floatType);
+    writeExr(root() / "zero.exr", Image({40, 30}, 3, 0.0f), ExrType::floatType);
+    relight(root() / "plain", {root() / "p.exr", root() / "Tp.exr"}, silent);
+    relight(root() / "plain", {root() / "zero.exr", root() / "e.exr"}, silent);
+    dual(root() / "plain", {root() / "c.exr", root() / "Ttc.exr"}, silent);
+    Image tp = readRgbExr(root() / "Tp.exr"), e = readRgbExr(root() / "e.exr"),
+          ttc = readRgbExr(root() / "Ttc.exr");
+    double there = 0.0, back = 0.0;
+    for (std::size_t i = 0; i < tp.data().size(); ++i)
+      there += static_cast<double>(tp.data()[i] - e.data()[i]) * static_cast<double>(c.data()[i]);
+    for (std::size_t j = 0; j < ttc.data().size(); ++j)
+      back += static_cast<double>(ttc.data()[j]) * static_cast<double>(p.data()[j]);
+    QVERIFY(there > 0.0);
+    QVERIFY2(std::abs(there / back - 1.0) < 1e-4, qPrintable(QString("%1 %2").arg(there).arg(back)));
+  }
+
+  void differencesAreShownAroundGrey() {
+    Progress silent;
+    Image a({6, 4}, 3, 0.25f), b({6, 4}, 3, 0.25f);
+    a.at(2, 1, 0) = 0.35f;
+    b.at(4, 3, 2) = 0.45f;
+    fs::path fileA = root() / "a.exr", fileB = root() / "b.exr";
+    writeExr(fileA, a, ExrType::floatType);
+    writeExr(fileB, b, ExrType::floatType);
+
+    DifferenceResult none = pictureDifference({fileA, fileA, root() / "none.png", {}}, silent);
+    QCOMPARE(none.rms, 0.0);
+    Image grey = readPicture(root() / "none.png").encoded;
+    for (float value : grey.data()) QVERIFY(std::abs(value - 0.5f) < 0.003f);  // half a code of 255
+
+    DifferenceResult both = pictureDifference({fileA, fileB, root() / "ab.exr", 1.75}, silent);
+    QCOMPARE(both.gain, 1.75);
+    Image difference = readRgbExr(root() / "ab.exr");
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 6; ++x)
+        for (int channel = 0; channel < 3; ++channel)
+          QVERIFY(std::abs(difference.at(x, y, channel) -
+                           1.75f * (a.at(x, y, channel) - b.at(x, y, channel))) < 1e-6f);
+    DifferenceResult full = pictureDifference({fileA, fileB, root() / "ab.png", {}}, silent);
+    QVERIFY(std::abs(full.gain - 2.5) < 1e-3);  // 0.2 is the largest
+    Image shown = readPicture(root() / "ab.png").encoded;
+    QVERIFY(shown.at(4, 3, 2) < 0.003f);
+    QVERIFY(std::abs(shown.at(2, 1, 0) - 0.75f) < 0.003f);
+
+    writeExr(root() / "small.exr", Image({3, 4}, 3, 0.1f), ExrType::floatType);
+    std::string sentence = errorOf([&] {
+      pictureDifference({fileA, root() / "small.exr", root() / "x.png", {}}, silent);
+    });
+    QVERIFY2(QString::fromStdString(sentence).contains("6x4 and 3x4"), sentence.c_str());
+    sentence = errorOf([&] { pictureDifference({fileA, fileB, root() / "x.gif", {}}, silent); });
+    QVERIFY2(QString::fromStdString(sentence).contains(".gif"), sentence.c_str());
+    QCOMPARE(problems(DifferenceSettings{{}, {}, {}, -1.0}).size(), std::size_t{3});
+    QCOMPARE(problems(SeparateSettings{{}, {}, {0.0}}).size(), std::size_t{2});
   }
 
   void exportsWhatOthersRead() {

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+
+#include "cli/options.h"
+
+namespace relucent {
+
+std::function<Command()> addCalibrateOptions(CLI::App* sub) {
+  struct Places {
+    VenueSettings venue;
+    CommandRigSettings commands;
+    Size projector{256, 192};
+    Size camera{160, 120};
+    std::uint64_t seed = 1;
+    std::string acquisition = "adaptive";
+    std::string colour = "rgb";
+  };
+  auto command = std::make_shared<Calibrate>();
+  auto places = std::make_shared<Places>();
+  CalibrateSettings& settings = command->settings;
+
+  addFolder(sub, command->calibration, "Folder of the calibration; created");
+  CLI::Option* venue = sub->add_option("--venue", places->venue.name, "A simulated venue, see `venues`")
+                           ->type_name("NAME")
+                           ->capture_default_str();
+  CLI::Option* projector =
+      addSize(sub, "--projector", places->projector, "Size of the projector")->default_str("256x192");
+  CLI::Option* camera =
+      addSize(sub, "--camera", places->camera, "Size of the camera")->default_str("160x120");
+  sub->add_option("--seed", places->seed, "Seed of everything random: the same seed gives the same bits")
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_option("--acquisition", places->acquisition, "How the light transport is measured")
+      ->check(CLI::IsMember({"adaptive"}))
+      ->type_name("MODE")
+      ->capture_default_str();
+  sub->add_option("--colour", places->colour, "Colours that are lit: red, green and blue in turn")
+      ->check(CLI::IsMember({"rgb"}))
+      ->type_name("MODE")
+      ->capture_default_str();
+  sub->add_option("--threshold", settings.acquisition.relativeThreshold,
+                  "Faintest light that is followed, as a share of the flood image: 0.006 fine, 0.02 fast")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  sub->add_option("--levels", settings.linearization.levels, "Levels measured per projector colour")
+      ->type_name("N")
+      ->capture_default_str();
+  addCache(sub, command->cache);
+
+  CLI::Option_group* real = sub->add_option_group("External programs", "Any projector and camera by script");
+  CLI::Option* show =
+      real->add_option("--projector-command", places->commands.projectorCommand,
+                       "Command that shows the file {image} and returns when the light is out");
+  CLI::Option* photograph =
+      real->add_option("--camera-command", places->commands.cameraCommand,
+                       "Command that photographs {exposure} seconds into the file {output}");
+  show->type_name("CMD");
+  photograph->type_name("CMD");
+  real->add_option("--shortest", places->commands.shortestExposure, "Shortest exposure of the camera")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  real->add_option("--longest", places->commands.longestExposure, "Longest exposure of the camera")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+
+  DeviceModelSettings& devices = places->venue.devices;
+  CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Imperfections to rehearse with");
+  auto simulate = [&](const char* name, auto& value, const char* what) {
+    simulated->add_option(name, value, what)->capture_default_str();
+  };
+  simulate("--paths", places->venue.pathsPerPixel, "Light paths traced for each camera pixel");
+  simulate("--projector-bits", devices.projectorBits, "Bits of the projector's drive values");
+  simulate("--camera-bits", devices.cameraBits, "Bits of the camera");
+  simulate("--contrast", devices.contrast, "White of the projector over its black");
+  simulate("--ambient", devices.ambient, "Room light, as a share of the mean flood image");
+  simulate("--drift", devices.drift, "Relative change of the lamp over 1000 photographs");
+  simulate("--flicker", devices.flicker, "Relative deviation of the lamp between photographs");
+  simulate("--camera-gamma", devices.cameraGamma, "Response of the camera; 1 is linear");
+  simulated->add_flag("--white-segment", devices.whiteSegment, "White is brighter than red + green + blue");
+
+  auto external = [=] {
+    if (show->count() + photograph->count() == 0) return false;
+    if (show->count() == 0 || photograph->count() == 0 || projector->count() == 0)
+      throw WrongUsage("external programs need --projector-command, --camera-command and --projector");
+    if (venue->count() > 0) throw WrongUsage("give --venue or external programs, not both");
+    for (const CLI::Option* option : simulated->get_options())
+      if (option->count() > 0) throw WrongUsage(option->get_name() + " is for simulated venues only");
+    return true;
+  };
+  return [command, places, external, camera] {
+    if (external()) {
+      places->commands.projector = places->projector;
+      if (camera->count() > 0) places->commands.camera = places->camera;
+      command->settings.rig = places->commands;
+    } else {
+      places->venue.projector = places->projector;
+      places->venue.camera = places->camera;
+      places->venue.seed = places->seed;
+      command->settings.rig = places->venue;
+    }
+    command->settings.linearization.seed = places->seed;
+    command->settings.acquisition.seed = places->seed;
+    return Command(*command);
+  };
+}
+
+}  // namespace relucent

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+
+#include "cli/arguments.h"
+
+/// Options that several subcommands share; met inside the parser only.
+namespace relucent {
+
+inline CLI::Option* addFolder(CLI::App* sub, std::filesystem::path& folder, const char* what) {
+  return sub->add_option("CALIBRATION", folder, what)->required();
+}
+
+inline void addCache(CLI::App* sub, std::filesystem::path& cache) {
+  cache = defaultCache();
+  sub->add_option("--cache", cache, "Folder where simulated venues are kept once they are traced")
+      ->type_name("DIR")
+      ->capture_default_str();
+}
+
+inline CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const char* what) {
+  return sub
+      ->add_option_function<std::string>(
+          name, [&size](const std::string& text) { size = parseSize(text); }, what)
+      ->type_name("WxH");
+}
+
+/// Defines the options of `calibrate`. Returns what makes the command once they are read.
+std::function<Command()> addCalibrateOptions(CLI::App* sub);
+
+}  // namespace relucent

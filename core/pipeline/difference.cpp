@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+#include "pipeline/pictures.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+/// Any picture as linear values; those of floating-point files as they are, negative ones too.
+Image readLinear(const fs::path& path) {
+  if (path.extension() != ".exr") return readLinearContent(path);
+  Image image = readRgbExr(path);
+  checkFinite(image, path);
+  return image;
+}
+
+/// The gain that shows all but the largest half percent of the differences.
+double fullContrast(const Image& difference) {
+  std::vector<float> sizes;
+  for (float value : difference.data()) sizes.push_back(std::abs(value));
+  auto place = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 995 / 1000);
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return *place > 0.0f ? 0.5 / static_cast<double>(*place) : 1.0;
+}
+
+/// Grey where the two are equal; brighter where the first is. Signal values, not light: nothing to encode.
+Image aroundGrey(const Image& difference, double gain) {
+  Image picture = difference;
+  for (float& value : picture.data())
+    value = static_cast<float>(std::clamp(0.5 + gain * static_cast<double>(value), 0.0, 1.0));
+  return picture;
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const DifferenceSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.first.empty() || settings.second.empty()) found.emplace_back("two pictures are needed");
+  if (settings.out.empty()) found.emplace_back("no file for the result is given");
+  if (settings.gain && !(*settings.gain > 0.0 && std::isfinite(*settings.gain)))
+    found.emplace_back("the gain must be above 0");
+  return found;
+}
+
+DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  checkPictureName(settings.out);
+  Image first = readLinear(settings.first);
+  progress.report(0.3);
+  Image second = readLinear(settings.second);
+  progress.report(0.6);
+  if (first.size() != second.size())
+    throw Error(ErrorKind::input,
+                fmt::format("pictures of {}x{} and {}x{} pixels cannot be compared", first.width(),
+                            first.height(), second.width(), second.height()),
+                "choose two pictures of one camera");
+
+  DifferenceResult result;
+  Image difference = first;
+  double apart = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < difference.data().size(); ++i) {
+    auto b = static_cast<double>(second.data()[i]);
+    double d = static_cast<double>(first.data()[i]) - b;
+    difference.data()[i] = static_cast<float>(d);
+    apart += d * d;
+    whole += b * b;
+  }
+  result.rms = std::sqrt(apart / static_cast<double>(difference.data().size()));
+  result.relative = whole > 0.0 ? std::sqrt(apart / whole) : 0.0;
+  result.gain = settings.gain ? *settings.gain : fullContrast(difference);
+  if (settings.out.extension() == ".exr") {
+    for (float& value : difference.data())
+      value = static_cast<float>(settings.gain.value_or(1.0) * static_cast<double>(value));
+    if (!settings.gain) result.gain = 1.0;
+    writePicture(settings.out, difference, "difference of linear values, times the gain", 1.0f);
+  } else {
+    writePng(settings.out, aroundGrey(difference, result.gain), 8);
+  }
+  result.files = {settings.out};
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "image/color.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+
+float displayWhite(const Image& linear) {
+  std::vector<float> values = linear.data();
+  if (values.empty()) return 1.0f;
+  auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 995 / 1000);
+  std::nth_element(values.begin(), place, values.end());
+  return std::max(*place, 1e-9f);
+}
+
+fs::path numbered(const fs::path& path, std::size_t device) {
+  if (device == 0) return path;
+  fs::path result = path;
+  return result.replace_filename(
+      fmt::format("{}-{}{}", path.stem().string(), device + 1, path.extension().string()));
+}
+
+void checkPictureName(const fs::path& path) {
+  std::string extension = path.extension().string();
+  if (extension == ".exr" || extension == ".png") return;
+  throw Error(ErrorKind::input, fmt::format("pictures are not written as \"{}\"", extension),
+              "choose a name that ends in .exr (linear values) or .png (to look at)", path.string());
+}
+
+void writePicture(const fs::path& path, const Image& linear, const std::string& units, float white) {
+  checkPictureName(path);
+  if (path.extension() == ".exr")
+    writeExr(path, linear, ExrType::floatType, {{exr_attribute::units, units}});
+  else
+    writePng(path, viewed(linear, {white, white, white}), 8);
+}
+
+WrittenFiles writePictures(const fs::path& out, const Stack& stack, const Rasters& rasters,
+                           const std::string& units) {
+  WrittenFiles written;
+  for (std::size_t device = 0; device < rasters.devices(); ++device) {
+    Image picture = imageFromStack(stack, rasters, device);
+    written.files.push_back(numbered(out, device));
+    writePicture(written.files.back(), picture, units, displayWhite(picture));
+  }
+  return written;
+}
+
+}  // namespace relucent

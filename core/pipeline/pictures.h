@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/raster.h"
+#include "image/image.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// The value that a picture for people shows as white: all but the brightest half percent stay below it.
+float displayWhite(const Image& linear);
+
+/// "pattern.exr" for the only or first device, "pattern-2.exr" for the second.
+std::filesystem::path numbered(const std::filesystem::path& path, std::size_t device);
+
+/// Throws: Error{input} unless the name ends in .exr or .png.
+void checkPictureName(const std::filesystem::path& path);
+
+/// Linear values as .exr with their units; as .png what somebody sees who is used to `white`.
+/// Throws: as checkPictureName(); Error{disk}.
+void writePicture(const std::filesystem::path& path, const Image& linear, const std::string& units,
+                  float white);
+
+/// One picture per device, white as displayWhite() says for each.
+WrittenFiles writePictures(const std::filesystem::path& out, const Stack& stack, const Rasters& rasters,
+                           const std::string& units);
+
+}  // namespace relucent

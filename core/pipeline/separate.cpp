@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "compensation/direct_light.h"
+#include "image/picture_files.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/pictures.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/projection.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* radianceUnits = "camera signal per second";
+
+/// The two pictures of one camera, EXR and PNG. Both PNG share one white, so that they can be compared.
+void writePair(const fs::path& folder, std::size_t camera, const Image& direct, const Image& indirect,
+               WrittenFiles& written) {
+  Image both = direct;
+  for (std::size_t i = 0; i < both.data().size(); ++i) both.data()[i] += indirect.data()[i];
+  float white = displayWhite(both);
+  for (const char* extension : {".exr", ".png"}) {
+    written.files.push_back(numbered(folder / (std::string("direct") + extension), camera));
+    writePicture(written.files.back(), direct, radianceUnits, white);
+    written.files.push_back(numbered(folder / (std::string("indirect") + extension), camera));
+    writePicture(written.files.back(), indirect, radianceUnits, white);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const SeparateSettings& settings) {
+  std::vector<std::string> found = problems(settings.direct);
+  if (settings.out.empty()) found.emplace_back("no folder for the results is given");
+  return found;
+}
+
+SeparateResult separate(const fs::path& path, const SeparateSettings& settings, Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  std::optional<Image> content;
+  if (!settings.image.empty()) content = readLinearContent(settings.image);
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  Progress loading = progress.part(0.7, "Reading the calibration");
+  MeasuredVenue venue = loadMeasuredVenue(folder, loading);
+
+  const Rasters &projectors = venue.transport.projectors(), &cameras = venue.transport.cameras();
+  Stack pattern(3 * projectors.count(), 1.0f);
+  if (content) pattern = patternFrom(*content, projectors);
+  for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
+  Progress separating = progress.part(0.2, "Separating direct and indirect light");
+  Stack direct = directPart(venue.transport, settings.direct, separating).apply(pattern);
+  Stack indirect = venue.transport.apply(pattern);
+  double whole = 0.0, directLight = 0.0;
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    whole += static_cast<double>(indirect[i]);
+    directLight += static_cast<double>(direct[i]);
+    indirect[i] -= direct[i];
+  }
+
+  SeparateResult result;
+  result.directShare = whole > 0.0 ? directLight / whole : 0.0;
+  createFolder(settings.out);
+  WrittenFiles written;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+    writePair(settings.out, camera, imageFromStack(direct, cameras, camera),
+              imageFromStack(indirect, cameras, camera), written);
+  result.files = std::move(written.files);
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

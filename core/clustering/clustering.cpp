@@ -27,7 +27,7 @@ std::uint32_t largestOf(const std::vector<ClusterSize>& sizes) {
   return largest;
 }
 
-/// Luminance of all kept connections.
+/// Luminance of all kept connections, added up as the graph adds up all of them.
 double lightOf(const ConnectionGraph& graph, const KeptConnections& connections) {
   std::vector<double> sums(parts, 0.0);
   parallelChunks(0, graph.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -41,12 +41,6 @@ double lightOf(const ConnectionGraph& graph, const KeptConnections& connections)
   double sum = 0.0;
   for (double part : sums) sum += part;
   return sum;
-}
-
-/// Luminance of all connections, in the order in which lightOf() adds up.
-double lightOfAll(const ConnectionGraph& graph) {
-  KeptConnections all{std::vector<std::uint8_t>(graph.slots(), 1), {}, 0};
-  return lightOf(graph, all);
 }
 
 void countSizes(const Clustering& clustering, ClusteringStatistics& statistics) {
@@ -148,7 +142,7 @@ Clustering clustered(const ConnectionGraph& graph, const ClusteringSettings& set
           static_cast<std::uint32_t>(kept.rowBegin(row + 1) - kept.rowBegin(row));
 
   statistics.farLight = 1.0 - graph.carriedLight();
-  if (double all = lightOfAll(graph); all > 0.0) {
+  if (double all = graph.carriedLuminance(); all > 0.0) {
     double left = statistics.capped ? lightOf(graph, connections) : cut;
     statistics.keptLight = graph.carriedLight() * left / all;
     statistics.cutByPatches = graph.carriedLight() * (all - cut) / all;

@@ -16,16 +16,6 @@ namespace {
 /// many (720 MB) the coarsest level goes first.
 constexpr std::size_t mostConnections = 60'000'000;
 constexpr std::size_t parts = 64;
-constexpr std::size_t mostLevels = 32;
-
-/// What the camera sees of a leaf's whole block in white.
-float leafLuminance(const BlockSparse& leaves, std::size_t row, std::size_t entry) {
-  const auto& code = leaves.code(entry);
-  auto channel = [&](std::size_t c) {
-    return static_cast<float>(code[3 * c] + code[3 * c + 1] + code[3 * c + 2]);
-  };
-  return leaves.scale(row) * luminanceOf(channel(0), channel(1), channel(2));
-}
 
 /// What of T becomes connections.
 class NearLeaves {
@@ -37,21 +27,48 @@ class NearLeaves {
     });
   }
 
-  float brightest(std::size_t row) const {
+  /// Looks at a row: the luminance of its leaves per projector pixel, and T_i 1.
+  struct Row {
+    std::vector<float> density;
     float brightest = 0.0f;
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry)
-      brightest = std::max(brightest, density(row, entry));
-    return std::isfinite(brightest) ? brightest : 0.0f;
+    std::array<float, 3> flood{};
+  };
+  void look(std::size_t row, Row& into) const {
+    std::size_t begin = leaves_.rowBegin(row), end = leaves_.rowBegin(row + 1);
+    into.density.resize(end - begin);
+    into.brightest = 0.0f;
+    std::array<std::int64_t, 3> steps{};
+    for (std::size_t entry = begin; entry < end; ++entry) {
+      const auto& code = leaves_.code(entry);
+      std::array<int, 3> channel{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        channel[c] = code[3 * c] + code[3 * c + 1] + code[3 * c + 2];
+        steps[c] += channel[c];
+      }
+      float luminance = luminanceOf(static_cast<float>(channel[0]), static_cast<float>(channel[1]),
+                                    static_cast<float>(channel[2]));
+      float density = leaves_.scale(row) * luminance / nodes_.pixels[leaves_.column(entry)];
+      into.density[entry - begin] = density;
+      into.brightest = std::max(into.brightest, density);
+    }
+    if (!std::isfinite(into.brightest)) into.brightest = 0.0f;
+    for (std::size_t c = 0; c < 3; ++c) into.flood[c] = leaves_.scale(row) * static_cast<float>(steps[c]);
   }
 
-  /// Calls visit(entry, level, luminance per pixel).
+  /// Calls visit(entry, luminance per pixel) for what is bright enough. Nothing is in a black row.
   template <typename Visit>
-  void visit(std::size_t row, float least, int coarsest, const Visit& visit) const {
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-      float bright = density(row, entry);
-      int level = level_[leaves_.column(entry)];
-      if (bright > 0.0f && bright >= least && level <= coarsest) visit(entry, level, bright);
+  void visit(std::size_t row, const Row& seen, double share, int coarsest, const Visit& visit) const {
+    float least = static_cast<float>(share) * seen.brightest;
+    std::size_t begin = leaves_.rowBegin(row);
+    for (std::size_t i = 0; i < seen.density.size() && seen.brightest > 0.0f; ++i) {
+      float density = seen.density[i];
+      if (!(density > 0.0f && density >= least)) continue;
+      if (level_[leaves_.column(begin + i)] <= coarsest) visit(begin + i, density);
     }
+  }
+
+  std::size_t pixels(std::size_t entry) const {
+    return static_cast<std::size_t>(nodes_.pixels[leaves_.column(entry)]);
   }
 
   /// Adds a connection for every pixel of a leaf.
@@ -75,15 +92,29 @@ class NearLeaves {
   }
 
  private:
-  float density(std::size_t row, std::size_t entry) const {
-    return leafLuminance(leaves_, row, entry) / nodes_.pixels[leaves_.column(entry)];
-  }
-
   const TransportMatrix& transport_;
   const BlockSparse& leaves_;
   const NodeTable& nodes_;
   std::vector<std::uint8_t> level_;
 };
+
+/// Where each row's connections begin if leaves up to a level carry them. On the way: T 1.
+std::vector<std::size_t> countedStarts(const NearLeaves& near, const std::vector<std::uint8_t>& usable,
+                                       double share, int coarsest, Stack& flood) {
+  std::vector<std::size_t> start(usable.size() + 1, 0);
+  parallelChunks(0, usable.size(), parts, [&](std::size_t, std::size_t begin, std::size_t end) {
+    NearLeaves::Row seen;
+    for (std::size_t row = begin; row < end; ++row) {
+      near.look(row, seen);
+      std::copy(seen.flood.begin(), seen.flood.end(), &flood[3 * row]);
+      if (!usable[row]) continue;
+      near.visit(row, seen, share, coarsest,
+                 [&](std::size_t entry, float) { start[row + 1] += near.pixels(entry); });
+    }
+  });
+  for (std::size_t row = 0; row < usable.size(); ++row) start[row + 1] += start[row];
+  return start;
+}
 
 /// Of several connections to a pixel the brightest, of equals the one of the finest leaf.
 void keepBrightestOfEachPixel(std::vector<Connection>& row) {
@@ -115,46 +146,19 @@ ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::ve
   require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
           leaves.rows());
   require(leaves.blocks() < std::numeric_limits<std::uint32_t>::max(), "{} leaves", leaves.blocks());
-  flood_ = transport.floodlight();
   squaredNorm_ = squaredRowNorms(transport, nodes_, &nested_);
   progress.report(0.3);
 
   // First to count: the connections are the largest array here and are made to measure.
   NearLeaves near(transport, nodes_);
   std::size_t rows = leaves.rows();
-  std::vector<float> least(rows, 0.0f);
-  std::vector<std::array<std::size_t, mostLevels>> perLevel(parts);
-  parallelChunks(0, rows, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    perLevel[part].fill(0);
-    for (std::size_t row = begin; row < end; ++row) {
-      if (!usable[row]) continue;
-      least[row] = static_cast<float>(settings.leastShare) * near.brightest(row);
-      near.visit(row, least[row], settings.coarsestLevel, [&](std::size_t entry, int level, float) {
-        perLevel[part][static_cast<std::size_t>(level)] +=
-            static_cast<std::size_t>(nodes_.pixels[leaves.column(entry)]);
-      });
-    }
-  });
-  std::size_t expected = 0;
-  for (int level = 0; level <= std::min<int>(settings.coarsestLevel, mostLevels - 1); ++level) {
-    std::size_t here = 0;
-    for (const auto& part : perLevel) here += part[static_cast<std::size_t>(level)];
-    if (level > 0 && expected + here > mostConnections) break;
-    expected += here;
-    coarsestLevel_ = level;
-  }
-  require(expected < std::numeric_limits<std::uint32_t>::max(), "{} connections", expected);
-  progress.report(0.5);
-
-  start_.assign(rows + 1, 0);
+  flood_.assign(3 * rows, 0.0f);
   length_.assign(rows, 0);
-  parallelFor(0, rows, 256, [&](std::size_t row) {
-    if (!usable[row]) return;
-    near.visit(row, least[row], coarsestLevel_, [&](std::size_t entry, int, float) {
-      start_[row + 1] += static_cast<std::size_t>(nodes_.pixels[leaves.column(entry)]);
-    });
-  });
-  for (std::size_t row = 0; row < rows; ++row) start_[row + 1] += start_[row];
+  coarsestLevel_ = settings.coarsestLevel;
+  start_ = countedStarts(near, usable, settings.leastShare, coarsestLevel_, flood_);
+  while (start_.back() > mostConnections && coarsestLevel_ > 0)
+    start_ = countedStarts(near, usable, settings.leastShare, --coarsestLevel_, flood_);
+  require(start_.back() < std::numeric_limits<std::uint32_t>::max(), "{} connections", start_.back());
   progress.report(0.6);
 
   edges_.resize(start_.back() + 1);  // one more, so that an empty last row has an address
@@ -165,11 +169,13 @@ ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::ve
   std::vector<Light> light(parts);
   parallelChunks(0, rows, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     std::vector<Connection> edges;
+    NearLeaves::Row seen;
     for (std::size_t row = begin; row < end; ++row) {
       if (!usable[row]) continue;
       edges.clear();
-      near.visit(row, least[row], coarsestLevel_,
-                 [&](std::size_t entry, int, float bright) { near.expand(entry, bright, edges); });
+      near.look(row, seen);
+      near.visit(row, seen, settings.leastShare, coarsestLevel_,
+                 [&](std::size_t entry, float bright) { near.expand(entry, bright, edges); });
       if (nested_[row]) keepBrightestOfEachPixel(edges);
       std::sort(edges.begin(), edges.end(), [](const Connection& a, const Connection& b) {
         return a.luminance != b.luminance ? a.luminance > b.luminance : a.pixel < b.pixel;
@@ -178,9 +184,8 @@ ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::ve
       length_[row] = static_cast<std::uint32_t>(edges.size());
       light[part].connections += edges.size();
       for (const Connection& edge : edges) light[part].carried += static_cast<double>(edge.luminance);
-      double seen =
-          static_cast<double>(luminanceOf(flood_[3 * row], flood_[3 * row + 1], flood_[3 * row + 2]));
-      if (std::isfinite(seen)) light[part].all += seen;
+      double whole = static_cast<double>(luminanceOf(seen.flood[0], seen.flood[1], seen.flood[2]));
+      if (std::isfinite(whole)) light[part].all += whole;
     }
   });
   double carried = 0.0, all = 0.0;
@@ -189,6 +194,7 @@ ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::ve
     all += part.all;
     connections_ += part.connections;
   }
+  carriedLuminance_ = carried;
   if (all > 0.0) carriedLight_ = carried / all;
   progress.report(1.0);
 }

@@ -56,6 +56,8 @@ class ConnectionGraph {
   bool nested(std::size_t row) const { return nested_[row] != 0; }
   /// Share of the light of all usable rows, in luminance, that the connections carry.
   double carriedLight() const { return carriedLight_; }
+  /// The same light itself: the sum of the connections' luminances.
+  double carriedLuminance() const { return carriedLuminance_; }
   /// Leaves of coarser levels carry no connections; below the setting if there were too many otherwise.
   int coarsestLevel() const { return coarsestLevel_; }
 
@@ -70,6 +72,7 @@ class ConnectionGraph {
   std::vector<std::uint8_t> nested_;
   std::size_t connections_ = 0;
   double carriedLight_ = 0.0;
+  double carriedLuminance_ = 0.0;
   int coarsestLevel_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -132,15 +133,21 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
       for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
         holds[leaves.column(entry)] = 1;
       double steps = 0.0, shared = 0.0;
+      bool inside = false;
+      std::uint32_t lastParent = std::numeric_limits<std::uint32_t>::max();
       for (std::size_t entry = begin; entry < end; ++entry) {
-        double squares = 0.0;
-        for (std::int16_t value : leaves.code(entry)) squares += static_cast<double>(value) * value;
+        std::int64_t squares = 0;
+        for (std::int16_t value : leaves.code(entry)) squares += static_cast<std::int32_t>(value) * value;
         std::uint32_t node = leaves.column(entry);
-        steps += squares / static_cast<double>(nodes.pixels[node]);
-        bool inside = false;
-        for (std::uint32_t above = nodes.parent[node]; above != node && !inside;
-             node = above, above = nodes.parent[node])
-          inside = holds[above] != 0;
+        steps += static_cast<double>(squares) / static_cast<double>(nodes.pixels[node]);
+        // Neighbours often share their parent, and with it everything above.
+        if (std::uint32_t parent = nodes.parent[node]; parent != lastParent || parent == node) {
+          lastParent = parent;
+          inside = false;
+          for (std::uint32_t above = parent; above != node && !inside;
+               node = above, above = nodes.parent[node])
+            inside = holds[above] != 0;
+        }
         if (!inside) continue;
         if (nested) (*nested)[row] = 1;
         shared += sharedWithAncestors(leaves, nodes, row, entry, holds);

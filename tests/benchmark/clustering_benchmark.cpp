@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include <benchmark/benchmark.h>
+
+#include <fstream>
+#include <string>
+
+#include "inverse/cluster_inverse.h"
+#include "synthetic_transport.h"
+
+namespace relucent::benchmarks {
+namespace {
+
+Progress quiet;
+
+const TransportMatrix& venue() {
+  static const TransportMatrix venue = [] {
+    SyntheticSettings settings;
+    NodeLayout layout{Rasters(settings.projector)};
+    return TransportMatrix(settings.camera, settings.projector,
+                           defocusedLeaves(settings, DefocusSettings{}, layout));
+  }();
+  return venue;
+}
+
+const std::vector<std::uint8_t>& usable() {
+  static const std::vector<std::uint8_t> usable(venue().cameras().count(), 1);
+  return usable;
+}
+
+const ConnectionGraph& graph() {
+  static const ConnectionGraph graph(venue(), usable(), {}, quiet);
+  return graph;
+}
+
+/// The whole capped chain keeps what Algorithm 1 would cut inside clusters, as the inverse is better for it.
+ClusteringSettings capped(int most) {
+  ClusteringSettings settings;
+  settings.patchCut = 0.1;
+  settings.cap = SizeCap::always;
+  settings.mostUnknowns = most;
+  return settings;
+}
+
+/// A line of /proc/self/status in MiB.
+double mebibytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name + ":")) return std::stod(line.substr(name.size() + 1)) / 1024.0;
+  return 0.0;
+}
+
+/// From here on the most memory held counts anew.
+double forgetPeak() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return mebibytes("VmRSS");
+}
+
+void describe(benchmark::State& state, const ClusteringStatistics& s, std::size_t clusters) {
+  state.counters["clusters"] = static_cast<double>(clusters);
+  state.counters["largest"] = s.largest;
+  state.counters["kept"] = static_cast<double>(s.kept);
+  state.counters["kept_light"] = s.keptLight;
+  state.counters["error_median"] = s.errorMedian;
+}
+
+void announceThreshold(benchmark::State& state) {
+  venue();
+  for (auto _ : state) benchmark::DoNotOptimize(statisticsOf(venue(), {0.001f, 0.01f, 0.95}));
+  state.counters["leaves"] = static_cast<double>(venue().leaves().blocks());
+}
+
+void applyThreshold(benchmark::State& state) {
+  Stack flood = venue().floodlight();
+  for (auto _ : state) benchmark::DoNotOptimize(thresholded(venue(), {0.0f, 0.01f, 1.0}, flood));
+}
+
+void prepareGraph(benchmark::State& state) {
+  usable();
+  double before = forgetPeak();
+  for (auto _ : state) {
+    ConnectionGraph prepared(venue(), usable(), {}, quiet);
+    state.counters["connections"] = static_cast<double>(prepared.connections());
+  }
+  state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
+}
+
+/// Graph, patches, re-insertion, components, scaling, error map.
+void algorithmOne(benchmark::State& state) {
+  usable();
+  double before = forgetPeak();
+  for (auto _ : state) {
+    ConnectionGraph prepared(venue(), usable(), {}, quiet);
+    ClusteringSettings settings;
+    settings.cap = SizeCap::never;
+    Clustering result = clustered(prepared, settings, quiet);
+    describe(state, result.statistics, result.sizes.size());
+  }
+  state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
+}
+
+/// What moving a slider costs: the graph is there.
+void changeThreshold(benchmark::State& state) {
+  ClusteringSettings settings;
+  settings.cap = state.range(0) ? SizeCap::whenPercolated : SizeCap::never;
+  graph();
+  for (auto _ : state) {
+    settings.patchCut = settings.patchCut == 0.5 ? 0.6 : 0.5;
+    Clustering result = clustered(graph(), settings, quiet);
+    describe(state, result.statistics, result.sizes.size());
+  }
+}
+
+void cappedClusters(benchmark::State& state) {
+  graph();
+  double before = forgetPeak();
+  for (auto _ : state) {
+    Clustering result = clustered(graph(), capped(static_cast<int>(state.range(0))), quiet);
+    describe(state, result.statistics, result.sizes.size());
+  }
+  state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
+}
+
+/// Graph, capped clusters, inverses: all of it.
+void cappedInverse(benchmark::State& state) {
+  usable();
+  double before = forgetPeak();
+  for (auto _ : state) {
+    ConnectionGraph prepared(venue(), usable(), {}, quiet);
+    Clustering result = clustered(prepared, capped(static_cast<int>(state.range(0))), quiet);
+    ClusterInverseSettings settings;
+    settings.colour = state.range(1) ? ClusterColour::full : ClusterColour::shared;
+    settings.solver = state.range(2) ? ClusterSolver::truncatedSvd : ClusterSolver::ridge;
+    ClusterInverse inverse = computeClusterInverse(result, usable(), settings, quiet);
+    state.counters["inverse_MiB"] = static_cast<double>(inverse.bytes()) / 1048576.0;
+    describe(state, result.statistics, result.sizes.size());
+  }
+  state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
+}
+
+void applyInverse(benchmark::State& state) {
+  Clustering result = clustered(graph(), capped(256), quiet);
+  ClusterInverse inverse = computeClusterInverse(result, usable(), {}, quiet);
+  Stack residual = venue().floodlight();
+  for (auto _ : state) benchmark::DoNotOptimize(inverse.apply(residual));
+}
+
+// What needs most memory comes before anything that stays in memory.
+BENCHMARK(announceThreshold)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(applyThreshold)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(prepareGraph)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(algorithmOne)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(cappedInverse)
+    ->ArgNames({"most", "full", "svd"})
+    ->Args({128, 0, 0})
+    ->Args({256, 0, 0})
+    ->Args({128, 1, 0})
+    ->Args({128, 0, 1})
+    ->Iterations(1)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(changeThreshold)->ArgName("cap")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(cappedClusters)->ArgName("most")->Arg(256)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(applyInverse)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace relucent::benchmarks

@@ -30,10 +30,11 @@ std::size_t countOf(const std::vector<std::uint8_t>& flags) {
 Tree measureTree(Photographer& photographer, const References& references,
                  const AcquisitionSettings& settings, Progress& progress) {
   NodeLayout layout(photographer.projectors());
+  Scheme scheme = schemeOf(settings, references);
   Tree tree = emptyTree(layout, references);
   int last = layout.levels() - 1;
   for (int level = last; level >= 0; --level) {
-    plantRoots(tree, level, references, settings);
+    plantRoots(tree, level, references, scheme);
     if (level == 0 || tree.active.blocks() == 0) continue;
     if (progress.stopAndKeep()) {
       stopDividing(tree);
@@ -47,8 +48,8 @@ Tree measureTree(Photographer& photographer, const References& references,
     }
     Schedule plan = schedule(tree.active, firstNode, nodes);
     Progress part = progress.part(1.0 / last, fmt::format("level {} of {}: {} patterns", last - level + 1,
-                                                          last, patternsOf(plan, layout, level)));
-    divide(tree, level, plan, photographer, references, settings, part);
+                                                          last, patternsOf(plan, scheme, layout, level)));
+    divide(tree, level, plan, photographer, references, scheme, part);
   }
   return tree;
 }
@@ -101,34 +102,14 @@ void addFindings(Acquisition& acquisition, double unusable, double drift) {
 
 }  // namespace
 
-std::vector<std::string> problems(const AcquisitionSettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.relativeThreshold > 0.0 && settings.relativeThreshold < 1.0))
-    found.push_back(fmt::format("the relative threshold must lie between 0 and 1, not at {}",
-                                settings.relativeThreshold));
-  if (!(settings.noiseSigmas > 0.0))
-    found.push_back(
-        fmt::format("the noise threshold must be above 0 standard deviations, not {}", settings.noiseSigmas));
-  if (!(settings.dimShare >= 0.0 && settings.dimShare <= 1.0))
-    found.push_back(
-        fmt::format("the share for dim pixels must lie between 0 and 1, not at {}", settings.dimShare));
-  if (settings.references < 1)
-    found.push_back(fmt::format("at least one reference shot is needed, not {}", settings.references));
-  if (settings.verificationPatterns < 0)
-    found.push_back(
-        fmt::format("the number of verification patterns cannot be {}", settings.verificationPatterns));
-  if (!(settings.flagRelative > 0.0 && settings.flagSigmas > 0.0))
-    found.push_back(fmt::format("the limits for flagging must be above 0, not {} and {}",
-                                settings.flagRelative, settings.flagSigmas));
-  return found;
-}
-
 Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
                     Progress& progress) {
   std::vector<std::string> wrong = problems(settings);
   require(wrong.empty(), "{}", fmt::join(wrong, "; "));
   int shotsBefore = shots.shots(), exposuresBefore = shots.exposures();
-  Photographer photographer(shots, linearization);
+  Linearization used = linearization;
+  if (settings.singleExposure) used.exposures = {used.exposures.back()};
+  Photographer photographer(shots, used);
 
   Progress referencePart = progress.part(referenceShare, "black and full light");
   References references =

@@ -5,23 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/settings.h"
 #include "hdr/hdr.h"
 #include "linearization/linearization.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
-
-struct AcquisitionSettings {
-  double relativeThreshold = 0.008;  // tau_i = max(this * F_i, noise floor); 0.006 fine, 0.02 fast
-  double dimShare = 0.2;     // pixels dimmer than this share of the typical F are resolved as if they had it
-  double noiseSigmas = 4.0;  // the noise floor of tau, in standard deviations of a frame
-  int references = 4;        // black and flood shots averaged
-  int verificationPatterns = 8;  // held-out random patterns, block sizes 1, 2, 4, 8
-  double flagRelative = 0.1;     // a pixel is flagged when its residual exceeds this share of its light
-  double flagSigmas = 3.0;       // and this many standard deviations
-  std::uint64_t seed = 1;        // of the verification patterns
-};
-std::vector<std::string> problems(const AcquisitionSettings& settings);
 
 /// Everything that acquisition measured.
 struct Acquisition {

@@ -61,7 +61,8 @@ void findScales(References& references, double dimShare) {
     references.fullScale[row] = std::max(headroom * sum.cwiseAbs().maxCoeff(),
                                          headroomSigmas * std::sqrt(std::max(0.0f, variance.maxCoeff())));
   });
-  auto dimmest = static_cast<float>(dimShare) * typicalOf(references.strongest);
+  references.typical = typicalOf(references.strongest);
+  auto dimmest = static_cast<float>(dimShare) * references.typical;
   for (float& strongest : references.strongest) strongest = std::max(strongest, dimmest);
 }
 

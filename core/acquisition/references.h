@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "acquisition/acquisition.h"
 #include "acquisition/photographer.h"
+#include "acquisition/settings.h"
+#include "transport/block_sparse.h"
 
 namespace relucent {
 
@@ -16,7 +17,8 @@ struct References {
   std::vector<std::vector<ColourBlock>> rootVariance;
   std::vector<std::uint8_t> usable;  // per row: 0 where even the shortest exposure was saturated
   std::vector<float>
-      strongest;  // F per row: the largest entry of the sum of all roots, not below the dimmest
+      strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest
+  float typical = 0.0f;  // the F above which half of all light lies
   std::vector<float> fullScale;  // per row: the largest magnitude that T may hold there
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "acquisition/photographer.h"
 #include "acquisition/references.h"
+#include "transport/transport_matrix.h"
 
 namespace relucent {
 

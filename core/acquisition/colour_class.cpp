@@ -14,6 +14,12 @@ using Code = BlockSparseWriter::Code;
 
 // A child is at most as bright as its parent, but for the noise of both.
 constexpr float brighterThanParent = 1.1f;
+// A camera pixel contradicts its parent beyond so many thresholds, which lit leaves may hold unevenly, ...
+constexpr float toleratedThresholds = 6.0f;
+// ... and so many standard deviations; a disturbance is that many camera pixels.
+constexpr float contradictionSigmas = 8.0f;
+constexpr std::size_t fewestContradictions = 6;
+constexpr std::size_t mostRows = 100;
 // Standard deviation of what the unevenness of lit leaves does to a frame, as a share of tau.
 constexpr float unevenness = 0.25f;
 
@@ -60,9 +66,10 @@ ColourClass::ColourClass(Tree& tree, std::span<const Seen> seen, const Reference
       references_(references),
       scheme_(scheme),
       predicted_(seen.size(), ColourBlock::Zero()),
-      measured_(quadrants * seen.size()) {}
+      measured_(quadrants * seen.size()),
+      wanted_(seen.size(), 1) {}
 
-void ColourClass::measure(int quadrant, const std::vector<std::uint8_t>& lit, Photographer& photographer,
+void ColourClass::measure(int quadrant, const std::vector<std::uint8_t>& lit, Watch& watch,
                           const Progress& progress) {
   if (scheme_.subtractsLeaves) {
     std::vector<float> shares = litShares(lit, tree_.layout);
@@ -71,14 +78,37 @@ void ColourClass::measure(int quadrant, const std::vector<std::uint8_t>& lit, Ph
   }
   for (const Light& light : scheme_.lights) {
     Stack pattern = patternIn(light, lit);
-    HdrFrame frame = scheme_.allExposures ? photographer.takeAll(pattern, progress)
-                                          : photographer.take(pattern, demands(light), progress);
+    HdrFrame frame = scheme_.allExposures ? watch.lightOfAll(pattern, progress)
+                                          : watch.light(pattern, demands(light), progress);
     extract(quadrant, light, frame);
   }
 }
 
 void ColourClass::settle(Children& children) {
   parallelFor(0, seen_.size(), 256, [&](std::size_t i) { settle(i, children); });
+}
+
+bool ColourClass::contradictsParent(std::size_t i) const {
+  auto [row, pair] = seen_[i];
+  ColourBlock parent = tree_.active.block(row, pair), spread = tree_.spread.block(row, pair);
+  ColourBlock sum = ColourBlock::Zero(), variance = spread.cwiseProduct(spread);
+  for (std::size_t k = quadrants * i; k < quadrants * (i + 1); ++k) {
+    sum += measured_[k].value;
+    variance += measured_[k].variance;
+  }
+  float leaves = toleratedThresholds * scheme_.threshold[row];
+  for (int k = 0; k < 9; ++k) {
+    float noise = contradictionSigmas * std::sqrt(std::max(0.0f, variance.data()[k]));
+    if (std::abs(parent.data()[k] - sum.data()[k]) > std::max(leaves, noise)) return true;
+  }
+  return false;
+}
+
+bool ColourClass::contradictsParents() {
+  if (!scheme_.reconciles) return false;
+  parallelFor(0, seen_.size(), 256, [&](std::size_t i) { wanted_[i] = contradictsParent(i) ? 1 : 0; });
+  auto contradicting = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), 1));
+  return contradicting >= fewestContradictions + seen_.size() / mostRows;
 }
 
 std::vector<Demand> ColourClass::demands(const Light& light) const {
@@ -104,14 +134,15 @@ std::size_t ColourClass::projectorOf(const Seen& seen) const {
 
 void ColourClass::extract(int quadrant, const Light& light, const HdrFrame& frame) {
   parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
+    if (!wanted_[i]) return;
     std::size_t row = seen_[i].row, projector = projectorOf(seen_[i]);
     ColourBlock shares =
         channelShares(light, references_.root[projector][row], references_.rootVariance[projector][row]);
     Estimate& child = measured_[quadrants * i + static_cast<std::size_t>(quadrant)];
     for (std::size_t c = 0; c < 3; ++c) {
       std::size_t at = 3 * row + c;
-      float value = frame.radiance[at] - references_.black.radiance[at] - inLight(predicted_[i], c, light);
-      float variance = frame.variance[at] + references_.black.variance[at];
+      float value = frame.radiance[at] - inLight(predicted_[i], c, light);
+      float variance = frame.variance[at];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!light[k]) continue;
         float share = shares.data()[3 * c + k];
@@ -167,6 +198,7 @@ void ColourClass::settle(std::size_t i, Children& children) const {
       rest += estimate[k].value;
     } else {
       children.set(pair, quadrant[k], leafCode(row, estimate[k].value));
+      tree_.leafNoise[row].add(estimate[k].variance);
     }
   }
   if (scheme_.restToParent) children.setRest(pair, leafCode(row, rest));

@@ -6,8 +6,8 @@
 
 #include "acquisition/estimate.h"
 #include "acquisition/frames.h"
-#include "acquisition/photographer.h"
 #include "acquisition/tree.h"
+#include "acquisition/watch.h"
 
 namespace relucent {
 
@@ -19,8 +19,12 @@ class ColourClass {
   ColourClass(Tree& tree, std::span<const Seen> seen, const References& references, const Scheme& scheme);
 
   /// Photographs one quadrant in every light of the scheme. `lit`: as from litPixels().
-  void measure(int quadrant, const std::vector<std::uint8_t>& lit, Photographer& photographer,
-               const Progress& progress);
+  void measure(int quadrant, const std::vector<std::uint8_t>& lit, Watch& watch, const Progress& progress);
+
+  /// After all quadrants: whether many camera pixels contradict what their parents sent before, which is what
+  /// a disturbance during some of the photographs looks like. Those are measured anew by the next measure()
+  /// of all quadrants, the others keep their values.
+  bool contradictsParents();
 
   /// To be called when all quadrants have been measured.
   void settle(Children& children);
@@ -28,6 +32,7 @@ class ColourClass {
  private:
   std::vector<Demand> demands(const Light& light) const;
   void extract(int quadrant, const Light& light, const HdrFrame& frame);
+  bool contradictsParent(std::size_t i) const;
   void settle(std::size_t i, Children& children) const;
   /// A value as codes of a row, what the rounding leaves over handed on to the row's next leaf.
   BlockSparseWriter::Code leafCode(std::size_t row, const ColourBlock& value) const;
@@ -39,6 +44,7 @@ class ColourClass {
   const Scheme& scheme_;
   std::vector<ColourBlock> predicted_;  // as seen_, in the quadrant under way
   std::vector<Estimate> measured_;      // as seen_, four each
+  std::vector<std::uint8_t> wanted_;    // as seen_: to be measured
 };
 
 }  // namespace relucent

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/photographer.h"
 #include "acquisition/schedule.h"
 #include "acquisition/tree.h"
+#include "acquisition/watch.h"
 
 namespace relucent {
 
@@ -17,7 +17,7 @@ int patternsOf(const Schedule& schedule, const Scheme& scheme, const NodeLayout&
 /// parent are reconciled, which children become active, and where the light of the others is kept; with its
 /// sign, as cutting it off would add energy.
 /// Throws: Error; Cancelled.
-void divide(Tree& tree, int level, const Schedule& schedule, Photographer& photographer,
-            const References& references, const Scheme& scheme, Progress& progress);
+void divide(Tree& tree, int level, const Schedule& schedule, Watch& watch, const References& references,
+            const Scheme& scheme, Progress& progress);
 
 }  // namespace relucent

@@ -38,11 +38,12 @@ Scheme schemeOf(const AcquisitionSettings& settings, const References& reference
     scheme.threshold = scaled(references.strongest, settings.relativeThreshold);
     scheme.noiseSigmas = settings.noiseSigmas;
   } else {
-    auto typical = settings.relativeThreshold * static_cast<double>(references.typical);
-    double everywhere = settings.absoluteThreshold > 0.0 ? settings.absoluteThreshold : typical;
+    // One radiance for all has to be that of the dimmest pixels that are to be resolved.
+    double dimmest = settings.relativeThreshold * settings.dimShare * static_cast<double>(references.typical);
+    double everywhere = settings.absoluteThreshold > 0.0 ? settings.absoluteThreshold : dimmest;
     scheme.threshold.assign(references.strongest.size(), static_cast<float>(everywhere));
     scheme.allExposures = true;
-    scheme.subtractsLeaves = scheme.reconciles = false;
+    scheme.subtractsLeaves = scheme.reconciles = scheme.repairs = false;
     scheme.restToParent = true;
   }
   scheme.tolerable = scaled(scheme.threshold, 1.0 / settings.noiseSigmas);

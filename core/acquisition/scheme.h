@@ -20,6 +20,7 @@ using Light = std::array<bool, 3>;
 ///   stored leaves        taken off each frame            not taken off
 ///   children and parent  reconciled by their variances   as measured
 ///   what does not go on  a leaf of its own, signed       added up in a leaf at the parent's level
+///   flagged rows         measured again                  left as they are
 ///
 /// Source: core/acquisition/README.md; Sen et al. 2005, adaptive multiplexed acquisition.
 struct Scheme {
@@ -31,6 +32,7 @@ struct Scheme {
   bool subtractsLeaves = true;
   bool reconciles = true;
   bool restToParent = false;
+  bool repairs = true;        // flagged camera pixels are measured again
   std::vector<Light> lights;  // shown one after the other
 
   /// Whether any of a child's nine values is above what the scheme follows.

@@ -23,6 +23,8 @@ std::vector<std::string> problems(const AcquisitionSettings& settings) {
         fmt::format("the share for dim pixels must lie between 0 and 1, not at {}", settings.dimShare));
   if (settings.references < 1)
     found.push_back(fmt::format("at least one reference shot is needed, not {}", settings.references));
+  if (settings.checkInterval < 1)
+    found.push_back(fmt::format("checks cannot be {} shots apart", settings.checkInterval));
   if (settings.verificationPatterns < 0)
     found.push_back(
         fmt::format("the number of verification patterns cannot be {}", settings.verificationPatterns));

@@ -18,10 +18,12 @@ struct AcquisitionSettings {
   LitColours colours = LitColours::rgb;
   bool singleExposure = false;       // only the shortest: quick, noisy where it is dim
   double relativeThreshold = 0.008;  // tau_i = max(this * F_i, noise floor); 0.006 fine, 0.02 fast
-  double absoluteThreshold = 0.0;    // of sen, radiance; 0: relativeThreshold * typical F, for all pixels
+  double absoluteThreshold = 0.0;    // of sen, radiance; 0: what adaptive follows in the dimmest pixels
   double dimShare = 0.2;     // pixels dimmer than this share of the typical F are resolved as if they had it
   double noiseSigmas = 4.0;  // the noise floor of tau, in standard deviations of a frame
   int references = 4;        // black and flood shots averaged
+  int checkInterval = 40;    // shots between two checks of e, the lamp and the view
+  bool mayBeMirrored = false;    // pictures are meant to appear mirrored: rear projection, a mirror
   int verificationPatterns = 8;  // held-out random patterns, block sizes 1, 2, 4, 8
   double flagRelative = 0.1;     // a pixel is flagged when its residual exceeds this share of its light
   double flagSigmas = 3.0;       // and this many standard deviations

@@ -32,6 +32,8 @@ Tree emptyTree(const NodeLayout& layout, const References& references) {
           noPairs(layout, references),
           noPairs(layout, references),
           std::vector<ColourBlock>(references.fullScale.size(), ColourBlock::Zero()),
+          std::vector<LeafNoise>(references.fullScale.size()),
+          references.usable,
           std::vector<std::uint8_t>(references.fullScale.size(), 0)};
 }
 
@@ -51,7 +53,7 @@ void plantRoots(Tree& tree, int level, const References& references, const Schem
       spread.add(tree.spread.column(pair), tree.spread.code(pair));
     }
     for (std::size_t projector : ending) {
-      if (!references.usable[row]) continue;
+      if (!tree.wanted[row]) continue;
       const ColourBlock& value = references.root[projector][row];
       bool divided = level > 0 && scheme.follows(row, value, references.rootVariance[projector][row]);
       std::size_t node = tree.layout.index({static_cast<int>(projector), level, 0, 0});

@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "acquisition/children.h"
 #include "acquisition/scheme.h"
 #include "transport/node_layout.h"
 
 namespace relucent {
+
+/// Variance of a row's leaves, per camera channel: the mean over leaves and projector channels.
+struct LeafNoise {
+  std::array<float, 3> sum{};
+  float leaves = 0.0f;
+
+  void add(const ColourBlock& variance) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += variance.row(static_cast<Eigen::Index>(c)).mean();
+    leaves += 1.0f;
+  }
+};
 
 /// The light transport as far as it is known: every camera pixel's projector pixels are covered by its
 /// leaves, which are done, and its active nodes, which are to be divided.
@@ -17,6 +30,8 @@ struct Tree {
   // What rounding the row's leaves has left over so far, handed on to the next: many leaves below half a
   // code would otherwise all be lost.
   std::vector<ColourBlock> rounding;
+  std::vector<LeafNoise> leafNoise;   // per row
+  std::vector<std::uint8_t> wanted;   // per row: takes part
   std::vector<std::uint8_t> unknown;  // per row: some light was too bright for every exposure
 };
 

@@ -14,8 +14,8 @@ NLOHMANN_JSON_SERIALIZE_ENUM(AcquisitionScheme,
 NLOHMANN_JSON_SERIALIZE_ENUM(LitColours, {{LitColours::rgb, "rgb"}, {LitColours::white, "white"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, scheme, colours, singleExposure,
                                                 relativeThreshold, absoluteThreshold, dimShare, noiseSigmas,
-                                                references, verificationPatterns, flagRelative, flagSigmas,
-                                                seed)
+                                                references, checkInterval, mayBeMirrored,
+                                                verificationPatterns, flagRelative, flagSigmas, seed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge, smoothness)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,

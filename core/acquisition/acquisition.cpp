@@ -55,10 +55,11 @@ double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
 
 void addFindings(Acquisition& acquisition, double unusable, double drift) {
   if (std::abs(drift) > driftLimit)
-    acquisition.findings.push_back(fmt::format(
-        "The light changed by {:.1f} % between the first and the last photograph: let the projector "
-        "warm up, keep other light out, then measure again",
-        100.0 * drift));
+    acquisition.findings.push_back(
+        fmt::format("The light changed by {:.1f} % between the first and the last photograph; that was "
+                    "followed, but let the "
+                    "projector warm up before the next time",
+                    100.0 * drift));
   if (unusable > unusableLimit)
     acquisition.findings.push_back(
         fmt::format("{:.1f} % of the camera pixels are overexposed even at the shortest exposure: close the "

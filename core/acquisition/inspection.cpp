@@ -107,7 +107,7 @@ std::optional<Alarm> inspectView(const Check& now, const Check& first, const Ref
                    fmt::format("a camera or projector has moved: the view of camera {} is shifted by "
                                "{:.1f}, {:.1f} pixels and turned by {:.1f} degrees",
                                camera + 1, movement.x, movement.y, movement.degrees),
-                   "put it back to within half a pixel and retry, or keep what there is");
+                   "put it back to within half a pixel, then retry");
     if (local)
       return alarm(
           AlarmKind::localChange,

@@ -114,7 +114,7 @@ void Watch::handle(const Alarm& alarm, int doubtful) {
   shots_.forgetFrom(doubtful);
   if (answer == Answer::keepAndStop) throw KeepAndStop();
   if (!decisions_.handler)
-    throw Error(ErrorKind::device, alarm.what, alarm.advice + "; " + alarm.safe + " when this is resumed",
+    throw Error(ErrorKind::device, alarm.what, alarm.advice + " by resuming the calibration; " + alarm.safe,
                 "light transport");
   throw BeginAgain();
 }

@@ -278,6 +278,8 @@ void Parser::addCalibrate() {
          "Colours that are lit: red, green and blue in turn (rgb) or at once (white); fast lights white")
       ->check(CLI::IsMember({"rgb", "white"}))
       ->type_name("MODE");
+  sub->add_flag("--mirrored", settings.acquisition.mayBeMirrored,
+                "Pictures are meant to appear mirrored: rear projection, a mirror");
   sub->add_option("--threshold", settings.acquisition.relativeThreshold,
                   "Faintest light that is followed, as a share of the flood image: 0.006 fine, 0.02 fast")
       ->type_name("SHARE")

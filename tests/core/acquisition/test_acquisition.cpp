@@ -214,7 +214,11 @@ class TestAcquisition : public QObject {
     wrong.verificationPatterns = -1;
     wrong.dimShare = 2.0;
     wrong.flagSigmas = 0.0;
-    QCOMPARE(problems(wrong).size(), std::size_t{6});
+    wrong.absoluteThreshold = -1.0;
+    wrong.checkInterval = 0;
+    QCOMPARE(problems(wrong).size(), std::size_t{8});
+    for (const std::string& mode : acquisitionModes()) QVERIFY(problems(acquisitionMode(mode)).empty());
+    QVERIFY_EXCEPTION_THROWN(acquisitionMode("slow"), std::logic_error);
     Venue venue = smallVenue();
     venue.settings = wrong;
     Run run(venue);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 #include <cmath>
+#include <numeric>
 
 #include "acquisition_run.h"
 #include "base/error.h"
@@ -153,6 +154,20 @@ class TestSentinels : public QObject {
     venue_->faults->faults.clear();
     Acquisition a = venue_->run({}, log);
     QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+  }
+
+  /// A little more light in the room, too little to stop for, is part of e from the next check on.
+  void ambientLightIsFollowed() {
+    venue_->faults->faults = {fault(FaultKind::ambient, 60, 0.0015)};
+    NoShotLog log;
+    Acquisition a = venue_->run({}, log);
+    auto mean = [](const Stack& stack) {
+      return std::accumulate(stack.begin(), stack.end(), 0.0) / static_cast<double>(stack.size());
+    };
+    double rise = (mean(a.black) - mean(venue_->sound().black)) / mean(venue_->sound().flood);
+    QVERIFY2(std::abs(rise / 0.0015 - 1.0) < 0.2, qPrintable(QString::number(rise)));
+    QVERIFY2(a.verificationError < 1.2 * venue_->sound().verificationError,
+             qPrintable(QString::number(a.verificationError)));
   }
 
   void skippingGoesOn() {

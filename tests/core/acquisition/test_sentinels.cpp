@@ -138,7 +138,12 @@ class TestSentinels : public QObject {
   }
 
   /// With nobody to ask it stops; what is kept is safe, and running it again goes on from there.
-  void withNobodyToAskItStopsAndCanBeResumed_data() { faults_data(); }
+  void withNobodyToAskItStopsAndCanBeResumed_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    QTest::newRow("from the first shot on") << fault(FaultKind::mirroredScreen, 0);
+    QTest::newRow("found by one photograph") << fault(FaultKind::flicker, 60, 0.1);
+    QTest::newRow("found by a check") << fault(FaultKind::shiftedCamera, 60, 2.0);
+  }
   void withNobodyToAskItStopsAndCanBeResumed() {
     QFETCH(DeviceFault, fault);
     venue_->faults->faults = {fault};

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acquisition/refinement.h"
-#include "acquisition/verification.h"
+#include "acquisition/growth.h"
+#include "acquisition/repair.h"
 #include "base/error.h"
 
 namespace relucent {
@@ -25,32 +25,6 @@ constexpr double unusableLimit = 0.01;
 
 std::size_t countOf(const std::vector<std::uint8_t>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
-}
-
-Tree measureTree(Photographer& photographer, const References& references,
-                 const AcquisitionSettings& settings, Progress& progress) {
-  NodeLayout layout(photographer.projectors());
-  Tree tree = emptyTree(layout, references);
-  int last = layout.levels() - 1;
-  for (int level = last; level >= 0; --level) {
-    plantRoots(tree, level, references, settings);
-    if (level == 0 || tree.active.blocks() == 0) continue;
-    if (progress.stopAndKeep()) {
-      stopDividing(tree);
-      continue;
-    }
-    std::size_t nodes = 0, firstNode = 0;
-    for (std::size_t projector = layout.projectors().devices(); projector-- > 0;) {
-      if (level >= layout.levels(projector)) continue;
-      firstNode = layout.index({static_cast<int>(projector), level, 0, 0});
-      nodes += layout.gridSize(projector, level).count();
-    }
-    Schedule plan = schedule(tree.active, firstNode, nodes);
-    Progress part = progress.part(1.0 / last, fmt::format("level {} of {}: {} patterns", last - level + 1,
-                                                          last, patternsOf(plan, layout, level)));
-    divide(tree, level, plan, photographer, references, settings, part);
-  }
-  return tree;
 }
 
 void fillReferences(Acquisition& acquisition, const References& references) {
@@ -81,10 +55,11 @@ double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
 
 void addFindings(Acquisition& acquisition, double unusable, double drift) {
   if (std::abs(drift) > driftLimit)
-    acquisition.findings.push_back(fmt::format(
-        "The light changed by {:.1f} % between the first and the last photograph: let the projector "
-        "warm up, keep other light out, then measure again",
-        100.0 * drift));
+    acquisition.findings.push_back(
+        fmt::format("The light changed by {:.1f} % between the first and the last photograph; that was "
+                    "followed, but let the "
+                    "projector warm up before the next time",
+                    100.0 * drift));
   if (unusable > unusableLimit)
     acquisition.findings.push_back(
         fmt::format("{:.1f} % of the camera pixels are overexposed even at the shortest exposure: close the "
@@ -99,63 +74,99 @@ void addFindings(Acquisition& acquisition, double unusable, double drift) {
         100.0 * flagged));
 }
 
+/// The parts of a measurement, in order, on shots that may be gone back over.
+class Measurement {
+ public:
+  Measurement(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
+              Decisions& decisions)
+      : settings_(settings),
+        photographer_(shots, linearization),
+        watch_(photographer_, shots, references_, settings, decisions) {}
+
+  Acquisition run(Progress& progress) {
+    Progress referencePart = progress.part(referenceShare, "black and full light");
+    references_ = measureReferences(photographer_, settings_.references, settings_.dimShare, referencePart);
+    bool kept = unlessKept([&] { watch_.begin(referencePart); });
+
+    Progress treePart = progress.part(treeShare, "light transport");
+    Tree tree = plantedTree(photographer_.projectors(), references_, references_.usable);
+    Scheme scheme = schemeOf(settings_, references_);
+    kept = growTree(tree, watch_, references_, scheme, kept, treePart) || kept;
+    Acquisition result;
+    result.leafVariance = leafVarianceOf(tree);
+    std::vector<std::uint8_t> unknown = tree.unknown;
+    result.transport =
+        TransportMatrix(photographer_.cameras(), photographer_.projectors(), harvest(tree, references_));
+
+    Progress verificationPart = progress.part(verificationShare, "test patterns");
+    result.flagged.assign(references_.usable.size(), 0);
+    result.residual.assign(verificationSizes, Stack(3 * references_.usable.size(), 0.0f));
+    if (!kept && !progress.stopAndKeep())
+      unlessKept([&] {
+        watch_.check(verificationPart);
+        if (scheme.repairs)
+          verifyAndRepair(result, watch_, references_, scheme, settings_, verificationPart);
+        else
+          verifyOnly(result, watch_, references_, settings_, verificationPart);
+        watch_.check(verificationPart);
+      });
+    else if (!kept)
+      unlessKept([&] { verifyOnly(result, watch_, references_, settings_, verificationPart); });
+
+    for (std::size_t row = 0; row < result.flagged.size(); ++row)
+      if (!references_.usable[row] || unknown[row]) result.flagged[row] = 1;
+    fillReferences(result, references_);
+    result.unresolvedEnergy = unresolvedEnergy(result.transport, result.flood);
+    double usable =
+        static_cast<double>(countOf(references_.usable)) / static_cast<double>(references_.usable.size());
+    addFindings(result, 1.0 - usable, watch_.power() - 1.0);
+    progress.report(1.0);
+    return result;
+  }
+
+ private:
+  /// True if the user asked to keep what there is instead.
+  template <typename Work>
+  static bool unlessKept(const Work& work) {
+    try {
+      work();
+      return false;
+    } catch (const KeepAndStop&) {
+      return true;
+    }
+  }
+
+  const AcquisitionSettings& settings_;
+  References references_;
+  Photographer photographer_;
+  Watch watch_;
+};
+
 }  // namespace
 
-std::vector<std::string> problems(const AcquisitionSettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.relativeThreshold > 0.0 && settings.relativeThreshold < 1.0))
-    found.push_back(fmt::format("the relative threshold must lie between 0 and 1, not at {}",
-                                settings.relativeThreshold));
-  if (!(settings.noiseSigmas > 0.0))
-    found.push_back(
-        fmt::format("the noise threshold must be above 0 standard deviations, not {}", settings.noiseSigmas));
-  if (!(settings.dimShare >= 0.0 && settings.dimShare <= 1.0))
-    found.push_back(
-        fmt::format("the share for dim pixels must lie between 0 and 1, not at {}", settings.dimShare));
-  if (settings.references < 1)
-    found.push_back(fmt::format("at least one reference shot is needed, not {}", settings.references));
-  if (settings.verificationPatterns < 0)
-    found.push_back(
-        fmt::format("the number of verification patterns cannot be {}", settings.verificationPatterns));
-  if (!(settings.flagRelative > 0.0 && settings.flagSigmas > 0.0))
-    found.push_back(fmt::format("the limits for flagging must be above 0, not {} and {}",
-                                settings.flagRelative, settings.flagSigmas));
-  return found;
+Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
+                    const AlarmHandler& handler, Progress& progress) {
+  std::vector<std::string> wrong = problems(settings);
+  require(wrong.empty(), "{}", fmt::join(wrong, "; "));
+  Linearization used = linearization;
+  if (settings.singleExposure) used.exposures = {used.exposures.back()};
+  int shotsBefore = shots.shots(), exposuresBefore = shots.exposures();
+  Decisions decisions{handler, {}};
+  while (true) {
+    try {
+      Acquisition result = Measurement(shots, used, settings, decisions).run(progress);
+      result.patterns = shots.shots() - shotsBefore;
+      result.exposures = shots.exposures() - exposuresBefore;
+      return result;
+    } catch (const BeginAgain&) {
+      shots.goBackTo(shotsBefore);
+    }
+  }
 }
 
 Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
                     Progress& progress) {
-  std::vector<std::string> wrong = problems(settings);
-  require(wrong.empty(), "{}", fmt::join(wrong, "; "));
-  int shotsBefore = shots.shots(), exposuresBefore = shots.exposures();
-  Photographer photographer(shots, linearization);
-
-  Progress referencePart = progress.part(referenceShare, "black and full light");
-  References references =
-      measureReferences(photographer, settings.references, settings.dimShare, referencePart);
-  Progress treePart = progress.part(treeShare, "light transport");
-  Tree tree = measureTree(photographer, references, settings, treePart);
-
-  Acquisition result;
-  fillReferences(result, references);
-  result.transport =
-      TransportMatrix(photographer.cameras(), photographer.projectors(), harvest(tree, references));
-  result.unresolvedEnergy = unresolvedEnergy(result.transport, result.flood);
-
-  Progress verificationPart = progress.part(verificationShare, "test patterns");
-  Verification verification = verify(result.transport, photographer, references, settings, verificationPart);
-  result.verificationError = verification.error;
-  result.flagged = std::move(verification.flagged);
-  for (std::size_t row = 0; row < result.flagged.size(); ++row)
-    if (!references.usable[row] || tree.unknown[row]) result.flagged[row] = 1;
-
-  Progress driftPart = progress.part(1.0, "black and full light again");
-  double drift = driftBetween(references, measureReferences(photographer, 1, settings.dimShare, driftPart));
-  auto rows = static_cast<double>(references.usable.size());
-  addFindings(result, 1.0 - static_cast<double>(countOf(references.usable)) / rows, drift);
-  result.patterns = shots.shots() - shotsBefore;
-  result.exposures = shots.exposures() - exposuresBefore;
-  return result;
+  return acquire(shots, linearization, settings, {}, progress);
 }
 
 }  // namespace relucent

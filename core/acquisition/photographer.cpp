@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acquisition/bracket.h"
 #include "base/error.h"
 #include "base/parallel.h"
 
@@ -147,6 +148,7 @@ HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& dem
     shot.frames.push_back(std::move(again.frames.front()));
     frame = mergeBracket(shot, linearization_.cameras, cameras_);
   }
+  contradiction_ = bracketContradiction(shot, linearization_.cameras);
   return frame;
 }
 
@@ -156,7 +158,9 @@ HdrFrame Photographer::takeAll(const Stack& pattern, const Progress& progress) {
     encoded.push_back(imageFromStack(pattern, projectors_, projector));
   std::vector<std::size_t> all(linearization_.exposures.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  return mergeBracket(shoot(encoded, all, progress), linearization_.cameras, cameras_);
+  Shot shot = shoot(encoded, all, progress);
+  contradiction_ = bracketContradiction(shot, linearization_.cameras);
+  return mergeBracket(shot, linearization_.cameras, cameras_);
 }
 
 }  // namespace relucent

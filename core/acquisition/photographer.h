@@ -31,6 +31,9 @@ class Photographer {
   /// With every exposure there is.
   HdrFrame takeAll(const Stack& pattern, const Progress& progress);
 
+  /// How much the exposures of the last photograph contradict each other, see bracket.h.
+  double contradiction() const { return contradiction_; }
+
   /// Standard deviation of one camera pixel's radiance at an exposure of the list.
   double deviation(std::size_t row, double radiance, std::size_t exposure) const;
 
@@ -49,7 +52,8 @@ class Photographer {
   Rasters cameras_;
   Rasters projectors_;
   std::vector<std::uint8_t> cameraOf_;  // per row
-  std::vector<double> saturation_;      // per camera: linear signal that no channel should reach
+  double contradiction_ = 0.0;
+  std::vector<double> saturation_;  // per camera: linear signal that no channel should reach
 };
 
 }  // namespace relucent

@@ -36,6 +36,31 @@ void addFlood(References& references, std::size_t projector, std::size_t channel
   });
 }
 
+/// Standard deviation of the floods' total light from round to round about a straight line, relative.
+double flickerIn(const std::vector<std::vector<HdrFrame>>& floods) {
+  double squares = 0.0;
+  std::size_t freedom = 0;
+  for (const std::vector<HdrFrame>& rounds : floods) {
+    if (rounds.size() < 3) continue;
+    std::vector<double> total;
+    for (const HdrFrame& frame : rounds)
+      total.push_back(std::accumulate(frame.radiance.begin(), frame.radiance.end(), 0.0));
+    auto n = static_cast<double>(total.size());
+    double mean = std::accumulate(total.begin(), total.end(), 0.0) / n, slope = 0.0, spread = 0.0;
+    for (std::size_t i = 0; i < total.size(); ++i) {
+      double at = static_cast<double>(i) - 0.5 * (n - 1.0);
+      slope += at * total[i];
+      spread += at * at;
+    }
+    for (std::size_t i = 0; i < total.size(); ++i) {
+      double line = mean + slope / spread * (static_cast<double>(i) - 0.5 * (n - 1.0));
+      if (mean > 0.0) squares += std::pow(total[i] / mean - line / mean, 2.0);
+    }
+    freedom += total.size() - 2;
+  }
+  return freedom > 0 ? std::sqrt(squares / static_cast<double>(freedom)) : 0.0;
+}
+
 /// The brightness above which half of all light lies: it does not ask how much of the camera's view is
 /// dark, nor what a few highlights hold.
 float typicalOf(std::vector<float> brightness) {
@@ -61,7 +86,8 @@ void findScales(References& references, double dimShare) {
     references.fullScale[row] = std::max(headroom * sum.cwiseAbs().maxCoeff(),
                                          headroomSigmas * std::sqrt(std::max(0.0f, variance.maxCoeff())));
   });
-  auto dimmest = static_cast<float>(dimShare) * typicalOf(references.strongest);
+  references.typical = typicalOf(references.strongest);
+  auto dimmest = static_cast<float>(dimShare) * references.typical;
   for (float& strongest : references.strongest) strongest = std::max(strongest, dimmest);
 }
 
@@ -93,19 +119,8 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   references.rootVariance = references.root;
   for (std::size_t i = 0; i < floods; ++i) addFlood(references, i / 3, i % 3, meanOf(frames[1 + i]));
   findScales(references, dimShare);
+  references.flicker = flickerIn({frames.begin() + 1, frames.end()});
   return references;
-}
-
-double driftBetween(const References& first, const References& last) {
-  double before = 0.0, after = 0.0;
-  for (std::size_t projector = 0; projector < first.root.size(); ++projector) {
-    for (std::size_t row = 0; row < first.usable.size(); ++row) {
-      if (!first.usable[row] || !last.usable[row]) continue;
-      before += static_cast<double>(first.root[projector][row].sum());
-      after += static_cast<double>(last.root[projector][row].sum());
-    }
-  }
-  return before > 0.0 ? after / before - 1.0 : 0.0;
 }
 
 }  // namespace relucent

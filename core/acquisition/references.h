@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "acquisition/acquisition.h"
 #include "acquisition/photographer.h"
+#include "acquisition/settings.h"
+#include "transport/block_sparse.h"
 
 namespace relucent {
 
@@ -16,15 +17,14 @@ struct References {
   std::vector<std::vector<ColourBlock>> rootVariance;
   std::vector<std::uint8_t> usable;  // per row: 0 where even the shortest exposure was saturated
   std::vector<float>
-      strongest;  // F per row: the largest entry of the sum of all roots, not below the dimmest
+      strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest
+  double flicker = 0.0;  // deviation of equal patterns' total light, relative, drift taken out
+  float typical = 0.0f;  // the F above which half of all light lies
   std::vector<float> fullScale;  // per row: the largest magnitude that T may hold there
 };
 
 /// `rounds` shots of each, black and floods in turn, so that slow drift is the same in all of them.
 /// `dimShare`: see AcquisitionSettings.
 References measureReferences(Photographer& photographer, int rounds, double dimShare, Progress& progress);
-
-/// The change of the total light between two measurements, relative.
-double driftBetween(const References& first, const References& last);
 
 }  // namespace relucent

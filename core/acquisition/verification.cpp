@@ -2,8 +2,10 @@
 #include "acquisition/verification.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "acquisition/scheme.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
@@ -29,13 +31,6 @@ Prediction predict(const TransportMatrix& transport, std::size_t row, const Stac
   return prediction;
 }
 
-/// Sums over the patterns, per camera pixel.
-struct Residual {
-  double squared = 0.0;   // of measured - predicted
-  double variance = 0.0;  // expected of that, from noise alone
-  double light = 0.0;     // squared, of measured - e
-};
-
 }  // namespace
 
 Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed) {
@@ -60,57 +55,71 @@ Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t s
   return pattern;
 }
 
-Verification verify(const TransportMatrix& transport, Photographer& photographer,
-                    const References& references, const AcquisitionSettings& settings, Progress& progress) {
-  std::size_t rows = references.usable.size();
-  auto tolerable = static_cast<float>(settings.relativeThreshold / settings.noiseSigmas);
-  std::vector<Residual> residual(rows);
-  for (int number = 0; number < settings.verificationPatterns; ++number) {
-    Stack pattern = verificationPattern(photographer.projectors(), number, settings.seed);
+Verification verify(const TransportMatrix& transport, Watch& watch, const References& references,
+                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
+                    Progress& progress) {
+  std::size_t count = rows.size();
+  Scheme scheme = schemeOf(settings, references);
+  std::vector<Residual> residual(count);
+  Verification verification;
+  verification.residual.assign(verificationSizes, Stack(3 * count, 0.0f));
+  std::array<int, verificationSizes> patterns{};
+  bool any = std::any_of(rows.begin(), rows.end(), [](std::uint8_t row) { return row != 0; });
+  for (int number = first; any && number < first + settings.verificationPatterns; ++number) {
+    Stack pattern = verificationPattern(watch.projectors(), number, settings.seed);
     Stack means = transport.layout().means(pattern);
-    std::vector<Prediction> predicted(rows);
-    std::vector<Demand> demands(rows);
-    parallelFor(0, rows, 256, [&](std::size_t row) {
-      if (!references.usable[row]) return;
+    std::vector<Prediction> predicted(count);
+    std::vector<Demand> demands(count);
+    parallelFor(0, count, 256, [&](std::size_t row) {
+      if (!rows[row]) return;
       predicted[row] = predict(transport, row, means);
       float brightest = 0.0f;
       for (std::size_t c = 0; c < 3; ++c)
         brightest = std::max(brightest, references.black.radiance[3 * row + c] + predicted[row].light[c]);
-      demands[row] = {brightest, brightest, tolerable * references.strongest[row]};
+      demands[row] = {brightest, brightest, scheme.tolerable[row]};
     });
 
-    HdrFrame frame = photographer.take(pattern, demands, progress);
-    parallelFor(0, rows, 1024, [&](std::size_t row) {
-      if (!references.usable[row]) return;
+    HdrFrame light = watch.light(pattern, demands, progress);
+    Stack& map = verification.residual[static_cast<std::size_t>(number % verificationSizes)];
+    ++patterns[static_cast<std::size_t>(number % verificationSizes)];
+    parallelFor(0, count, 1024, [&](std::size_t row) {
+      if (!rows[row]) return;
       for (std::size_t c = 0; c < 3; ++c) {
         std::size_t at = 3 * row + c;
-        if (!frame.valid[at]) continue;
-        double light =
-            static_cast<double>(frame.radiance[at]) - static_cast<double>(references.black.radiance[at]);
-        double difference = light - static_cast<double>(predicted[row].light[c]);
+        if (!light.valid[at]) continue;
+        double seen = static_cast<double>(light.radiance[at]);
+        double difference = seen - static_cast<double>(predicted[row].light[c]);
         residual[row].squared += difference * difference;
-        residual[row].light += light * light;
+        residual[row].light += seen * seen;
         residual[row].variance +=
-            static_cast<double>(frame.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise)) +
-            static_cast<double>(references.black.variance[at]);
+            static_cast<double>(light.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise));
+        map[at] += static_cast<float>(difference * difference);
       }
     });
-    progress.report(static_cast<double>(number + 1) / settings.verificationPatterns);
+    progress.report(static_cast<double>(number - first + 1) / settings.verificationPatterns);
   }
+  for (std::size_t size = 0; size < verificationSizes; ++size)
+    for (float& value : verification.residual[size])
+      value = std::sqrt(value / static_cast<float>(std::max(1, patterns[size])));
 
-  Verification verification;
-  verification.flagged.assign(rows, 0);
-  double squared = 0.0, light = 0.0;
-  for (std::size_t row = 0; row < rows; ++row) {
+  verification.flagged.assign(count, 0);
+  for (std::size_t row = 0; row < count; ++row) {
     const Residual& r = residual[row];
-    squared += r.squared;
-    light += r.light;
     double relative = settings.flagRelative * settings.flagRelative;
     double sigmas = settings.flagSigmas * settings.flagSigmas;
     verification.flagged[row] = r.squared > relative * r.light && r.squared > sigmas * r.variance;
   }
-  verification.error = light > 0.0 ? std::sqrt(squared / light) : 0.0;
+  verification.rows = std::move(residual);
   return verification;
+}
+
+double errorOf(const std::vector<Residual>& rows) {
+  double squared = 0.0, light = 0.0;
+  for (const Residual& row : rows) {
+    squared += row.squared;
+    light += row.light;
+  }
+  return light > 0.0 ? std::sqrt(squared / light) : 0.0;
 }
 
 }  // namespace relucent

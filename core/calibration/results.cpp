@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "calibration/results.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/error.h"
@@ -107,6 +108,17 @@ Stack readMaps(const StageResult& result, const std::string& map, const Rasters&
   return stackFromImages(images, cameras);
 }
 
+/// Calibrations of earlier versions lack some.
+bool hasMap(const StageResult& result, const std::string& map) {
+  return std::any_of(result.files.begin(), result.files.end(),
+                     [&](const ResultFile& file) { return file.name == mapName(map, 0); });
+}
+
+/// Verification's residuals by the blocks of its patterns: 1, 2, 4, 8 pixels.
+std::string residualName(std::size_t size) {
+  return fmt::format("residual-{}", std::size_t{1} << size);
+}
+
 /// Flags as a map of three equal channels: 0 or 1.
 Stack flagStack(const std::vector<std::uint8_t>& flags) {
   Stack stack(3 * flags.size());
@@ -161,6 +173,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"projectors", toJson(acquisition.transport.projectors())},
               {"unresolved_energy", acquisition.unresolvedEnergy},
               {"verification_error", acquisition.verificationError},
+              {"remeasured", acquisition.remeasured},
               {"patterns", acquisition.patterns},
               {"exposures", acquisition.exposures},
               {"findings", acquisition.findings},
@@ -171,6 +184,10 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
     writeMaps(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
     writeMaps(path, "flood", acquisition.flood, cameras, radianceUnits);
     writeMaps(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
+    if (!acquisition.leafVariance.empty())
+      writeMaps(path, "leaf-variance", acquisition.leafVariance, cameras, varianceUnits);
+    for (std::size_t size = 0; size < acquisition.residual.size(); ++size)
+      writeMaps(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
     writeMaps(path, "flagged", flagStack(acquisition.flagged), cameras, "1 where verification failed");
   });
 }
@@ -189,6 +206,11 @@ Acquisition loadAcquisition(const StageResult& result) {
     acquisition.blackVariance = readMaps(result, "black-variance", cameras);
     acquisition.flood = readMaps(result, "flood", cameras);
     acquisition.floodVariance = readMaps(result, "flood-variance", cameras);
+    acquisition.remeasured = values.value("remeasured", 0);
+    if (hasMap(result, "leaf-variance"))
+      acquisition.leafVariance = readMaps(result, "leaf-variance", cameras);
+    for (std::size_t size = 0; hasMap(result, residualName(size)); ++size)
+      acquisition.residual.push_back(readMaps(result, residualName(size), cameras));
     acquisition.flagged = flagsFrom(readMaps(result, "flagged", cameras));
     acquisition.unresolvedEnergy = values.at("unresolved_energy");
     acquisition.verificationError = values.at("verification_error");

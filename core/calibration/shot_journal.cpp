@@ -201,4 +201,13 @@ void ShotJournal::keep(const Shot& shot) {
   writeFileAtomically(pathOf(shot.id, shot.fingerprint), serialise(shot));
 }
 
+void ShotJournal::forget(const ShotId& id, const std::string& fingerprint) {
+  fs::path path = pathOf(id, fingerprint);
+  std::error_code code;
+  fs::remove(path, code);
+  if (code)
+    throw Error(ErrorKind::disk, fmt::format("a photograph cannot be removed ({})", code.message()),
+                "check that the folder may be written to, then go on", path.string());
+}
+
 }  // namespace relucent

@@ -24,6 +24,8 @@ class ShotJournal : public ShotLog {
   std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override;
   /// Throws: Error{disk}; then everything kept before is as it was.
   void keep(const Shot& shot) override;
+  /// Throws: Error{disk}.
+  void forget(const ShotId& id, const std::string& fingerprint) override;
 
   const std::filesystem::path& folder() const { return folder_; }
 

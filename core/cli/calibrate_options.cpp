@@ -12,8 +12,6 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
     Size projector{256, 192};
     Size camera{160, 120};
     std::uint64_t seed = 1;
-    std::string acquisition = "adaptive";
-    std::string colour = "rgb";
   };
   auto command = std::make_shared<Calibrate>();
   auto places = std::make_shared<Places>();
@@ -30,14 +28,24 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   sub->add_option("--seed", places->seed, "Seed of everything random: the same seed gives the same bits")
       ->type_name("N")
       ->capture_default_str();
-  sub->add_option("--acquisition", places->acquisition, "How the light transport is measured")
-      ->check(CLI::IsMember({"adaptive"}))
+  // Before all that changes single settings: a mode sets all of them.
+  sub->add_option_function<std::string>(
+         "--acquisition",
+         [&settings](const std::string& mode) { settings.acquisition = acquisitionMode(mode); },
+         "How the light transport is measured: adaptive; sen, the reference; fast, a first look")
+      ->check(CLI::IsMember(acquisitionModes()))
       ->type_name("MODE")
-      ->capture_default_str();
-  sub->add_option("--colour", places->colour, "Colours that are lit: red, green and blue in turn")
-      ->check(CLI::IsMember({"rgb"}))
-      ->type_name("MODE")
-      ->capture_default_str();
+      ->default_str("adaptive");
+  sub->add_option_function<std::string>(
+         "--colour",
+         [&settings](const std::string& colour) {
+           settings.acquisition.colours = colour == "white" ? LitColours::white : LitColours::rgb;
+         },
+         "Colours that are lit: red, green and blue in turn (rgb) or at once (white); fast lights white")
+      ->check(CLI::IsMember({"rgb", "white"}))
+      ->type_name("MODE");
+  sub->add_flag("--mirrored", settings.acquisition.mayBeMirrored,
+                "Pictures are meant to appear mirrored: rear projection, a mirror");
   sub->add_option("--threshold", settings.acquisition.relativeThreshold,
                   "Faintest light that is followed, as a share of the flood image: 0.006 fine, 0.02 fast")
       ->type_name("SHARE")

@@ -31,8 +31,12 @@ std::uint64_t peakMemory() {
 /// The stages of a calibration, each taken from the folder where it is done already.
 class Calibrating {
  public:
-  Calibrating(CalibrationFolder& folder, OpenedRig& devices)
-      : folder_(folder), devices_(devices), journal_(folder.shotFolder()), settings_(settingsOf(folder)) {}
+  Calibrating(CalibrationFolder& folder, OpenedRig& devices, const AlarmHandler& handler)
+      : folder_(folder),
+        devices_(devices),
+        handler_(handler),
+        journal_(folder.shotFolder()),
+        settings_(settingsOf(folder)) {}
 
   CalibrateResult run(Progress& progress) {
     MeasuredCalibration measured;
@@ -76,7 +80,7 @@ class Calibrating {
     if (auto done = folder_.find(stage::acquisition, inputs)) return loadAcquisition(*done);
     auto begin = Clock::now();
     ShotTaker shots(devices_.rig, journal_, stage::acquisition);
-    Acquisition acquisition = acquire(shots, linearization, settings_.acquisition, progress);
+    Acquisition acquisition = acquire(shots, linearization, settings_.acquisition, handler_, progress);
     storeAcquisition(folder_, inputs, acquisition, cost(begin, &shots));
     return acquisition;
   }
@@ -100,32 +104,44 @@ class Calibrating {
 
   CalibrationFolder& folder_;
   OpenedRig& devices_;
+  const AlarmHandler& handler_;
   ShotJournal journal_;
   CalibrateSettings settings_;
 };
 
-CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, Progress& progress) {
+CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, const AlarmHandler& handler,
+                          Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   Progress opening = progress.part(0.2, "Preparing the devices");
   OpenedRig devices = openRig(settings.rig, cache, opening);
   opening.report(1.0);
   Progress measuring = progress.part(0.8, "Calibrating");
-  return Calibrating(folder, devices).run(measuring);
+  return Calibrating(folder, devices, handler).run(measuring);
 }
 
 }  // namespace
 
 CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
-                          Progress& progress) {
+                          const AlarmHandler& handler, Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
   CalibrationFolder folder = CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
-  return runStages(folder, cache, progress);
+  return runStages(folder, cache, handler, progress);
+}
+
+CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
+                          Progress& progress) {
+  return calibrate(path, settings, cache, {}, progress);
+}
+
+CalibrateResult resume(const fs::path& path, const fs::path& cache, const AlarmHandler& handler,
+                       Progress& progress) {
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+  return runStages(folder, cache, handler, progress);
 }
 
 CalibrateResult resume(const fs::path& path, const fs::path& cache, Progress& progress) {
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
-  return runStages(folder, cache, progress);
+  return resume(path, cache, {}, progress);
 }
 
 }  // namespace relucent

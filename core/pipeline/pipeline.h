@@ -73,11 +73,18 @@ struct CalibrateResult {
 /// Throws: Error{input} if `folder` already holds a calibration or anything else; Error{device, input, disk}.
 CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
                           const std::filesystem::path& cache, Progress& progress);
+/// The same with somebody to ask when a sentinel finds something wrong while the light transport is measured
+/// (acquisition/alarm.h); with nobody, that is Error{device}, and resume() goes on from what is safe.
+CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
+                          const std::filesystem::path& cache, const AlarmHandler& handler,
+                          Progress& progress);
 
 /// Goes on where an interrupted calibration stopped, with the settings it was begun with. A finished one is
 /// reported as it is. Ends in the same bits as an uninterrupted run.
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
                        Progress& progress);
+CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
+                       const AlarmHandler& handler, Progress& progress);
 
 struct CompensateSettings {
   std::filesystem::path image;     // content, sRGB file or linear EXR

@@ -9,9 +9,13 @@ namespace relucent {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Size, width, height)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(LinearizationSettings, levels, shadowPower, noisePairs,
                                                 additivityLimit, seed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, relativeThreshold, dimShare, noiseSigmas,
-                                                references, verificationPatterns, flagRelative, flagSigmas,
-                                                seed)
+NLOHMANN_JSON_SERIALIZE_ENUM(AcquisitionScheme,
+                             {{AcquisitionScheme::adaptive, "adaptive"}, {AcquisitionScheme::sen, "sen"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(LitColours, {{LitColours::rgb, "rgb"}, {LitColours::white, "white"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, scheme, colours, singleExposure,
+                                                relativeThreshold, absoluteThreshold, dimShare, noiseSigmas,
+                                                references, checkInterval, mayBeMirrored,
+                                                verificationPatterns, flagRelative, flagSigmas, seed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,

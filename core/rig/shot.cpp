@@ -27,8 +27,8 @@ Shot ShotTaker::take(const std::vector<Image>& encodedPatterns, const std::vecto
   require(!exposures.empty(), "a shot needs an exposure");
   progress.checkpoint();
 
-  Shot shot{{stage_, next_++}, fingerprintOf(encodedPatterns, exposures), {}, exposures};
-  exposures_ += static_cast<int>(exposures.size());
+  Shot shot{{stage_, shots()}, fingerprintOf(encodedPatterns, exposures), {}, exposures};
+  taken_.push_back({shot.fingerprint, static_cast<int>(exposures.size())});
   if (std::optional<Shot> kept = log_.find(shot.id, shot.fingerprint)) return *std::move(kept);
 
   for (std::size_t projector = 0; projector < rig_.projectors.size(); ++projector)
@@ -43,6 +43,23 @@ Shot ShotTaker::take(const std::vector<Image>& encodedPatterns, const std::vecto
   }
   log_.keep(shot);
   return shot;
+}
+
+int ShotTaker::exposures() const {
+  int sum = 0;
+  for (const Taken& taken : taken_) sum += taken.exposures;
+  return sum;
+}
+
+void ShotTaker::goBackTo(int shot) {
+  require(shot >= 0 && shot <= shots(), "no shot {} among {}", shot, shots());
+  taken_.resize(static_cast<std::size_t>(shot));
+}
+
+void ShotTaker::forgetFrom(int shot) {
+  require(shot >= 0 && shot <= shots(), "no shot {} among {}", shot, shots());
+  for (int number = shot; number < shots(); ++number)
+    log_.forget({stage_, number}, taken_[static_cast<std::size_t>(number)].fingerprint);
 }
 
 }  // namespace relucent

@@ -27,6 +27,9 @@ class ShotLog {
   virtual std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) = 0;
   /// On disk when this returns. Throws: Error{disk}.
   virtual void keep(const Shot& shot) = 0;
+  /// Drops a shot that turned out not to be trusted; find() does not find it any more. A log that holds
+  /// shots from one run to the next has to. Throws: Error{disk}.
+  virtual void forget(const ShotId&, const std::string& /*fingerprint*/) {}
 };
 
 /// Keeps nothing: for tests and previews.
@@ -48,17 +51,26 @@ class ShotTaker {
   Shot take(const std::vector<Image>& encodedPatterns, const std::vector<double>& exposures,
             const Progress& progress);
 
+  /// Goes on counting at `shot`, one that was taken before: what the log holds from there is read again.
+  void goBackTo(int shot);
+  /// The log forgets what was taken from `shot` on: the next run, or the same after goBackTo(), takes it
+  /// anew.
+  void forgetFrom(int shot);
+
   const Rig& rig() const { return rig_; }
   /// Shots and single exposures so far, those read from the log included.
-  int shots() const { return next_; }
-  int exposures() const { return exposures_; }
+  int shots() const { return static_cast<int>(taken_.size()); }
+  int exposures() const;
 
  private:
   Rig& rig_;
   ShotLog& log_;
   std::string stage_;
-  int next_ = 0;
-  int exposures_ = 0;
+  struct Taken {
+    std::string fingerprint;
+    int exposures = 0;
+  };
+  std::vector<Taken> taken_;
 };
 
 }  // namespace relucent

@@ -15,12 +15,30 @@ namespace {
 /// exposure, kept for the others.
 class Stage {
  public:
-  explicit Stage(std::shared_ptr<const VenueLight> light) : light_(std::move(light)) {
+  Stage(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults)
+      : light_(std::move(light)), faults_(std::move(faults)) {
     const Rasters& rasters = light_->layout().projectors();
     for (std::size_t i = 0; i < rasters.devices(); ++i) shown_.emplace_back(rasters.size(i), 3);
   }
 
   const VenueLight& light() const { return *light_; }
+  /// Mean radiance at full light.
+  double full() {
+    std::call_once(fullMade_, [&] {
+      Stack flood = light_->transport().floodlight();
+      for (float value : flood) full_ += static_cast<double>(value) / static_cast<double>(flood.size());
+    });
+    return full_;
+  }
+  std::vector<DeviceFault> faultsDuring(const ShotId& shot) const {
+    return faults_ ? faults_->during(shot) : std::vector<DeviceFault>{};
+  }
+  /// What the camera would see of the projectors' pictures, had they these faults.
+  Stack fromFaultyProjectors(const std::vector<DeviceFault>& faults) {
+    std::vector<Image> shown;
+    for (const Image& picture : shown_) shown.push_back(withFaults(picture, faults));
+    return light_->fromProjectors(shown);
+  }
 
   void show(std::size_t projector, const Image& encodedDrive) {
     std::lock_guard lock(mutex_);
@@ -37,6 +55,9 @@ class Stage {
 
  private:
   std::shared_ptr<const VenueLight> light_;
+  std::shared_ptr<const FaultSchedule> faults_;
+  std::once_flag fullMade_;
+  double full_ = 0.0;
   std::mutex mutex_;
   std::vector<Image> shown_;
   std::shared_ptr<const Stack> current_;
@@ -75,12 +96,22 @@ class SimulatedCamera : public Camera {
     std::shared_ptr<const Stack> fromProjectors = stage_->fromProjectors();
     const Stack& ambient = stage_->light().ambient();
     float power = static_cast<float>(sensor_.lampPower(request));
+    std::vector<DeviceFault> faults = stage_->faultsDuring(request.shot);
+    if (!faults.empty()) return faulty(request, power, faults);
     Stack radiance(ambient.size());
     for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = power * (*fromProjectors)[i] + ambient[i];
     return sensor_.expose(radiance, size(), request);
   }
 
  private:
+  RawFrame faulty(const CaptureRequest& request, float power, const std::vector<DeviceFault>& faults) {
+    Stack light = stage_->fromFaultyProjectors(faults);
+    for (float& value : light) value *= power;
+    Stack view = withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
+                            request.exposure, faults);
+    return sensor_.expose(view, size(), request);
+  }
+
   std::shared_ptr<Stage> stage_;
   SensorModel sensor_;
 };
@@ -88,8 +119,12 @@ class SimulatedCamera : public Camera {
 }  // namespace
 
 Rig simulatedRig(std::shared_ptr<const VenueLight> light) {
+  return simulatedRig(std::move(light), nullptr);
+}
+
+Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults) {
   std::size_t projectors = light->layout().projectors().devices();
-  auto stage = std::make_shared<Stage>(std::move(light));
+  auto stage = std::make_shared<Stage>(std::move(light), std::move(faults));
   Rig rig;
   for (std::size_t i = 0; i < projectors; ++i)
     rig.projectors.push_back(std::make_unique<SimulatedProjector>(stage, i));

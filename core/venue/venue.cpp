@@ -120,6 +120,10 @@ Rig SimulatedVenue::rig() const {
   return simulatedRig(light_);
 }
 
+Rig SimulatedVenue::rig(std::shared_ptr<const FaultSchedule> faults) const {
+  return simulatedRig(light_, std::move(faults));
+}
+
 const TransportMatrix& SimulatedVenue::trueTransport() const {
   return light_->transport();
 }

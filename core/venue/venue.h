@@ -13,6 +13,8 @@
 
 namespace relucent {
 
+struct FaultSchedule;
+
 /// A simulated venue on offer.
 struct VenueDescription {
   std::string name;      // "corner"
@@ -65,6 +67,8 @@ class SimulatedVenue {
   /// Devices as the pipeline sees them. They may outlive this object. Each call gives a new set, showing
   /// black.
   Rig rig() const;
+  /// The same with faults (device_faults.h), which may be changed while the rig is in use.
+  Rig rig(std::shared_ptr<const FaultSchedule> faults) const;
 
   /// The truth, for `evaluate` and tests only.
   /// T: camera signal per second per linear light of the projectors, free of noise. Vignetting is part of it;

@@ -109,6 +109,10 @@ class TestResults : public QObject {
     before.blackVariance = randomStack(cameras.count(), 2);
     before.flood = randomStack(cameras.count(), 3);
     before.floodVariance = randomStack(cameras.count(), 4);
+    before.leafVariance = randomStack(cameras.count(), 5);
+    for (std::uint64_t seed = 6; seed < 10; ++seed)
+      before.residual.push_back(randomStack(cameras.count(), seed));
+    before.remeasured = 3;
     for (std::size_t i = 0; i < cameras.count(); ++i) before.flagged.push_back(i % 7 == 0 ? 1 : 0);
     before.unresolvedEnergy = 1.0 / 3.0;
     before.verificationError = 0.01;
@@ -125,6 +129,9 @@ class TestResults : public QObject {
     QCOMPARE(after.blackVariance, before.blackVariance);
     QCOMPARE(after.flood, before.flood);
     QCOMPARE(after.floodVariance, before.floodVariance);
+    QCOMPARE(after.leafVariance, before.leafVariance);
+    QVERIFY(after.residual == before.residual);
+    QCOMPARE(after.remeasured, before.remeasured);
     QCOMPARE(after.flagged, before.flagged);
     QCOMPARE(after.unresolvedEnergy, before.unresolvedEnergy);
     QCOMPARE(after.verificationError, before.verificationError);

@@ -151,6 +151,16 @@ class TestShotJournal : public QObject {
     QVERIFY(identical(journal.find(first.id, second.fingerprint).value(), second));
   }
 
+  void aForgottenShotIsGoneAndNoOther() {
+    ShotJournal journal(folder_);
+    for (int number : {1, 2, 3}) journal.keep(shotOf(number));
+    journal.forget(shotOf(2).id, shotOf(2).fingerprint);
+    journal.forget(shotOf(9).id, shotOf(9).fingerprint);  // never kept: nothing to do
+    QVERIFY(!journal.find(shotOf(2).id, shotOf(2).fingerprint));
+    QVERIFY(identical(journal.find(shotOf(1).id, shotOf(1).fingerprint).value(), shotOf(1)));
+    QVERIFY(identical(journal.find(shotOf(3).id, shotOf(3).fingerprint).value(), shotOf(3)));
+  }
+
   void aShotKeptAgainReplacesADamagedOne() {
     ShotJournal journal(folder_);
     journal.keep(shotOf(1));

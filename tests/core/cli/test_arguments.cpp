@@ -164,7 +164,7 @@ class TestArguments : public QObject {
     QTest::newRow("unknown option") << QByteArray("calibrate d --fast") << QByteArray("--fast");
     QTest::newRow("no size") << QByteArray("calibrate d --camera big") << QByteArray("'big' is no size");
     QTest::newRow("no number") << QByteArray("calibrate d --seed one") << QByteArray("--seed");
-    QTest::newRow("mode") << QByteArray("calibrate d --acquisition sen") << QByteArray("adaptive");
+    QTest::newRow("mode") << QByteArray("calibrate d --acquisition slow") << QByteArray("adaptive");
     QTest::newRow("method") << QByteArray("compensate d --image a --out b --method clusters")
                             << QByteArray("optimum");
     QTest::newRow("gain") << QByteArray("difference a b --out o.png --gain much") << QByteArray("no gain");

@@ -57,6 +57,9 @@ class MemoryLog : public ShotLog {
     return shot->second;
   }
   void keep(const Shot& shot) override { shots[{shot.id.stage, shot.id.number}] = shot; }
+  void forget(const ShotId& id, const std::string& fingerprint) override {
+    if (find(id, fingerprint)) shots.erase({id.stage, id.number});
+  }
   std::map<std::pair<std::string, int>, Shot> shots;
 };
 
@@ -121,6 +124,29 @@ class TestShotTaker : public QObject {
       QCOMPARE(second[i].fingerprint, first[i].fingerprint);
       QCOMPARE(second[i].frames[0][0].signal, first[i].frames[0][0].signal);
     }
+  }
+
+  void forgottenShotsAreTakenAnew() {
+    MemoryLog log;
+    ShotTaker shots(rig_, log, "acquisition");
+    auto takeAll = [&] {
+      for (float value : {0.0f, 0.5f, 1.0f})
+        shots.take({pattern(value), pattern(0)}, {0.5, 0.25}, Progress());
+    };
+    takeAll();
+    shots.forgetFrom(1);
+    QCOMPARE(log.shots.size(), std::size_t{1});
+    shots.goBackTo(0);
+    QCOMPARE(shots.shots(), 0);
+    QCOMPARE(shots.exposures(), 0);
+    diary_.clear();
+    takeAll();
+    QCOMPARE(diary_.front(), std::string("show 0 0.5"));
+    QCOMPARE(shots.shots(), 3);
+    QCOMPARE(shots.exposures(), 6);
+    QCOMPARE(log.shots.size(), std::size_t{3});
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, shots.goBackTo(4));
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, shots.forgetFrom(-1));
   }
 
   void anInterruptedRunGoesOnWhereItStopped() {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace relucent {
+
+/// What a sentinel can find wrong while the light transport is being measured.
+enum class AlarmKind {
+  flicker,          // the light differs between exposures of one pattern
+  ambientChanged,   // light that is not the projectors'
+  lampChanged,      // the projectors became brighter or dimmer
+  moved,            // a camera or a projector was shifted or turned
+  localChange,      // something stands in part of the view
+  mirroredScreen,   // pictures appear the wrong way round
+  wrongScreen,      // pictures do not appear as they were given
+  coveredLens,      // the camera sees nothing
+  projectorAsleep,  // the projectors show nothing
+};
+
+/// A finding that pauses the measurement.
+struct Alarm {
+  AlarmKind kind = AlarmKind::flicker;
+  std::string what;    // what happened
+  std::string safe;    // which photographs are safe
+  std::string advice;  // what to do
+
+  std::string sentence() const { return what + "; " + safe + "; " + advice; }
+};
+
+/// Retry: what is not safe is photographed again, from devices that have been put right.
+/// Skip: this finding is put up with; the next check looks again.
+/// Keep and stop: ends with what is safe, a valid but coarser T.
+enum class Answer { retry, skip, keepAndStop };
+
+/// Asked while the measurement waits. Empty: nobody is there; the measurement stops with Error{device} after
+/// forgetting what is not safe, so that running it again goes on from there.
+using AlarmHandler = std::function<Answer(const Alarm&)>;
+
+}  // namespace relucent

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "transport/block_sparse.h"
+
+namespace relucent {
+
+/// A value with its variance, for all nine channel pairs.
+struct Estimate {
+  ColourBlock value = ColourBlock::Zero();
+  ColourBlock variance = ColourBlock::Zero();
+};
+
+/// Makes measured children agree with their measured parent: the least squares solution of
+///   sum of children = parent,
+/// each side trusted by its variance. Without it the noise of a row's sum grows with its leaves, and an
+/// error that all children share, such as that of e, adds up.
+void reconcile(const Estimate& parent, std::span<Estimate> children);
+
+}  // namespace relucent

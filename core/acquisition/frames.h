@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acquisition/schedule.h"
+#include "transport/node_layout.h"
+
+namespace relucent {
+
+/// The child of `parent` in a quadrant, 0 to 3 row by row, if it is not cut off by the border.
+bool childOf(const NodeLayout& layout, const Node& parent, int quadrant, Node& child);
+
+/// A camera pixel and the one of its active nodes that a colour lights.
+struct Seen {
+  std::uint32_t row;
+  std::uint32_t pair;
+};
+
+/// The active pairs, colour after colour.
+struct PairsByColour {
+  PairsByColour(const BlockSparse& active, const Schedule& schedule);
+  std::span<const Seen> of(std::uint32_t colour) const {
+    return {seen.data() + start[colour], start[colour + 1] - start[colour]};
+  }
+
+  std::vector<std::size_t> start;
+  std::vector<Seen> seen;
+};
+
+/// Which projector pixels a colour lights in a quadrant, one value a pixel. Empty: none.
+std::vector<std::uint8_t> litPixels(const Schedule& schedule, const NodeLayout& layout, std::uint32_t colour,
+                                    int quadrant);
+
+/// The share of every node's block that is lit.
+std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const NodeLayout& layout);
+
+/// Quadrants of colours that light anything: the patterns of one level, in one light.
+int framesOf(const Schedule& schedule, const NodeLayout& layout, int level);
+
+}  // namespace relucent

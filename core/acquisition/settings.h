@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace relucent {
+
+/// What decides which nodes of the tree are divided and what is stored: see scheme.h.
+enum class AcquisitionScheme { adaptive, sen };
+/// Light that patterns are shown in: red, green and blue in turn, or white, unmixed afterwards.
+enum class LitColours { rgb, white };
+
+struct AcquisitionSettings {
+  AcquisitionScheme scheme = AcquisitionScheme::adaptive;
+  LitColours colours = LitColours::rgb;
+  bool singleExposure = false;       // only the shortest: quick, noisy where it is dim
+  double relativeThreshold = 0.008;  // tau_i = max(this * F_i, noise floor); 0.006 fine, 0.02 fast
+  double absoluteThreshold = 0.0;    // of sen, radiance; 0: what adaptive follows in the dimmest pixels
+  double dimShare = 0.2;     // pixels dimmer than this share of the typical F are resolved as if they had it
+  double noiseSigmas = 4.0;  // the noise floor of tau, in standard deviations of a frame
+  int references = 4;        // black and flood shots averaged
+  int checkInterval = 40;    // shots between two checks of e, the lamp and the view
+  bool mayBeMirrored = false;    // pictures are meant to appear mirrored: rear projection, a mirror
+  int verificationPatterns = 8;  // held-out random patterns, block sizes 1, 2, 4, 8
+  double flagRelative = 0.1;     // a pixel is flagged when its residual exceeds this share of its light
+  double flagSigmas = 3.0;       // and this many standard deviations
+  std::uint64_t seed = 1;        // of the verification patterns
+};
+/// Sentences about what is wrong with settings; empty: nothing.
+std::vector<std::string> problems(const AcquisitionSettings& settings);
+
+/// The names of the modes on offer: "adaptive", the default; "sen", the reference of the literature; "fast",
+/// a first look: adaptive, white, one exposure, a looser threshold, fewer references.
+const std::vector<std::string>& acquisitionModes();
+/// Contract: a name from acquisitionModes().
+AcquisitionSettings acquisitionMode(std::string_view name);
+
+}  // namespace relucent

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "acquisition/children.h"
+#include "acquisition/scheme.h"
+#include "transport/node_layout.h"
+
+namespace relucent {
+
+/// Variance of a row's leaves, per camera channel: the mean over leaves and projector channels.
+struct LeafNoise {
+  std::array<float, 3> sum{};
+  float leaves = 0.0f;
+
+  void add(const ColourBlock& variance) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += variance.row(static_cast<Eigen::Index>(c)).mean();
+    leaves += 1.0f;
+  }
+};
+
+/// The light transport as far as it is known: every camera pixel's projector pixels are covered by its
+/// leaves, which are done, and its active nodes, which are to be divided.
+struct Tree {
+  NodeLayout layout;
+  std::vector<BlockSparse> leaves;  // one matrix a level measured, all rows x all nodes, one scale a row
+  BlockSparse active;               // (camera pixel, node) pairs of the level under way, with their values
+  BlockSparse spread;               // their standard deviations
+  // What rounding the row's leaves has left over so far, handed on to the next: many leaves below half a
+  // code would otherwise all be lost.
+  std::vector<ColourBlock> rounding;
+  std::vector<LeafNoise> leafNoise;   // per row
+  std::vector<std::uint8_t> wanted;   // per row: takes part
+  std::vector<std::uint8_t> unknown;  // per row: some light was too bright for every exposure
+};
+
+/// A tree of no nodes.
+Tree emptyTree(const NodeLayout& layout, const References& references);
+
+/// Adds the roots of the projectors whose pyramid ends at `level`: active where they matter, else leaves.
+void plantRoots(Tree& tree, int level, const References& references, const Scheme& scheme);
+
+/// Standard deviations as codes, never zero: they stand beside an active pair's value.
+BlockSparseWriter::Code spreadCode(const ColourBlock& variance, float scale);
+
+/// Sorts measured children into leaves and the next level's active nodes.
+void adopt(Tree& tree, const Children& children, const References& references);
+
+/// Turns what is active into leaves, at the level where it stands.
+void stopDividing(Tree& tree);
+
+/// All leaves in one matrix; empties the tree.
+BlockSparse harvest(Tree& tree, const References& references);
+
+}  // namespace relucent

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+
+#include "acquisition/inspection.h"
+#include "acquisition/photographer.h"
+
+namespace relucent {
+
+/// What was decided about alarms; outlives a measurement that begins again.
+struct Decisions {
+  AlarmHandler handler;
+  std::set<int> skipped;  // numbers of shots whose alarm was put up with
+};
+
+/// Thrown out of a measurement whose doubtful shots have been forgotten: it is to begin again.
+struct BeginAgain {};
+/// Thrown out of a measurement that is to end with what was safe before the level under way.
+struct KeepAndStop {};
+
+/// Photographs while watching. Every `checkInterval` shots, and whenever check() is called, black and the
+/// reference picture are photographed:
+/// - e becomes the mean of all blacks so far or, where it has changed, the new one;
+/// - the lamp's power follows from the reference picture, continued as a straight line until the next check;
+/// - sentinels compare the view with the first one, see inspection.h. On an alarm the handler is asked.
+/// Frames come out as light: less e, in units of the lamp's power at the first check.
+class Watch {
+ public:
+  /// Keeps references; e in `references` follows the checks.
+  Watch(Photographer& photographer, ShotTaker& shots, References& references,
+        const AcquisitionSettings& settings, Decisions& decisions);
+
+  const Rasters& cameras() const { return photographer_.cameras(); }
+  const Rasters& projectors() const { return photographer_.projectors(); }
+
+  /// The first look: which way round pictures appear, what the view is compared with later.
+  void begin(const Progress& progress);
+  /// Throws: BeginAgain, KeepAndStop; Error{device} if an alarm has nobody to handle it.
+  void check(const Progress& progress);
+
+  /// Light of a pattern, see Photographer::take. Throws: as check().
+  HdrFrame light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress);
+  HdrFrame lightOfAll(const Stack& pattern, const Progress& progress);
+
+  /// Power of the lamp now, relative to the first check.
+  double power() const;
+
+ private:
+  struct Power {
+    int shot = 0;
+    double value = 1.0;
+  };
+  Check photographCheck(const Progress& progress);
+  /// Asks what to do about an alarm of the shots from `doubtful` on.
+  void handle(const Alarm& alarm, int doubtful);
+  void checkIfDue(const Progress& progress);
+  /// Exposures of one pattern that contradict each other are an alarm of their own.
+  void inspectBracket();
+  void follow(const Check& check);
+  HdrFrame lightOf(HdrFrame frame) const;
+
+  Photographer& photographer_;
+  ShotTaker& shots_;
+  References& references_;
+  const AcquisitionSettings& settings_;
+  Decisions& decisions_;
+  Check first_;
+  Power last_, beforeLast_;
+  int trusted_ = 0;  // shots before this one have been confirmed by a check
+};
+
+}  // namespace relucent

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include <QtTest>
+#include <cmath>
+#include <numeric>
+
+#include "acquisition_run.h"
+#include "base/error.h"
+#include "venue/device_faults.h"
+#include "venue/venue.h"
+
+using namespace relucent;
+using namespace relucent::test;
+
+namespace {
+
+constexpr const char* stage = "acquisition";
+
+/// Runs of acquisition in a traced venue whose devices can be given faults.
+class FaultyVenue {
+ public:
+  FaultyVenue() : venue_(settings(), {}, progress_) {
+    const DeviceModelSettings& devices = venue_.settings().devices;
+    double rounding = 1.0 / 4095.0;
+    linearization_.exposures = {1.0 / 8.0, 1.0 / 75.0};
+    linearization_.cameras.resize(1);
+    linearization_.cameras[0].gain = 1.0 / devices.fullWell;
+    linearization_.cameras[0].readNoise =
+        std::hypot(devices.readElectrons / devices.fullWell, rounding / std::sqrt(12.0));
+    acquisition_.relativeThreshold = 0.05;
+    acquisition_.references = 3;
+    acquisition_.verificationPatterns = 4;
+  }
+
+  Acquisition run(const AlarmHandler& handler, ShotLog& log) {
+    Rig rig = venue_.rig(faults);
+    ShotTaker shots(rig, log, stage);
+    return acquire(shots, linearization_, acquisition_, handler, progress_);
+  }
+  /// Without faults, once.
+  const Acquisition& sound() {
+    if (!sound_) {
+      MemoryLog log;
+      auto kept = std::exchange(faults->faults, {});
+      sound_ = run({}, log);
+      faults->faults = std::move(kept);
+    }
+    return *sound_;
+  }
+
+  std::shared_ptr<FaultSchedule> faults = std::make_shared<FaultSchedule>();
+
+ private:
+  static VenueSettings settings() {
+    VenueSettings settings;
+    settings.name = "corner";
+    settings.projector = {48, 36};
+    settings.camera = {48, 36};
+    settings.pathsPerPixel = 16;
+    return settings;
+  }
+
+  Progress progress_;
+  SimulatedVenue venue_;
+  Linearization linearization_;
+  AcquisitionSettings acquisition_;
+  std::optional<Acquisition> sound_;
+};
+
+DeviceFault fault(FaultKind kind, int first, double amount = 0.0, double degrees = 0.0) {
+  DeviceFault fault;
+  fault.kind = kind;
+  fault.stage = stage;
+  fault.first = first;
+  fault.last = 100000;
+  fault.amount = amount;
+  fault.degrees = degrees;
+  return fault;
+}
+
+DeviceFault handOver(int first) {
+  DeviceFault hand = fault(FaultKind::hand, first);
+  hand.x0 = 0.3, hand.x1 = 0.5, hand.y0 = 0.4, hand.y1 = 0.7;
+  return hand;
+}
+
+}  // namespace
+
+Q_DECLARE_METATYPE(DeviceFault)
+Q_DECLARE_METATYPE(AlarmKind)
+
+class TestSentinels : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() {
+    venue_ = std::make_unique<FaultyVenue>();
+    // Shot 12 on is after the floods of 3 rounds, shot 60 amid the tree.
+    QVERIFY2(venue_->sound().patterns > 100, qPrintable(QString::number(venue_->sound().patterns)));
+    qInfo("%d patterns, %d exposures, verification %.4f", venue_->sound().patterns, venue_->sound().exposures,
+          venue_->sound().verificationError);
+  }
+
+  void faults_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    QTest::addColumn<AlarmKind>("kind");
+    QTest::newRow("flicker") << fault(FaultKind::flicker, 60, 0.1) << AlarmKind::flicker;
+    QTest::newRow("ambient") << fault(FaultKind::ambient, 60, 0.05) << AlarmKind::ambientChanged;
+    QTest::newRow("shifted camera") << fault(FaultKind::shiftedCamera, 60, 2.0) << AlarmKind::moved;
+    QTest::newRow("turned camera") << fault(FaultKind::shiftedCamera, 60, 0.0, 4.0) << AlarmKind::moved;
+    QTest::newRow("mirrored screen") << fault(FaultKind::mirroredScreen, 0) << AlarmKind::mirroredScreen;
+    QTest::newRow("covered lens") << fault(FaultKind::coveredLens, 60) << AlarmKind::coveredLens;
+    QTest::newRow("sleeping projector")
+        << fault(FaultKind::asleepProjector, 60) << AlarmKind::projectorAsleep;
+    QTest::newRow("something in the view") << handOver(60) << AlarmKind::localChange;
+  }
+
+  /// Whatever happened, once it is put right and tried again the transport is the same to the bit.
+  void aFaultIsFoundAndLeavesNoTraceAfterRetry_data() { faults_data(); }
+  void aFaultIsFoundAndLeavesNoTraceAfterRetry() {
+    QFETCH(DeviceFault, fault);
+    QFETCH(AlarmKind, kind);
+    venue_->faults->faults = {fault};
+    std::vector<Alarm> alarms;
+    MemoryLog log;
+    Acquisition a = venue_->run(
+        [&](const Alarm& alarm) {
+          alarms.push_back(alarm);
+          venue_->faults->faults.clear();
+          return Answer::retry;
+        },
+        log);
+    QCOMPARE(alarms.size(), std::size_t{1});
+    QVERIFY2(alarms[0].kind == kind, alarms[0].sentence().c_str());
+    QVERIFY(!alarms[0].what.empty() && !alarms[0].safe.empty() && !alarms[0].advice.empty());
+    QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+    QVERIFY(a.black == venue_->sound().black && a.flagged == venue_->sound().flagged);
+    QCOMPARE(a.patterns, venue_->sound().patterns);
+  }
+
+  /// With nobody to ask it stops; what is kept is safe, and running it again goes on from there.
+  void withNobodyToAskItStopsAndCanBeResumed_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    QTest::newRow("from the first shot on") << fault(FaultKind::mirroredScreen, 0);
+    QTest::newRow("found by one photograph") << fault(FaultKind::flicker, 60, 0.1);
+    QTest::newRow("found by a check") << fault(FaultKind::shiftedCamera, 60, 2.0);
+  }
+  void withNobodyToAskItStopsAndCanBeResumed() {
+    QFETCH(DeviceFault, fault);
+    venue_->faults->faults = {fault};
+    MemoryLog log;
+    try {
+      venue_->run({}, log);
+      QFAIL("no error");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::device);
+      QVERIFY(!error.advice().empty());
+    }
+    for (const auto& [number, shot] : log.shots) QVERIFY(number < std::max(1, fault.first));
+    venue_->faults->faults.clear();
+    Acquisition a = venue_->run({}, log);
+    QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+  }
+
+  /// A little more light in the room, too little to stop for, is part of e from the next check on.
+  void ambientLightIsFollowed() {
+    venue_->faults->faults = {fault(FaultKind::ambient, 60, 0.0015)};
+    NoShotLog log;
+    Acquisition a = venue_->run({}, log);
+    auto mean = [](const Stack& stack) {
+      return std::accumulate(stack.begin(), stack.end(), 0.0) / static_cast<double>(stack.size());
+    };
+    double rise = (mean(a.black) - mean(venue_->sound().black)) / mean(venue_->sound().flood);
+    QVERIFY2(std::abs(rise / 0.0015 - 1.0) < 0.2, qPrintable(QString::number(rise)));
+    QVERIFY2(a.verificationError < 1.2 * venue_->sound().verificationError,
+             qPrintable(QString::number(a.verificationError)));
+  }
+
+  void skippingGoesOn() {
+    venue_->faults->faults = {fault(FaultKind::ambient, 60, 0.05)};
+    int alarms = 0;
+    NoShotLog log;
+    Acquisition a = venue_->run(
+        [&](const Alarm&) {
+          ++alarms;
+          return Answer::skip;
+        },
+        log);
+    // Put up with once, the light that is there now is the one expected from then on.
+    QCOMPARE(alarms, 1);
+    QVERIFY(a.transport.leaves().blocks() > 0);
+  }
+
+  void keepingEndsWithWhatIsSafe() {
+    venue_->faults->faults = {fault(FaultKind::coveredLens, 100)};
+    NoShotLog log;
+    Acquisition a = venue_->run([&](const Alarm&) { return Answer::keepAndStop; }, log);
+    QVERIFY(a.patterns < venue_->sound().patterns);
+    QVERIFY(a.transport.leaves().blocks() > 0);
+    QVERIFY(std::abs(a.unresolvedEnergy) < 0.01);
+    QVERIFY(finestLevel(a.transport) > finestLevel(venue_->sound().transport));
+  }
+
+  /// A flash or a hand during a few photographs of a level, gone before the next check.
+  void whatPassedByIsMeasuredAgain_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    DeviceFault hand = handOver(80);
+    hand.last = 84;
+    QTest::newRow("hand") << hand;
+    DeviceFault staying = hand;
+    staying.last = 200;
+    QTest::newRow("a hand that stays") << staying;
+    DeviceFault flash = hand;
+    flash.kind = FaultKind::flash;
+    flash.amount = 20.0;
+    flash.last = 81;
+    QTest::newRow("flash") << flash;
+  }
+  void whatPassedByIsMeasuredAgain() {
+    QFETCH(DeviceFault, fault);
+    venue_->faults->faults = {fault};
+    NoShotLog log;
+    Acquisition a = venue_->run([](const Alarm&) { return Answer::skip; }, log);
+    qInfo("%d patterns for %d, %d measured again, verification %.4f for %.4f, %zu flagged", a.patterns,
+          venue_->sound().patterns, a.remeasured, a.verificationError, venue_->sound().verificationError,
+          flaggedIn(a));
+    QVERIFY(a.patterns > venue_->sound().patterns || a.remeasured > 0);
+    // Longer than taking the same frames again lasts, it is found by verification.
+    if (fault.last > 100) QVERIFY(a.remeasured > 0);
+    QVERIFY(flaggedIn(a) <= flaggedIn(venue_->sound()) + 2);
+    // A hand over 6 % of the view; what is below the flags' limit, a tenth of a pixel's light, may stay:
+    // sqrt(0.06) * 0.1 in quadrature with what there is anyway.
+    double before = venue_->sound().verificationError;
+    QVERIFY(a.verificationError < std::hypot(before, std::sqrt(0.06) * 0.1) + 0.1 * before);
+  }
+
+ private:
+  std::unique_ptr<FaultyVenue> venue_;
+};
+
+QTEST_APPLESS_MAIN(TestSentinels)
+#include "test_sentinels.moc"

@@ -9,7 +9,7 @@
 namespace relucent {
 
 /// The ways to compensate, from the least knowledge of the light transport to the most.
-enum class Method { none, scalar, mix, sharpen, windows, refined, optimum };
+enum class Method { none, scalar, mix, sharpen, clusters, windows, refined, optimum };
 
 /// A way to compensate that is on offer.
 struct MethodDescription {
@@ -25,8 +25,10 @@ inline constexpr std::array methodDescriptions{
     MethodDescription{Method::mix, "mix", "each pixel's colour corrected on its own, by its 3x3 mixing"},
     MethodDescription{Method::sharpen, "sharpen",
                       "mix, and the projector's defocus sharpened; no indirect light"},
+    MethodDescription{Method::clusters, "clusters",
+                      "the light transport cut into clusters, each inverted (Wetzstein & Bimber 2007)"},
     MethodDescription{Method::windows, "windows", "overlapping regularised inverses of the light transport"},
-    MethodDescription{Method::refined, "refined", "windows and two constrained steps: the one for video"},
+    MethodDescription{Method::refined, "refined", "windows and constrained steps: the one for video"},
     MethodDescription{Method::optimum, "optimum",
                       "the constrained optimum: the best for still pictures, the slowest"}};
 

@@ -52,6 +52,8 @@ std::vector<std::string> problems(const CompensatorSettings& settings) {
   std::vector<std::string> found = problems(settings.optimum);
   for (const std::string& problem : problems(settings.sharpening)) found.push_back(problem);
   for (const std::string& problem : problems(settings.direct)) found.push_back(problem);
+  for (const std::string& problem : problems(settings.clustering)) found.push_back(problem);
+  for (const std::string& problem : problems(settings.clusterInverse)) found.push_back(problem);
   if (!(settings.correctionByInverse >= 0.0f && settings.correctionByInverse <= 2.0f) ||
       !(settings.correctionByAdjoint >= 0.0f && settings.correctionByAdjoint <= 2.0f))
     found.push_back("the correction of the windows must lie between 0 and 2");
@@ -168,8 +170,20 @@ Compensation Compensator::sharpened(const Target& target, Compensation mixed,
   return mixed;
 }
 
-Compensation Compensator::windows(const Target& target, const std::vector<std::uint8_t>& free,
-                                  const Stack& preconditioner, const Progress& progress) const {
+const ClusterInverse& Compensator::clusters(Progress& progress) const {
+  std::call_once(clustersMade_, [&] {
+    Progress clustering = progress.part(0.3, "Clustering the light transport");
+    ConnectionGraph graph(venue_.transport, venue_.usable, {}, clustering);
+    Clustering clustered = relucent::clustered(graph, settings_.clustering, clustering);
+    Progress inverting = progress.part(0.6, "Inverting the clusters");
+    clusters_ = computeClusterInverse(clustered, venue_.usable, settings_.clusterInverse, inverting);
+  });
+  return clusters_;
+}
+
+Compensation Compensator::byInverse(const std::function<Stack(const Stack&)>& inverse, const Target& target,
+                                    const std::vector<std::uint8_t>& free, const Stack& preconditioner,
+                                    const Progress& progress) const {
   // What no projection can reach would be asked of its neighbours too: wanted as nearly as it can be had.
   Stack wantedLessBlack(target.wanted.size());
   parallelFor(0, wantedLessBlack.size(), 4096, [&](std::size_t i) {
@@ -177,15 +191,15 @@ Compensation Compensator::windows(const Target& target, const std::vector<std::u
         std::clamp(target.wanted[i] - venue_.black[i], 0.0f, std::max(0.0f, venue_.flood[i]));
   });
   Compensation result;
-  result.projector = inverse_.apply(wantedLessBlack);
+  result.projector = inverse(wantedLessBlack);
   result.clipped = finish(result.projector, free);
   progress.checkpoint();
   Stack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
   parallelFor(0, residual.size(), 4096, [&](std::size_t i) { residual[i] *= target.weight[i / 3]; });
-  Stack byInverse = inverse_.apply(residual);
+  Stack sharpening = inverse(residual);
   Stack byAdjoint = venue_.transport.applyTransposed(residual);
-  parallelFor(0, byInverse.size(), 4096, [&](std::size_t j) {
-    result.projector[j] += settings_.correctionByInverse * byInverse[j] +
+  parallelFor(0, sharpening.size(), 4096, [&](std::size_t j) {
+    result.projector[j] += settings_.correctionByInverse * sharpening[j] +
                            settings_.correctionByAdjoint * preconditioner[j] * byAdjoint[j];
   });
   result.clipped = finish(result.projector, free);
@@ -214,7 +228,9 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   Stack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{venue_.transport, wantedLessBlack, target.weight, free};
   Stack c = diagonalPreconditioner(problem);
-  result = windows(target, free, c, progress);
+  auto apply = [](const auto& inverse) { return [&](const Stack& r) { return inverse.apply(r); }; };
+  result = method == Method::clusters ? byInverse(apply(clusters(progress)), target, free, c, progress)
+                                      : byInverse(apply(inverse_), target, free, c, progress);
   if (method == Method::refined) {
     for (float step : settings_.steps) {
       progress.checkpoint();

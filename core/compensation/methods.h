@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -10,12 +12,16 @@
 #include "compensation/method.h"
 #include "compensation/solver.h"
 #include "compensation/target.h"
+#include "inverse/cluster_inverse.h"
 #include "inverse/windows.h"
 
 namespace relucent {
 
 struct CompensatorSettings {
-  /// How `windows` sends its error back once: share of M W r, and of C T^T W r.
+  /// How `clusters` cuts and inverts. Uncapped, clusters run through the whole picture nearly everywhere.
+  ClusteringSettings clustering{.patchCut = 0.3, .cap = SizeCap::always};
+  ClusterInverseSettings clusterInverse{.ridge = 2.0};
+  /// How `windows` and `clusters` send their error back once: share of M W r, and of C T^T W r.
   float correctionByInverse = 0.5f;
   float correctionByAdjoint = 1.0f;
   /// a_k of `refined`, in pairs: short steps settle what T passes on in full (low frequencies), long ones
@@ -51,12 +57,15 @@ class Compensator {
   ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
   ///   sharpen  mix, then the constrained optimum through the defocus alone, see defocusOnly(): no light goes
   ///            further than the direct light does                             [Zhang & Nayar 2006]
+  ///   clusters the same as windows with M = T+ of Algorithm 1's clusters, held to a size
+  ///                                                                           [Wetzstein & Bimber 2007]
   ///   windows  p = clamp01(M b), b = o - e held between 0 and flood, then
   ///            p <- clamp01(p + (m M + a C T^T) W (b - T p)): a window knows its own neighbourhood, T the
   ///            whole venue; the adjoint takes back light where many pixels' light meets (caustics)
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
-  /// Throws: Cancelled; Error{numerics} where solveConstrained() does.
+  /// `clusters` is prepared when it is first asked for.
+  /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().
   Compensation solve(Method method, const Target& target, Progress& progress) const;
 
   /// i*(j), -1 where no usable camera pixel sees projector pixel j.
@@ -69,15 +78,19 @@ class Compensator {
                          Progress& progress) const;
   /// The one factor that brings flood * content nearest to the wanted image in the least squares, at most 1.
   float bestBrightness(const Target& target) const;
-  /// `free`: projector pixels of the content; `preconditioner`: C.
-  Compensation windows(const Target& target, const std::vector<std::uint8_t>& free,
-                       const Stack& preconditioner, const Progress& progress) const;
+  /// Clamped M b, corrected once. `free`: projector pixels of the content; `preconditioner`: C.
+  Compensation byInverse(const std::function<Stack(const Stack&)>& inverse, const Target& target,
+                         const std::vector<std::uint8_t>& free, const Stack& preconditioner,
+                         const Progress& progress) const;
+  const ClusterInverse& clusters(Progress& progress) const;
 
   const MeasuredVenue& venue_;
   const WindowInverse& inverse_;
   CompensatorSettings settings_;
   std::vector<std::int32_t> brightest_;
   std::vector<ColourBlock> mixing_;
+  mutable std::once_flag clustersMade_;
+  mutable ClusterInverse clusters_;
 };
 
 /// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,

@@ -30,7 +30,7 @@ struct SolverSettings {
   };
   Algorithm algorithm = Algorithm::fista;
   int mostIterations = 200;
-  double tolerance = 5e-4;  // of the projected gradient, see SolveResult
+  double tolerance = 2e-4;  // of the projected gradient, see SolveResult
 };
 std::vector<std::string> problems(const SolverSettings& settings);
 

@@ -165,7 +165,7 @@ class TestArguments : public QObject {
     QTest::newRow("no size") << QByteArray("calibrate d --camera big") << QByteArray("'big' is no size");
     QTest::newRow("no number") << QByteArray("calibrate d --seed one") << QByteArray("--seed");
     QTest::newRow("mode") << QByteArray("calibrate d --acquisition slow") << QByteArray("adaptive");
-    QTest::newRow("method") << QByteArray("compensate d --image a --out b --method clusters")
+    QTest::newRow("method") << QByteArray("compensate d --image a --out b --method magic")
                             << QByteArray("optimum");
     QTest::newRow("gain") << QByteArray("difference a b --out o.png --gain much") << QByteArray("no gain");
     QTest::newRow("fit") << QByteArray("compensate d --image a --out b --fit squeeze")

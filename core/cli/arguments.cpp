@@ -239,7 +239,11 @@ class Parser {
   void addBench() {
     auto command = std::make_shared<Bench>();
     CLI::App* sub = add("bench", "Time the parts that decide how fast everything is", command);
-    sub->add_option("NAME", command->name, "Only benchmarks with this in their name");
+    sub->add_option(
+        "NAME", command->name,
+        "Only benchmarks with this in their name; `inverse` (minutes): all ways to invert, and how "
+        "well each compensates, beside the paper's figures");
+    addCache(sub, command->cache);
   }
 
   /// "auto" is nothing.

@@ -57,6 +57,7 @@ struct Report {
 };
 struct Bench {
   std::string name;
+  std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Compensate, Evaluate, Export, Relight,
                              Separate, Difference, Report, Bench>;

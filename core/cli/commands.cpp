@@ -97,6 +97,29 @@ std::string textOf(const BenchResult& result) {
   return text;
 }
 
+std::string textOf(const InverseBenchResult& result) {
+  const PaperFigures paper;
+  std::string text = fmt::format(
+      "paper: clustering and inversion {:.0f} to {:.0f} s, row errors {:.0f} to {:.0f} %\n\n"
+      "{:<8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12} {:>12} {:>12}\n",
+      paper.leastInversionSeconds, paper.mostInversionSeconds, 100.0 * paper.leastError,
+      100.0 * paper.mostError, "venue", "clusters s", "largest", "error %", "capped s", "error %", "svd s",
+      "windows s", "ridge");
+  for (const VenueInversion& v : result.venues)
+    text += fmt::format(
+        "{:<8} {:>10.2f} {:>10} {:>10.0f} {:>10.2f} {:>10.0f} {:>12.2f} {:>12.2f} {:>12.2g}\n", v.venue,
+        v.clusterSeconds, v.printed.largest, 100.0 * v.printed.errorMedian, v.cappedSeconds,
+        100.0 * v.capped.errorMedian, v.truncatedSeconds, v.windowSeconds, v.ridge);
+  text += fmt::format("\n{:<8}", "dB");
+  for (const MethodDescription& method : methodDescriptions) text += fmt::format(" {:>9}", method.name);
+  for (const VenueInversion& v : result.venues) {
+    text += fmt::format("\n{:<8}", v.venue);
+    for (const MethodDescription& method : methodDescriptions)
+      text += fmt::format(" {:>9.2f}", v.quality.at(std::string(method.name)));
+  }
+  return text + "\n";
+}
+
 template <typename Result>
 Outcome outcomeOf(const Result& result) {
   return {toJson(result), textOf(result)};
@@ -157,7 +180,10 @@ struct Executor {
     return outcomeOf(report(command.calibration, command.settings, command.cache, progress));
   }
 
-  Outcome operator()(const Bench& command) const { return outcomeOf(bench(command.name, progress)); }
+  Outcome operator()(const Bench& command) const {
+    if (command.name == "inverse") return outcomeOf(benchInverse(command.cache, progress));
+    return outcomeOf(bench(command.name, progress));
+  }
 };
 
 /// The name as a shell takes it.

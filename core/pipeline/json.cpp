@@ -1,138 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/json.h"
 
-#include "base/error.h"
+#include "compensation/method.h"
 
 namespace relucent {
 namespace {
 
 Json sizeToJson(Size size) {
   return {size.width, size.height};
-}
-
-Size sizeFrom(const Json& json) {
-  return {json.at(0), json.at(1)};
-}
-
-/// Reads a key if it is there; what is missing keeps its default.
-template <typename Value>
-void read(const Json& json, const char* key, Value& value) {
-  if (json.contains(key)) value = json.at(key).get<Value>();
-}
-void read(const Json& json, const char* key, Size& value) {
-  if (json.contains(key)) value = sizeFrom(json.at(key));
-}
-
-Json devicesToJson(const DeviceModelSettings& devices) {
-  return {{"projector_bits", devices.projectorBits},
-          {"camera_bits", devices.cameraBits},
-          {"contrast", devices.contrast},
-          {"gamma", devices.gamma},
-          {"vignetting", devices.vignetting},
-          {"full_well", devices.fullWell},
-          {"read_electrons", devices.readElectrons},
-          {"ambient", devices.ambient},
-          {"drift", devices.drift},
-          {"white_segment", devices.whiteSegment},
-          {"flicker", devices.flicker},
-          {"camera_gamma", devices.cameraGamma}};
-}
-
-DeviceModelSettings devicesFrom(const Json& json) {
-  DeviceModelSettings devices;
-  read(json, "projector_bits", devices.projectorBits);
-  read(json, "camera_bits", devices.cameraBits);
-  read(json, "contrast", devices.contrast);
-  read(json, "gamma", devices.gamma);
-  read(json, "vignetting", devices.vignetting);
-  read(json, "full_well", devices.fullWell);
-  read(json, "read_electrons", devices.readElectrons);
-  read(json, "ambient", devices.ambient);
-  read(json, "drift", devices.drift);
-  read(json, "white_segment", devices.whiteSegment);
-  read(json, "flicker", devices.flicker);
-  read(json, "camera_gamma", devices.cameraGamma);
-  return devices;
-}
-
-Json venueToJson(const VenueSettings& venue) {
-  return {{"kind", "simulated"},
-          {"name", venue.name},
-          {"projector", sizeToJson(venue.projector)},
-          {"camera", sizeToJson(venue.camera)},
-          {"seed", venue.seed},
-          {"paths_per_pixel", venue.pathsPerPixel},
-          {"devices", devicesToJson(venue.devices)}};
-}
-
-VenueSettings venueFrom(const Json& json) {
-  VenueSettings venue;
-  read(json, "name", venue.name);
-  read(json, "projector", venue.projector);
-  read(json, "camera", venue.camera);
-  read(json, "seed", venue.seed);
-  read(json, "paths_per_pixel", venue.pathsPerPixel);
-  if (json.contains("devices")) venue.devices = devicesFrom(json.at("devices"));
-  return venue;
-}
-
-Json commandsToJson(const CommandRigSettings& rig) {
-  Json json = {{"kind", "commands"},
-               {"projector_command", rig.projectorCommand},
-               {"camera_command", rig.cameraCommand},
-               {"projector", sizeToJson(rig.projector)}};
-  if (rig.camera) json["camera"] = sizeToJson(*rig.camera);
-  json["shortest_exposure"] = rig.shortestExposure;
-  json["longest_exposure"] = rig.longestExposure;
-  return json;
-}
-
-CommandRigSettings commandsFrom(const Json& json) {
-  CommandRigSettings rig;
-  read(json, "projector_command", rig.projectorCommand);
-  read(json, "camera_command", rig.cameraCommand);
-  read(json, "projector", rig.projector);
-  if (json.contains("camera")) rig.camera = sizeFrom(json.at("camera"));
-  read(json, "shortest_exposure", rig.shortestExposure);
-  read(json, "longest_exposure", rig.longestExposure);
-  return rig;
-}
-
-RigSettings rigFrom(const Json& json) {
-  std::string kind = json.at("kind");
-  if (kind == "simulated") return venueFrom(json);
-  if (kind == "commands") return commandsFrom(json);
-  throw Error(ErrorKind::format,
-              fmt::format("the calibration was made with devices of an unknown kind '{}'", kind),
-              "open it with the version of Relucent that made it");
-}
-
-LinearizationSettings linearizationFrom(const Json& json) {
-  LinearizationSettings settings;
-  read(json, "levels", settings.levels);
-  read(json, "shadow_power", settings.shadowPower);
-  read(json, "noise_pairs", settings.noisePairs);
-  read(json, "additivity_limit", settings.additivityLimit);
-  read(json, "seed", settings.seed);
-  return settings;
-}
-
-AcquisitionSettings acquisitionFrom(const Json& json) {
-  AcquisitionSettings settings;
-  read(json, "relative_threshold", settings.relativeThreshold);
-  read(json, "noise_sigmas", settings.noiseSigmas);
-  read(json, "references", settings.references);
-  read(json, "verification_patterns", settings.verificationPatterns);
-  read(json, "seed", settings.seed);
-  return settings;
-}
-
-WindowSettings windowsFrom(const Json& json) {
-  WindowSettings settings;
-  read(json, "tile", settings.tile);
-  read(json, "rows", settings.rows);
-  read(json, "ridge", settings.ridge);
-  return settings;
 }
 
 Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
@@ -150,6 +25,18 @@ Json scoreToJson(const ImageScore& image) {
                              {"delta_e", score.deltaE},
                              {"seconds", score.seconds}};
   return {{"name", image.name}, {"reachable", image.reachable}, {"methods", std::move(methods)}};
+}
+
+Json clustersToJson(double seconds, const ClusteringStatistics& clusters) {
+  return {{"seconds", seconds},
+          {"connections", clusters.connections},
+          {"kept", clusters.kept},
+          {"largest", clusters.largest},
+          {"median", clusters.medianUnknowns},
+          {"lit_projector_pixels", clusters.litProjectorPixels},
+          {"percolated", clusters.percolated},
+          {"error_median", clusters.errorMedian},
+          {"error_p95", clusters.errorP95}};
 }
 
 }  // namespace
@@ -208,6 +95,32 @@ Json toJson(const DifferenceResult& result) {
           {"files", pathsToJson(result.files)}};
 }
 
+Json toJson(const InverseBenchResult& result) {
+  const PaperFigures paper;
+  Json list = Json::array();
+  for (const VenueInversion& venue : result.venues) {
+    Json quality = Json::object();
+    for (const MethodDescription& method : methodDescriptions)
+      if (auto found = venue.quality.find(std::string(method.name)); found != venue.quality.end())
+        quality[found->first] = found->second;
+    list.push_back({{"venue", venue.venue},
+                    {"leaves", venue.leaves},
+                    {"windows", {{"seconds", venue.windowSeconds}, {"ridge", venue.ridge}}},
+                    {"algorithm1", clustersToJson(venue.clusterSeconds, venue.printed)},
+                    {"capped", clustersToJson(venue.cappedSeconds, venue.capped)},
+                    {"inverse_seconds",
+                     {{"truncated_svd", venue.truncatedSeconds},
+                      {"ridge", venue.ridgeSeconds},
+                      {"ridge_full_colour", venue.fullColourSeconds}}},
+                    {"psnr_reachable", std::move(quality)}});
+  }
+  return {{"paper",
+           {{"inversion_seconds", {paper.leastInversionSeconds, paper.mostInversionSeconds}},
+            {"error", {paper.leastError, paper.mostError}},
+            {"frames_per_second", {paper.leastFrameRate, paper.mostFrameRate}}}},
+          {"venues", std::move(list)}};
+}
+
 Json toJson(const BenchResult& result) {
   Json benchmarks = Json::array();
   for (const Benchmark& benchmark : result.benchmarks)
@@ -227,52 +140,6 @@ Json toJson(const std::vector<VenueDescription>& venues) {
   for (const VenueDescription& venue : venues)
     list.push_back({{"name", venue.name}, {"sentence", venue.sentence}, {"projectors", venue.projectors}});
   return {{"venues", std::move(list)}};
-}
-
-Json toJson(const RigSettings& settings) {
-  if (const auto* venue = std::get_if<VenueSettings>(&settings)) return venueToJson(*venue);
-  return commandsToJson(std::get<CommandRigSettings>(settings));
-}
-
-Json toJson(const LinearizationSettings& settings) {
-  return {{"levels", settings.levels},
-          {"shadow_power", settings.shadowPower},
-          {"noise_pairs", settings.noisePairs},
-          {"additivity_limit", settings.additivityLimit},
-          {"seed", settings.seed}};
-}
-
-Json toJson(const AcquisitionSettings& settings) {
-  return {{"relative_threshold", settings.relativeThreshold},
-          {"noise_sigmas", settings.noiseSigmas},
-          {"references", settings.references},
-          {"verification_patterns", settings.verificationPatterns},
-          {"seed", settings.seed}};
-}
-
-Json toJson(const WindowSettings& settings) {
-  return {{"tile", settings.tile}, {"rows", settings.rows}, {"ridge", settings.ridge}};
-}
-
-Json toJson(const CalibrateSettings& settings) {
-  return {{"rig", toJson(settings.rig)},
-          {"linearization", toJson(settings.linearization)},
-          {"acquisition", toJson(settings.acquisition)},
-          {"windows", toJson(settings.windows)}};
-}
-
-CalibrateSettings calibrateSettingsFromJson(const Json& json) {
-  try {
-    CalibrateSettings settings;
-    settings.rig = rigFrom(json.at("rig"));
-    if (json.contains("linearization")) settings.linearization = linearizationFrom(json.at("linearization"));
-    if (json.contains("acquisition")) settings.acquisition = acquisitionFrom(json.at("acquisition"));
-    if (json.contains("windows")) settings.windows = windowsFrom(json.at("windows"));
-    return settings;
-  } catch (const Json::exception&) {
-    throw Error(ErrorKind::format, "the calibration's settings cannot be read",
-                "choose another calibration, or copy it again from where it was measured");
-  }
 }
 
 }  // namespace relucent

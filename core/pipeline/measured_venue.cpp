@@ -137,6 +137,7 @@ MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& p
       measured.ridgeCurve.push_back({trial.value("ridge", 0.0), trial.value("psnr", 0.0)});
   }
   RidgeChoice choice = invert(measured.venue, settings, inverting);
+  measured.ridge = choice.ridge;
   measured.inverse = std::move(choice.inverse);
   if (measured.ridgeCurve.empty()) measured.ridgeCurve = std::move(choice.curve);
   return measured;

@@ -18,7 +18,8 @@ struct MeasuredCalibration {
   Acquisition acquisition;  // T has moved on to `venue`
   MeasuredVenue venue;
   WindowInverse inverse;
-  std::vector<RidgeTrial> ridgeCurve;  // how its ridge was found
+  double ridge = 0.0;                  // of the windows
+  std::vector<RidgeTrial> ridgeCurve;  // how it was found
 };
 
 /// Which camera pixels compensation may rely on: lit by the projectors well above noise and black in every

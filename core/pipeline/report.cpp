@@ -229,6 +229,20 @@ std::string responses(const ReportData& data) {
                  body + "</div>");
 }
 
+/// What was tried to find how strongly the inverse has to be damped.
+std::string ridge(const ReportData& data) {
+  if (data.ridgeCurve.empty()) return "";
+  std::vector<Bar> bars;
+  for (const RidgeTrial& trial : data.ridgeCurve)
+    bars.push_back({fmt::format("{:.3g}", trial.ridge), std::max(0.0, trial.psnr),
+                    fmt::format("{:.2f} dB", trial.psnr), trial.ridge == data.ridge});
+  return fmt::format(
+      "<h3>Damping of the inverse</h3><p>Pictures were compensated with several dampings and sent through "
+      "the "
+      "measured transport; {:.3g} is used, the strongest that is as good as the best.</p>{}",
+      data.ridge, barChart(bars, "PSNR by damping of the inverse"));
+}
+
 std::string transport(const ReportData& data) {
   std::vector<Bar> bars;
   for (std::size_t level = 0; level < data.leavesPerLevel.size(); ++level)
@@ -238,6 +252,7 @@ std::string transport(const ReportData& data) {
   std::string chart = bars.empty() ? ""
                                    : "<h3>Leaves by block size (logarithmic)</h3>" +
                                          barChart(bars, "Stored blocks of the light transport by their size");
+  chart += ridge(data);
   std::string truth;
   if (data.evaluation)
     truth = fmt::format(

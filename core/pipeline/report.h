@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/json.h"
+#include "compensation/ridge_choice.h"
 #include "image/image.h"
 #include "linearization/linearization.h"
 #include "pipeline/pipeline.h"
@@ -44,6 +45,8 @@ struct ReportData {
   Image black;                                // e
   std::vector<std::uint8_t> flagged;          // per camera pixel
   std::vector<std::uint64_t> leavesPerLevel;  // level 0 first: single pixels, then 2x2, ...
+  std::vector<RidgeTrial> ridgeCurve;         // how the inverse's ridge was found, and which it is
+  double ridge = 0.0;
   std::vector<ReportComparison> comparisons;
   std::optional<EvaluateResult> evaluation;
   Json settings;

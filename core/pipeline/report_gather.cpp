@@ -98,6 +98,8 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
       measured.acquisition.flagged.begin(),
       measured.acquisition.flagged.begin() + static_cast<std::ptrdiff_t>(data.flood.pixels()));
   data.leavesPerLevel = leavesPerLevel(transport);
+  data.ridge = measured.ridge;
+  data.ridgeCurve = measured.ridgeCurve;
   data.settings = folder.settings();
 
   Progress comparing = progress.part(0.6, "Compensating");

@@ -2,7 +2,6 @@
 #include <QTest>
 #include <limits>
 
-#include "base/error.h"
 #include "pipeline/json.h"
 
 using namespace relucent;
@@ -55,55 +54,6 @@ class TestJson : public QObject {
     CompensateResult result;
     result.psnrPredicted = std::numeric_limits<double>::infinity();
     QVERIFY(toJson(result).dump().find(R"("psnr_predicted":null)") != std::string::npos);
-  }
-
-  void settingsComeBackNumberForNumber() {
-    CalibrateSettings venue;
-    VenueSettings corner;
-    corner.name = "dome";
-    corner.projector = {100, 50};
-    corner.camera = {31, 17};
-    corner.seed = 0xffffffffffffffffULL;
-    corner.pathsPerPixel = 77;
-    corner.devices = {10, 16, 999.5, 2.4, 0.1, 1.0 / 3.0, 5.5, 0.01, 0.02, 0.03, true, 1.8};
-    venue.rig = corner;
-    venue.linearization = {17, 1.5, 2, 0.05, 12};
-    venue.acquisition.relativeThreshold = 0.0123456789012345678;
-    venue.acquisition.seed = 13;
-    venue.windows = {8, 32, 0.3};
-    CalibrateSettings commands;
-    commands.rig =
-        CommandRigSettings{"show {image}", "shoot \"{output}\" {exposure}", {64, 48}, Size{32, 24}, 0.1, 2.0};
-    CalibrateSettings withoutCamera;
-    withoutCamera.rig = CommandRigSettings{"a", "b", {64, 48}, std::nullopt, 0.1, 2.0};
-    for (const CalibrateSettings& settings : {CalibrateSettings{}, venue, commands, withoutCamera}) {
-      Json written = toJson(settings);
-      CalibrateSettings read = calibrateSettingsFromJson(Json::parse(written.dump()));
-      QCOMPARE(toJson(read).dump(), written.dump());
-    }
-    auto read = std::get<VenueSettings>(calibrateSettingsFromJson(toJson(venue)).rig);
-    QCOMPARE(read.seed, corner.seed);
-    QCOMPARE(read.devices.fullWell, corner.devices.fullWell);
-    QVERIFY(read.devices.whiteSegment);
-    QVERIFY(!std::get<CommandRigSettings>(calibrateSettingsFromJson(toJson(withoutCamera)).rig).camera);
-  }
-
-  void damagedSettingsAreAnError_data() {
-    QTest::addColumn<QByteArray>("text");
-    QTest::newRow("empty") << QByteArray("{}");
-    QTest::newRow("list") << QByteArray("[]");
-    QTest::newRow("kind") << QByteArray(R"({"rig":{"kind":"telescope"}})");
-    QTest::newRow("type") << QByteArray(R"({"rig":{"kind":"simulated","seed":"one"}})");
-    QTest::newRow("size") << QByteArray(R"({"rig":{"kind":"simulated","projector":[1]}})");
-  }
-  void damagedSettingsAreAnError() {
-    QFETCH(QByteArray, text);
-    try {
-      calibrateSettingsFromJson(Json::parse(text.toStdString()));
-      QFAIL("was read");
-    } catch (const Error& error) {
-      QVERIFY(error.kind() == ErrorKind::format);
-    }
   }
 };
 

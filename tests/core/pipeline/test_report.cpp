@@ -51,6 +51,8 @@ ReportData fullData() {
   data.flagged.assign(size.count(), 0);
   data.flagged[100] = 1;
   data.leavesPerLevel = {2000000, 300000, 40000, 5000, 600};
+  data.ridge = 0.4;
+  data.ridgeCurve = {{0.2, 24.5}, {0.4, 24.75}, {0.8, 24.1}};
   std::vector<std::uint8_t> inside(size.count(), 1);
   inside[0] = 0;
   data.comparisons = {{"Evening",
@@ -126,7 +128,7 @@ class TestReport : public QObject {
     QString page = html(fullData());
     for (const char* expected :
          {"28.2 dB", "14.2 dB", "ΔE", "96.1 %", "11 min 41 s", "0.25 s", "method refined",
-          "relative_threshold", "0.008", "Floodlight image", "Reachable light", "3210 MB"})
+          "relative_threshold", "0.008", "24.75 dB", "Floodlight image", "Reachable light", "3210 MB"})
       QVERIFY2(page.contains(expected), expected);
     // Means over one picture are its own; the best method is marked.
     QVERIFY(page.contains("<tr class=\"best\"><th scope=\"row\">refined"));

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/inverse_bench.h"
+
+#include <chrono>
+
+#include "compensation/methods.h"
+#include "devices/temporary_folder.h"
+#include "inverse/cluster_inverse.h"
+#include "pipeline/evaluation.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+namespace {
+
+template <typename Work>
+double secondsOf(const Work& work) {
+  auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Everything that is timed works on T as it was measured.
+void timeInversions(const MeasuredVenue& venue, VenueInversion& result, Progress& progress) {
+  const CompensatorSettings standard;
+  result.windowSeconds = secondsOf([&] {
+    Progress part = progress.part(0.4, "Windows");
+    result.ridge = chooseRidge(venue, WindowSettings{}, part).ridge;
+  });
+  Clustering capped;
+  {
+    std::optional<ConnectionGraph> graph;
+    result.clusterSeconds = secondsOf([&] {
+      Progress part = progress.part(0.1, "Algorithm 1");
+      graph.emplace(venue.transport, venue.usable, ConnectionGraphSettings{}, part);
+      ClusteringSettings printed;
+      printed.cap = SizeCap::never;
+      result.printed = clustered(*graph, printed, part).statistics;
+    });
+    result.cappedSeconds = secondsOf([&] {
+      Progress part = progress.part(0.1, "Clusters held to a size");
+      capped = clustered(*graph, standard.clustering, part);
+    });
+    result.capped = capped.statistics;
+  }
+  auto invert = [&](const char* stage, ClusterSolver solver, ClusterColour colour) {
+    Progress part = progress.part(0.13, stage);
+    ClusterInverseSettings settings = standard.clusterInverse;
+    settings.solver = solver;
+    settings.colour = colour;
+    return secondsOf([&] { computeClusterInverse(capped, venue.usable, settings, part); });
+  };
+  result.truncatedSeconds =
+      invert("Truncated singular values", ClusterSolver::truncatedSvd, ClusterColour::shared);
+  result.ridgeSeconds = invert("Ridge", ClusterSolver::ridge, ClusterColour::shared);
+  result.fullColourSeconds = invert("Ridge in full colour", ClusterSolver::ridge, ClusterColour::full);
+}
+
+VenueInversion inverted(const std::string& name, const std::filesystem::path& cache, Progress& progress) {
+  TemporaryFolder temporary;
+  std::filesystem::path path = temporary.path() / name;
+  VenueSettings venue;
+  venue.name = name;
+  CalibrateSettings settings;
+  settings.rig = venue;
+  Progress calibrating = progress.part(0.7, "Measuring " + name);
+  calibrate(path, settings, cache, calibrating);
+
+  VenueInversion result;
+  result.venue = name;
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  Progress loading = progress.part(0.05, "Reading " + name);
+  MeasuredCalibration measured = loadCalibration(folder, loading);
+  result.leaves = measured.venue.transport.leaves().blocks();
+  Progress timing = progress.part(0.1, "Inverting " + name);
+  timeInversions(measured.venue, result, timing);
+  Progress evaluating = progress.part(0.15, "Comparing the methods in " + name);
+  EvaluateResult scores = evaluated(measured, {}, cache, evaluating).result;
+  for (const ImageScore& image : scores.images)
+    for (const MethodScore& score : image.methods)
+      result.quality[score.method] += score.psnrReachable / static_cast<double>(scores.images.size());
+  return result;
+}
+
+}  // namespace
+
+InverseBenchResult benchInverse(const std::filesystem::path& cache, Progress& progress) {
+  InverseBenchResult result;
+  for (const VenueDescription& venue : venues()) {
+    Progress part = progress.part(1.0 / static_cast<double>(venues().size()), venue.name);
+    result.venues.push_back(inverted(venue.name, cache, part));
+  }
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/settings_json.h"
+
+#include <QTest>
+
+#include "base/error.h"
+
+using namespace relucent;
+
+namespace {
+
+/// Through the manifest's text and back.
+CalibrateSettings comeBack(const CalibrateSettings& settings) {
+  CalibrateSettings read;
+  read.rig = rigFromJson(Json::parse(rigToJson(settings.rig).dump()));
+  stagesFromJson(Json::parse(stagesToJson(settings).dump()), read);
+  return read;
+}
+
+}  // namespace
+
+/// What a calibration's manifest says that it was asked for.
+class TestSettingsJson : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void settingsComeBackNumberForNumber() {
+    CalibrateSettings venue;
+    VenueSettings corner;
+    corner.name = "dome";
+    corner.projector = {100, 50};
+    corner.camera = {31, 17};
+    corner.seed = 0xffffffffffffffffULL;
+    corner.pathsPerPixel = 77;
+    corner.devices = {10, 16, 999.5, 2.4, 0.1, 1.0 / 3.0, 5.5, 0.01, 0.02, 0.03, true, 1.8};
+    venue.rig = corner;
+    venue.linearization = {17, 1.5, 2, 0.05, 12};
+    venue.acquisition.relativeThreshold = 0.0123456789012345678;
+    venue.acquisition.seed = 13;
+    venue.windows = {8, 32, 0.3};
+    venue.chooseRidge = false;
+    CalibrateSettings commands;
+    commands.rig =
+        CommandRigSettings{"show {image}", "shoot \"{output}\" {exposure}", {64, 48}, Size{32, 24}, 0.1, 2.0};
+    CalibrateSettings withoutCamera;
+    withoutCamera.rig = CommandRigSettings{"a", "b", {64, 48}, std::nullopt, 0.1, 2.0};
+    for (const CalibrateSettings& settings : {CalibrateSettings{}, venue, commands, withoutCamera}) {
+      CalibrateSettings read = comeBack(settings);
+      QCOMPARE(rigToJson(read.rig).dump(), rigToJson(settings.rig).dump());
+      QCOMPARE(stagesToJson(read).dump(), stagesToJson(settings).dump());
+    }
+    auto read = std::get<VenueSettings>(comeBack(venue).rig);
+    QCOMPARE(read.seed, corner.seed);
+    QCOMPARE(read.devices.fullWell, corner.devices.fullWell);
+    QVERIFY(read.devices.whiteSegment);
+    QCOMPARE(comeBack(venue).acquisition.relativeThreshold, venue.acquisition.relativeThreshold);
+    QVERIFY(!comeBack(venue).chooseRidge);
+    QVERIFY(!std::get<CommandRigSettings>(comeBack(withoutCamera).rig).camera);
+  }
+
+  void damagedSettingsAreAnError_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::newRow("empty") << QByteArray("{}");
+    QTest::newRow("list") << QByteArray("[]");
+    QTest::newRow("kind") << QByteArray(R"({"kind":"telescope"})");
+    QTest::newRow("type") << QByteArray(R"({"kind":"simulated","venue":{"seed":"one"}})");
+    QTest::newRow("size") << QByteArray(R"({"kind":"simulated","venue":{"projector":[1]}})");
+  }
+  void damagedSettingsAreAnError() {
+    QFETCH(QByteArray, text);
+    try {
+      rigFromJson(Json::parse(text.toStdString()));
+      QFAIL("was read");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::format);
+    }
+  }
+
+  /// A manifest of the first version: keys that came later keep their defaults, those that went are ignored.
+  void manifestsOfOlderVersionsOpen() {
+    CalibrateSettings settings;
+    stagesFromJson(Json::parse(R"({"windows":{"tile":4,"rows":32,"ridge":0.05,"smoothness":4.0}})"),
+                   settings);
+    QCOMPARE(settings.windows.rows, 32);
+    QVERIFY(settings.chooseRidge);
+    QCOMPARE(settings.linearization.levels, LinearizationSettings{}.levels);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestSettingsJson)
+#include "test_settings_json.moc"

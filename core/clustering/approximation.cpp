@@ -36,7 +36,7 @@ class RowScaler {
   const std::vector<Entry>& scaled(std::size_t i) {
     entries_.clear();
     std::span<const Connection> row = bright(graph_.row(i), settings_);
-    const std::uint8_t* kept = kept_.data() + graph_.slot(i);
+    const std::uint8_t* kept = kept_.data() + graph_.placeOf(i);
     if (std::none_of(kept, kept + row.size(), [](std::uint8_t k) { return k != 0; })) return entries_;
 
     const std::vector<double>& gain = patchGains(row, kept);
@@ -128,7 +128,7 @@ Approximation scaledToFloodlight(const ConnectionGraph& graph, const PixelPlaces
   std::size_t rows = graph.rows();
   std::vector<std::size_t> start(rows + 1, 0);
   parallelFor(0, rows, 256, [&](std::size_t i) {
-    const std::uint8_t* kept = connections.kept.data() + graph.slot(i);
+    const std::uint8_t* kept = connections.kept.data() + graph.placeOf(i);
     start[i + 1] = static_cast<std::size_t>(
         std::count_if(kept, kept + graph.row(i).size(), [](std::uint8_t k) { return k != 0; }));
   });

@@ -33,7 +33,7 @@ double lightOf(const ConnectionGraph& graph, const KeptConnections& connections)
   parallelChunks(0, graph.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::span<const Connection> row = graph.row(i);
-      const std::uint8_t* kept = connections.kept.data() + graph.slot(i);
+      const std::uint8_t* kept = connections.kept.data() + graph.placeOf(i);
       for (std::size_t k = 0; k < row.size(); ++k)
         if (kept[k]) sums[part] += static_cast<double>(row[k].luminance);
     }

@@ -32,14 +32,14 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Calls visit(camera pixel, slot, connection) for all that are kept, row by row.
+/// Calls visit(camera pixel, place, connection) for all that are kept, row by row.
 template <typename Visit>
 void visitKept(const ConnectionGraph& graph, const KeptConnections& connections, const Visit& visit) {
   for (std::size_t i = 0; i < graph.rows(); ++i) {
     std::span<const Connection> row = graph.row(i);
-    const std::uint8_t* kept = connections.kept.data() + graph.slot(i);
+    const std::uint8_t* kept = connections.kept.data() + graph.placeOf(i);
     for (std::size_t k = 0; k < row.size(); ++k)
-      if (kept[k]) visit(i, graph.slot(i) + k, row[k]);
+      if (kept[k]) visit(i, graph.placeOf(i) + k, row[k]);
   }
 }
 
@@ -165,7 +165,7 @@ Partition cappedComponents(const ConnectionGraph& graph, const ClusteringSetting
   Partition partition = numbered(graph, connections, capped.sets());
   parallelFor(0, graph.rows(), 256, [&](std::size_t i) {
     std::span<const Connection> row = graph.row(i);
-    std::uint8_t* kept = connections.kept.data() + graph.slot(i);
+    std::uint8_t* kept = connections.kept.data() + graph.placeOf(i);
     for (std::size_t k = 0; k < row.size(); ++k)
       if (partition.projector[row[k].pixel] != partition.camera[i]) kept[k] = 0;
   });

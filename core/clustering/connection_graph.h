@@ -44,9 +44,9 @@ class ConnectionGraph {
 
   /// Brightest first, equals by the lower projector pixel.
   std::span<const Connection> row(std::size_t row) const { return {&edges_[start_[row]], length_[row]}; }
-  /// Where a row begins in arrays with a place for every connection; slots() long.
-  std::size_t slot(std::size_t row) const { return start_[row]; }
-  std::size_t slots() const { return start_.back(); }
+  /// Where a row begins in arrays with a place for every connection; places() long.
+  std::size_t placeOf(std::size_t row) const { return start_[row]; }
+  std::size_t places() const { return start_.back(); }
 
   /// T 1, to which rows are scaled.
   const Stack& flood() const { return flood_; }

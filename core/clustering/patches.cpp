@@ -63,16 +63,16 @@ std::span<const Connection> bright(std::span<const Connection> row, const Cluste
 
 std::vector<Dominant> dominantConnections(const ConnectionGraph& graph, const ClusteringSettings& settings,
                                           const std::vector<std::uint8_t>& wantedPixels,
-                                          const std::vector<std::uint8_t>* amongSlots) {
+                                          const std::vector<std::uint8_t>* amongPlaces) {
   std::vector<std::vector<Dominant>> partial(parts);
   parallelChunks(0, graph.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     std::vector<Dominant>& best = partial[part];
     best.resize(wantedPixels.size());
     for (std::size_t row = begin; row < end; ++row) {
-      std::size_t slot = graph.slot(row);
+      std::size_t place = graph.placeOf(row);
       for (const Connection& connection : bright(graph.row(row), settings)) {
-        std::size_t here = slot++;
-        if (!wantedPixels[connection.pixel] || (amongSlots && !(*amongSlots)[here])) continue;
+        std::size_t here = place++;
+        if (!wantedPixels[connection.pixel] || (amongPlaces && !(*amongPlaces)[here])) continue;
         Dominant& dominant = best[connection.pixel];
         if (connection.luminance > dominant.luminance)
           dominant = {connection.luminance, static_cast<std::uint32_t>(row), here};
@@ -89,7 +89,7 @@ std::vector<Dominant> dominantConnections(const ConnectionGraph& graph, const Cl
 KeptConnections cutPatches(const ConnectionGraph& graph, const PixelPlaces& places,
                            const ClusteringSettings& settings, Progress& progress) {
   std::size_t pixels = graph.transport().projectors().count();
-  KeptConnections result{std::vector<std::uint8_t>(graph.slots(), 0), std::vector<std::uint8_t>(pixels, 0),
+  KeptConnections result{std::vector<std::uint8_t>(graph.places(), 0), std::vector<std::uint8_t>(pixels, 0),
                          0};
   std::vector<std::uint8_t> reached(pixels, 0);
 
@@ -107,7 +107,7 @@ KeptConnections cutPatches(const ConnectionGraph& graph, const PixelPlaces& plac
         if (highest < 0.0) highest = settings.patchCut * luminance;  // the first is the patch's centre
         mark(result.lit[row[k].pixel]);
         if (luminance <= highest) continue;
-        result.kept[graph.slot(i) + k] = 1;
+        result.kept[graph.placeOf(i) + k] = 1;
         mark(reached[row[k].pixel]);
       }
     }
@@ -118,7 +118,7 @@ KeptConnections cutPatches(const ConnectionGraph& graph, const PixelPlaces& plac
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) cutOff[pixel] = result.lit[pixel] && !reached[pixel];
   for (const Dominant& dominant : dominantConnections(graph, settings, cutOff, nullptr)) {
     if (!(dominant.luminance > 0.0f)) continue;
-    result.kept[dominant.slot] = 1;
+    result.kept[dominant.place] = 1;
     ++result.reinserted;
   }
   progress.report(1.0);

@@ -41,10 +41,10 @@ std::span<const Connection> bright(std::span<const Connection> row, const Cluste
 struct Dominant {
   float luminance = 0.0f;  // 0: none
   std::uint32_t row = 0;
-  std::size_t slot = 0;
+  std::size_t place = 0;
 };
 
-/// Which connections stay, by slot of the graph.
+/// Which connections stay, by place in the graph.
 struct KeptConnections {
   std::vector<std::uint8_t> kept;
   std::vector<std::uint8_t> lit;  // per projector pixel: connected before anything was cut
@@ -55,10 +55,10 @@ struct KeptConnections {
 KeptConnections cutPatches(const ConnectionGraph& graph, const PixelPlaces& places,
                            const ClusteringSettings& settings, Progress& progress);
 
-/// Per projector pixel for which wanted(pixel) the brightest connection for which among(slot), of equals the
+/// Per projector pixel for which wanted(pixel) the brightest connection for which among(place), of equals the
 /// one to the lower camera pixel.
 std::vector<Dominant> dominantConnections(const ConnectionGraph& graph, const ClusteringSettings& settings,
                                           const std::vector<std::uint8_t>& wantedPixels,
-                                          const std::vector<std::uint8_t>* amongSlots);
+                                          const std::vector<std::uint8_t>* amongPlaces);
 
 }  // namespace relucent

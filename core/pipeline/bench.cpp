@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "inverse/windows.h"
+#include "compensation/ridge_choice.h"
 #include "pipeline/pipeline.h"
 
 namespace relucent {
@@ -139,6 +139,13 @@ BenchResult bench(const std::string& name, Progress& progress) {
       {"transport/means", floats(projectorValues) + floats(nodeValues),
        [&] { transport.layout().means(projector); }},
       {"windows/compute", leaves, prepareWindows},
+      {"windows/choose-ridge", leaves,
+       [&] {
+         Progress silent;
+         MeasuredVenue venue{transport, Stack(cameraValues, 0.0f), transport.floodlight(),
+                             std::vector<std::uint8_t>(transport.cameras().count(), 1)};
+         windows = chooseRidge(venue, WindowSettings{}, silent).inverse;
+       }},
       {"windows/apply", 0.0, [&] { windows.apply(camera); }},
   };
   std::vector<Case*> wanted;

@@ -16,7 +16,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, scheme, col
                                                 relativeThreshold, absoluteThreshold, dimShare, noiseSigmas,
                                                 references, checkInterval, mayBeMirrored,
                                                 verificationPatterns, flagRelative, flagSigmas, seed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax, energyKept)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,
                                                 gamma, vignetting, fullWell, readElectrons, ambient, drift,

@@ -50,6 +50,24 @@ class TestJson : public QObject {
             R"("benchmarks":[{"name":"T p","seconds":0.01,"bytes":100000000.0,"share_of_copy":0.5}]})"));
   }
 
+  void inverseBenchDocument() {
+    VenueInversion venue;
+    venue.venue = "corner";
+    venue.ridge = 0.4;
+    venue.printed.percolated = true;
+    venue.printed.errorMedian = 0.75;
+    venue.quality = {{"refined", 31.0}, {"none", 17.0}};
+    Json document = toJson(InverseBenchResult{{venue}});
+    QCOMPARE(document["paper"]["error"].dump(), std::string("[0.7,0.8]"));
+    const Json& corner = document["venues"][0];
+    QCOMPARE(corner["venue"].get<std::string>(), std::string("corner"));
+    QCOMPARE(corner["windows"]["ridge"].get<double>(), 0.4);
+    QVERIFY(corner["algorithm1"]["percolated"].get<bool>());
+    QCOMPARE(corner["algorithm1"]["error_median"].get<double>(), 0.75);
+    // From the least knowledge of the light transport to the most.
+    QCOMPARE(corner["psnr_reachable"].dump(), std::string(R"({"none":17.0,"refined":31.0})"));
+  }
+
   void whatIsNotFiniteIsNull() {
     CompensateResult result;
     result.psnrPredicted = std::numeric_limits<double>::infinity();

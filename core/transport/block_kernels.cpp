@@ -105,19 +105,25 @@ RELUCENT_KERNEL void scatterRows(const BlockRows& rows, std::size_t begin, std::
   }
 }
 
-#define RELUCENT_VERSION(name, attributes)                                                                 \
-  attributes void gather##name(const BlockRows& rows, std::size_t begin, std::size_t end, const float* x,  \
-                               float* y) {                                                                 \
-    gatherRows(rows, begin, end, x, y);                                                                    \
-  }                                                                                                        \
-  attributes void scatter##name(const BlockRows& rows, std::size_t begin, std::size_t end, const float* y, \
-                                ColumnSums& sums) {                                                        \
-    scatterRows(rows, begin, end, y, sums);                                                                \
-  }
+void gatherBaseline(const BlockRows& rows, std::size_t begin, std::size_t end, const float* x, float* y) {
+  gatherRows(rows, begin, end, x, y);
+}
 
-RELUCENT_VERSION(Baseline, )
+void scatterBaseline(const BlockRows& rows, std::size_t begin, std::size_t end, const float* y,
+                     ColumnSums& sums) {
+  scatterRows(rows, begin, end, y, sums);
+}
+
 #ifdef __x86_64__
-RELUCENT_VERSION(Avx2, [[gnu::target("avx2,fma")]])
+[[gnu::target("avx2,fma")]] void gatherAvx2(const BlockRows& rows, std::size_t begin, std::size_t end,
+                                            const float* x, float* y) {
+  gatherRows(rows, begin, end, x, y);
+}
+
+[[gnu::target("avx2,fma")]] void scatterAvx2(const BlockRows& rows, std::size_t begin, std::size_t end,
+                                             const float* y, ColumnSums& sums) {
+  scatterRows(rows, begin, end, y, sums);
+}
 #endif
 
 }  // namespace

@@ -96,10 +96,11 @@ Stack NodeLayout::means(const Stack& pattern) const {
       const Grid& coarse = grids_[projector][static_cast<std::size_t>(level)];
       const Cuts columns(pixels.width, level, coarse.size.width);
       const Cuts rows(pixels.height, level, coarse.size.height);
+      const std::size_t rowValues = 3 * static_cast<std::size_t>(fine.size.width);
       parallelFor(0, static_cast<std::size_t>(coarse.size.height), rowsOfATask, [&](std::size_t row) {
         const int y = static_cast<int>(row);
         const float* upper = &values[3 * (fine.offset + indexOf(fine.size, {0, 2 * y}))];
-        const float* lower = rows.secondHalf(y) > 0 ? upper + 3 * fine.size.width : upper;
+        const float* lower = rows.secondHalf(y) > 0 ? upper + rowValues : upper;
         meansOfRow(columns, rows, y, upper, lower,
                    &values[3 * (coarse.offset + indexOf(coarse.size, {0, y}))]);
       });

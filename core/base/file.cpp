@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 namespace relucent {
@@ -39,24 +40,12 @@ std::string adviceFor(int code) {
               path.string());
 }
 
-/// An open file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return value_; }
-  bool ok() const { return value_ >= 0; }
-
- private:
-  int value_;
-};
+int openFile(const fs::path& path, int flags) {
+  return ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+}
 
 void syncToDisk(const fs::path& path, int flags) {
-  Descriptor file(path, flags);
+  Descriptor file(openFile(path, flags));
   if (!file.ok()) failDisk("open", path, errno);
   // Some file systems cannot sync a folder; the rename is still atomic there.
   if (::fsync(file.get()) != 0 && errno != EINVAL) failDisk("write", path, errno);
@@ -77,7 +66,7 @@ std::string readFile(const fs::path& path) {
 
 void writeFileAtomically(const fs::path& path, std::string_view content) {
   writeFileAtomically(path, [&](const fs::path& temporary) {
-    Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    Descriptor file(openFile(temporary, O_WRONLY | O_CREAT | O_TRUNC));
     if (!file.ok()) failDisk("write", path, errno);
     const char* data = content.data();
     std::size_t left = content.size();
@@ -92,8 +81,8 @@ void writeFileAtomically(const fs::path& path, std::string_view content) {
 }
 
 void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  fs::path temporary = path.parent_path() / ("." + path.stem().string() + ".part" +
-                                             std::to_string(::getpid()) + path.extension().string());
+  fs::path temporary = path.parent_path() / fmt::format(".{}.part{}{}", path.stem().string(), ::getpid(),
+                                                        path.extension().string());
   try {
     write(temporary);
     syncToDisk(temporary, O_RDONLY);

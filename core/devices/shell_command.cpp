@@ -16,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 extern char** environ;
@@ -30,21 +31,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds grace{1000};
 
 constexpr std::size_t longestQuote = 300;  // of a command's own words in an error
-
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return value_; }
-  bool ok() const { return value_ >= 0; }
-
- private:
-  int value_;
-};
 
 [[noreturn]] void failStart(int code, const std::string& device) {
   throw Error(ErrorKind::device, fmt::format("the command cannot be started ({})", std::strerror(code)),

@@ -8,13 +8,16 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "transport/block_kernels.h"
 
 namespace relucent {
 namespace {
 
 constexpr float largestCode = 32767.0f;
-// A fixed number of private sums makes the transposed product the same for every number of threads.
-constexpr std::size_t scatterChunks = 4;
+// A fixed number of private sums makes the transposed product the same for every number of threads. Each
+// costs the memory of the columns that it adds to; eight threads use up the bandwidth of most machines.
+constexpr std::size_t scatterParts = 8;
+constexpr std::size_t gatherRows = 256;  // worth a task
 
 using Code = std::array<std::int16_t, 9>;
 
@@ -69,48 +72,47 @@ ColourBlock BlockSparse::block(std::size_t row, std::size_t entry) const {
   return block;
 }
 
+BlockRows BlockSparse::view() const {
+  return {rowStart_.data(), column_.data(), code_.data(), scale_.data(), columns_};
+}
+
 Stack BlockSparse::multiply(const Stack& x) const {
   require(x.size() == 3 * columns_, "a vector of {} values for {} block columns", x.size(), columns_);
   Stack y(3 * rows());
-  parallelFor(0, rows(), 256, [&](std::size_t row) {
-    float sum[3] = {0, 0, 0};
-    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
-      const float* in = &x[3 * static_cast<std::size_t>(column_[entry])];
-      const auto& code = code_[entry];
-      for (std::size_t c = 0; c < 3; ++c)
-        sum[c] += static_cast<float>(code[3 * c]) * in[0] + static_cast<float>(code[3 * c + 1]) * in[1] +
-                  static_cast<float>(code[3 * c + 2]) * in[2];
-    }
-    for (std::size_t c = 0; c < 3; ++c) y[3 * row + c] = scale_[row] * sum[c];
-  });
+  parallelChunks(0, rows(), (rows() + gatherRows - 1) / gatherRows,
+                 [&](std::size_t, std::size_t begin, std::size_t end) {
+                   blockKernels().back().gather(view(), begin, end, x.data(), y.data());
+                 });
   return y;
 }
 
 Stack BlockSparse::multiplyTransposed(const Stack& y) const {
   require(y.size() == 3 * rows(), "a vector of {} values for {} block rows", y.size(), rows());
-  std::vector<Stack> partial(scatterChunks);
-  parallelChunks(0, rows(), scatterChunks, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    Stack& x = partial[chunk];
-    for (std::size_t row = begin; row < end; ++row) {
-      float in[3];
-      for (std::size_t c = 0; c < 3; ++c) in[c] = scale_[row] * y[3 * row + c];
-      if (in[0] == 0.0f && in[1] == 0.0f && in[2] == 0.0f) continue;
-      if (x.empty()) x.resize(3 * columns_);
-      for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
-        float* out = &x[3 * static_cast<std::size_t>(column_[entry])];
-        const auto& code = code_[entry];
-        for (std::size_t p = 0; p < 3; ++p)
-          out[p] += static_cast<float>(code[p]) * in[0] + static_cast<float>(code[3 + p]) * in[1] +
-                    static_cast<float>(code[6 + p]) * in[2];
-      }
+  std::array<ColumnSums, scatterParts> parts;
+  parallelFor(0, scatterParts, 1, [&](std::size_t part) {
+    parts[part] = ColumnSums(columns_);
+    blockKernels().back().scatter(view(), rowAtShare(part), rowAtShare(part + 1), y.data(), parts[part]);
+  });
+
+  Stack x(3 * columns_);
+  parallelFor(0, parts[0].tiles(), 4, [&](std::size_t tile) {
+    std::size_t begin = tile * ColumnSums::tileColumns;
+    std::size_t end = std::min(begin + ColumnSums::tileColumns, columns_);
+    for (const ColumnSums& part : parts) {
+      const float* sums = part.tile(tile);
+      if (sums == nullptr) continue;
+      for (std::size_t column = begin; column < end; ++column, sums += 4)
+        for (std::size_t c = 0; c < 3; ++c) x[3 * column + c] += sums[c];
     }
   });
-  Stack sum(3 * columns_);
-  for (const Stack& x : partial) {
-    if (x.empty()) continue;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += x[i];
-  }
-  return sum;
+  return x;
+}
+
+std::size_t BlockSparse::rowAtShare(std::size_t part) const {
+  if (part == scatterParts) return rows();
+  std::size_t entry = blocks() * part / scatterParts;
+  return static_cast<std::size_t>(std::lower_bound(rowStart_.begin(), rowStart_.end() - 1, entry) -
+                                  rowStart_.begin());
 }
 
 BlockSparse BlockSparse::transposed() const {

@@ -12,6 +12,8 @@
 
 namespace relucent {
 
+struct BlockRows;
+
 /// A 3x3 block: rows are camera channels, columns projector channels (paper eq. 2).
 using ColourBlock = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 
@@ -41,6 +43,8 @@ class BlockSparse {
   float scale(std::size_t row) const { return scale_[row]; }
   const std::array<std::int16_t, 9>& code(std::size_t entry) const { return code_[entry]; }
   ColourBlock block(std::size_t row, std::size_t entry) const;
+  /// The arrays themselves, for block_kernels.h; valid as long as this matrix.
+  BlockRows view() const;
 
   /// y = B x. Shapes: 3 * columns() -> 3 * rows().
   Stack multiply(const Stack& x) const;
@@ -62,6 +66,9 @@ class BlockSparse {
   friend class BlockSparseBuilder;
   friend class BlockSparseWriter;
   friend class TransportFile;
+  /// Where a part of the rows begins if each is to have the same share of the blocks.
+  std::size_t rowAtShare(std::size_t part) const;
+
   std::size_t columns_ = 0;
   std::vector<std::size_t> rowStart_{0};
   std::vector<std::uint32_t> column_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/parallel.h"
 
 namespace relucent {
 
@@ -76,62 +75,6 @@ Node NodeLayout::nodeOver(std::size_t pixel, int level) const {
   Pixel place = pixelAt(projectors_.size(projector), pixel - projectors_.offset(projector));
   level = std::min(level, levels(projector) - 1);
   return {static_cast<int>(projector), level, place.x >> level, place.y >> level};
-}
-
-Stack NodeLayout::means(const Stack& pattern) const {
-  require(pattern.size() == 3 * projectors_.count(), "a pattern of {} values for {} projector pixels",
-          pattern.size(), projectors_.count());
-  Stack values(3 * count_);
-  std::copy(pattern.begin(), pattern.end(), values.begin());
-  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
-    for (int level = 1; level < levels(projector); ++level) {
-      Size grid = gridSize(projector, level);
-      parallelFor(0, static_cast<std::size_t>(grid.height), 16, [&](std::size_t y) {
-        for (int x = 0; x < grid.width; ++x) {
-          Node node{static_cast<int>(projector), level, x, static_cast<int>(y)};
-          float sum[3] = {0, 0, 0};
-          // Children at the border may be cut off: weighting by their pixels keeps every pixel's say equal.
-          for (int cy = 2 * node.y; cy < 2 * node.y + 2; ++cy) {
-            for (int cx = 2 * node.x; cx < 2 * node.x + 2; ++cx) {
-              Size finer = gridSize(projector, level - 1);
-              if (cx >= finer.width || cy >= finer.height) continue;
-              Node child{node.projector, level - 1, cx, cy};
-              float weight = static_cast<float>(block(child).count());
-              const float* value = &values[3 * index(child)];
-              for (int c = 0; c < 3; ++c) sum[c] += weight * value[c];
-            }
-          }
-          float pixels = static_cast<float>(block(node).count());
-          float* value = &values[3 * index(node)];
-          for (int c = 0; c < 3; ++c) value[c] = sum[c] / pixels;
-        }
-      });
-    }
-  }
-  return values;
-}
-
-Stack NodeLayout::meansAdjoint(const Stack& nodeValues) const {
-  require(nodeValues.size() == 3 * count_, "{} values for {} nodes", nodeValues.size(), count_);
-  // Top down: what a node holds per pixel of its block is handed to its children in proportion.
-  Stack perNode = nodeValues;
-  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
-    for (int level = levels(projector) - 2; level >= 0; --level) {
-      Size grid = gridSize(projector, level);
-      parallelFor(0, static_cast<std::size_t>(grid.height), 16, [&](std::size_t y) {
-        for (int x = 0; x < grid.width; ++x) {
-          Node node{static_cast<int>(projector), level, x, static_cast<int>(y)};
-          Node above = parent(node);
-          float share = static_cast<float>(block(node).count()) / static_cast<float>(block(above).count());
-          const float* from = &perNode[3 * index(above)];
-          float* to = &perNode[3 * index(node)];
-          for (int c = 0; c < 3; ++c) to[c] += share * from[c];
-        }
-      });
-    }
-  }
-  perNode.resize(3 * projectors_.count());
-  return perNode;
 }
 
 }  // namespace relucent

@@ -57,8 +57,8 @@ class NodeLayout {
   /// Mean of a pattern over every node: v = A p. A pixel counts once however the block is cut.
   /// Shapes: 3 * projectors().count() -> 3 * count().
   Stack means(const Stack& pattern) const;
-  /// The adjoint A^T: spreads every node's value evenly over its pixels.
-  Stack meansAdjoint(const Stack& nodeValues) const;
+  /// The adjoint A^T: spreads every node's value evenly over its pixels, in the memory that it is given.
+  Stack meansAdjoint(Stack nodeValues) const;
 
  private:
   struct Grid {

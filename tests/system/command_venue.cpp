@@ -4,6 +4,8 @@
 //   command-venue show FOLDER IMAGE.png
 //   command-venue photograph FOLDER SECONDS OUTPUT SHOT
 // OUTPUT is OpenEXR, or plain 32-bit floats if its name ends in .f32.
+#include <png.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -11,13 +13,32 @@
 #include "base/error.h"
 #include "base/fingerprint.h"
 #include "image/exr.h"
-#include "image/picture_files.h"
 #include "system/command_venue.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Drive values as a PNG of 8 bits holds them. By libpng, not by the program's own way of reading pictures:
+/// that would load OpenCV for every photograph, and agree with itself about any mistake.
+Image shownPicture(const fs::path& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  std::vector<png_byte> codes;
+  bool read = png_image_begin_read_from_file(&header, path.c_str()) != 0;
+  if (read && (header.format & PNG_FORMAT_FLAG_LINEAR) == 0) {
+    header.format = PNG_FORMAT_RGB;
+    codes.resize(PNG_IMAGE_SIZE(header));
+    read = png_image_finish_read(&header, nullptr, codes.data(), 0, nullptr) != 0;
+  }
+  if (!read || codes.empty())
+    throw Error(ErrorKind::format, "this is no PNG of 8 bits", "copy the file that was to be shown",
+                path.string());
+  Image image({static_cast<int>(header.width), static_cast<int>(header.height)}, 3);
+  for (std::size_t i = 0; i < codes.size(); ++i) image.data()[i] = static_cast<float>(codes[i]) / 255.0f;
+  return image;
+}
 
 int show(const fs::path& folder, const fs::path& image) {
   fs::copy_file(image, folder / "shown.png", fs::copy_options::overwrite_existing);
@@ -28,7 +49,7 @@ int photograph(const fs::path& folder, double seconds, const fs::path& output, c
   Rig rig = test::commandVenue().rig();
   // Nothing has been shown yet when the camera is asked for its size.
   fs::path shown = folder / "shown.png";
-  rig.projectors[0]->show(fs::exists(shown) ? readPicture(shown).encoded : Image(test::commandProjector, 3));
+  rig.projectors[0]->show(fs::exists(shown) ? shownPicture(shown) : Image(test::commandProjector, 3));
   // The name of the shot keys the noise: photographs of different shots differ, the same one repeats.
   CaptureRequest request{{shot, 0}, 0, seconds};
   Image signal = rig.cameras[0]->capture(request).signal;

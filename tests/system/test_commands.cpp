@@ -13,7 +13,7 @@ using namespace relucent;
 
 namespace {
 
-// A thousand processes: a minute on a free machine, several on a busy one with sanitizers.
+// A thousand processes: half a minute on a free machine, several on a busy one with sanitizers.
 constexpr int longest = 560'000;
 
 QString tool(const char* name) {

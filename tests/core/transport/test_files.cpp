@@ -29,7 +29,8 @@ bool runPython(const fs::path& folder, const QString& script, QString& output) {
 
 bool scipyIsThere() {
   QString output;
-  return runPython(fs::temp_directory_path(), "import scipy.sparse", output);
+  static const bool there = runPython(fs::temp_directory_path(), "import scipy.sparse", output);
+  return there;
 }
 
 /// Rows on very different scales, an empty row, an empty column.

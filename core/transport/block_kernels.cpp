@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// GCC's vector extensions, which Clang has too: four lanes are SSE on x86-64 and NEON on arm64. A block is
+// too small for wider vectors to help. The version for newer processors is chosen when the program runs,
+// because one package must be right on all of them; by hand, because the loader would ask for the choice
+// (target_clones) before the sanitizers are ready.
+#include "transport/block_kernels.h"
+
+#include <cstring>
+
+namespace relucent {
+namespace {
+
+using Floats [[gnu::vector_size(16)]] = float;
+using Integers [[gnu::vector_size(16)]] = std::int32_t;
+using Longs [[gnu::vector_size(16)]] = std::int64_t;
+using Codes [[gnu::vector_size(16)]] = std::int16_t;
+
+// A code in the upper half of 32 bits: that is one instruction everywhere, widening with the sign is not.
+constexpr float lanesToCodes = 0x1.0p-16f;
+
+// Inlined into each version below, so that each compiles it for its own instruction set.
+#define RELUCENT_KERNEL [[gnu::always_inline]] inline
+
+RELUCENT_KERNEL Floats load(const float* from) {
+  Floats values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+
+RELUCENT_KERNEL Codes eightCodes(const std::int16_t* from) {
+  Codes codes;
+  std::memcpy(&codes, from, sizeof codes);
+  return codes;
+}
+
+/// Four codes, then zeros.
+RELUCENT_KERNEL Codes fourCodes(const std::int16_t* from) {
+  std::int64_t codes;
+  std::memcpy(&codes, from, sizeof codes);
+  return reinterpret_cast<Codes>(Longs{codes, 0});
+}
+
+RELUCENT_KERNEL Floats floatsOf(Codes halves) {
+  return __builtin_convertvector(reinterpret_cast<Integers>(halves), Floats);
+}
+
+/// A block's codes times 65536, a vector for each camera channel; the fourth lane is of no meaning.
+struct BlockLanes {
+  Floats red, green, blue;
+};
+
+/// Reads the nine codes and nothing behind them.
+RELUCENT_KERNEL BlockLanes lanesOf(const std::array<std::int16_t, 9>& code) {
+  constexpr Codes zero{};
+  Codes red = __builtin_shufflevector(zero, eightCodes(code.data()), 0, 8, 1, 9, 2, 10, 3, 11);
+  Codes green = __builtin_shufflevector(zero, fourCodes(code.data() + 3), 0, 8, 1, 9, 2, 10, 3, 11);
+  Codes blue = __builtin_shufflevector(zero, eightCodes(code.data() + 1), 4, 12, 5, 13, 6, 14, 7, 15);
+  Floats late = floatsOf(blue);
+  return {floatsOf(red), floatsOf(green), __builtin_shufflevector(late, late, 1, 2, 3, 3)};
+}
+
+RELUCENT_KERNEL float sumOfThree(Floats values) {
+  return values[0] + values[1] + values[2];
+}
+
+RELUCENT_KERNEL void gatherRows(const BlockRows& rows, std::size_t begin, std::size_t end, const float* x,
+                                float* y) {
+  if (rows.columns == 0) return;
+  // Behind the last column's three values there is nothing for a fourth lane.
+  const std::size_t lastColumn = rows.columns - 1;
+  const float last[4] = {x[3 * lastColumn], x[3 * lastColumn + 1], x[3 * lastColumn + 2], 0.0f};
+
+  for (std::size_t row = begin; row < end; ++row) {
+    Floats red{}, green{}, blue{};
+    for (std::size_t entry = rows.start[row]; entry < rows.start[row + 1]; ++entry) {
+      std::size_t column = rows.column[entry];
+      Floats in = load(column == lastColumn ? last : x + 3 * column);
+      BlockLanes block = lanesOf(rows.code[entry]);
+      red += block.red * in;
+      green += block.green * in;
+      blue += block.blue * in;
+    }
+    float scale = lanesToCodes * rows.scale[row];
+    y[3 * row] = scale * sumOfThree(red);
+    y[3 * row + 1] = scale * sumOfThree(green);
+    y[3 * row + 2] = scale * sumOfThree(blue);
+  }
+}
+
+RELUCENT_KERNEL void scatterRows(const BlockRows& rows, std::size_t begin, std::size_t end, const float* y,
+                                 ColumnSums& sums) {
+  const auto [start, column, code, rowScale, columns] = rows;
+  for (std::size_t row = begin; row < end; ++row) {
+    float scale = lanesToCodes * rowScale[row];
+    float red = scale * y[3 * row], green = scale * y[3 * row + 1], blue = scale * y[3 * row + 2];
+    if (red == 0.0f && green == 0.0f && blue == 0.0f) continue;
+    const std::size_t rowEnd = start[row + 1];
+    for (std::size_t entry = start[row]; entry < rowEnd; ++entry) {
+      float* out = sums.at(column[entry]);
+      BlockLanes block = lanesOf(code[entry]);
+      // Added to the sum last: what a row before has stored there may still be on its way.
+      Floats sum = load(out) + (block.red * red + block.green * green + block.blue * blue);
+      std::memcpy(out, &sum, sizeof sum);
+    }
+  }
+}
+
+void gatherBaseline(const BlockRows& rows, std::size_t begin, std::size_t end, const float* x, float* y) {
+  gatherRows(rows, begin, end, x, y);
+}
+
+void scatterBaseline(const BlockRows& rows, std::size_t begin, std::size_t end, const float* y,
+                     ColumnSums& sums) {
+  scatterRows(rows, begin, end, y, sums);
+}
+
+#ifdef __x86_64__
+[[gnu::target("avx2,fma")]] void gatherAvx2(const BlockRows& rows, std::size_t begin, std::size_t end,
+                                            const float* x, float* y) {
+  gatherRows(rows, begin, end, x, y);
+}
+
+[[gnu::target("avx2,fma")]] void scatterAvx2(const BlockRows& rows, std::size_t begin, std::size_t end,
+                                             const float* y, ColumnSums& sums) {
+  scatterRows(rows, begin, end, y, sums);
+}
+#endif
+
+}  // namespace
+
+void ColumnSums::makeTile(Tile& tile) {
+  tile = std::make_unique<float[]>(4 * tileColumns);
+}
+
+std::span<const BlockKernels> blockKernels() {
+#ifdef __x86_64__
+  static const BlockKernels all[] = {{"baseline", gatherBaseline, scatterBaseline},
+                                     {"AVX2, FMA", gatherAvx2, scatterAvx2}};
+  static const bool newer = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return {all, newer ? 2u : 1u};
+#else
+  static const BlockKernels all[] = {{"baseline", gatherBaseline, scatterBaseline}};
+  return all;
+#endif
+}
+
+}  // namespace relucent

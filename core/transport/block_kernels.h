@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace relucent {
+
+/// The arrays of a BlockSparse, without owning them.
+struct BlockRows {
+  const std::size_t* start = nullptr;
+  const std::uint32_t* column = nullptr;
+  const std::array<std::int16_t, 9>* code = nullptr;
+  const float* scale = nullptr;
+  std::size_t columns = 0;
+};
+
+/// Sums over the columns, made in tiles where something is added: what neighbouring rows see is neighbouring
+/// columns and a few coarse ones, so the sums of a part of the rows need little memory, and that stays in
+/// the cache. Four floats a column: three channels, and one that is never read, because then a column is one
+/// vector and never shares bytes with the next.
+class ColumnSums {
+ public:
+  static constexpr std::size_t tileColumns = 512;
+
+  ColumnSums() = default;
+  explicit ColumnSums(std::size_t columns) : tiles_((columns + tileColumns - 1) / tileColumns) {}
+
+  /// The four sums of a column.
+  float* at(std::size_t column) {
+    Tile& tile = tiles_[column / tileColumns];
+    if (!tile) [[unlikely]]
+      makeTile(tile);
+    return &tile[4 * (column % tileColumns)];
+  }
+  /// Null where nothing was added.
+  const float* tile(std::size_t index) const { return tiles_[index].get(); }
+  std::size_t tiles() const { return tiles_.size(); }
+
+ private:
+  using Tile = std::unique_ptr<float[]>;
+  static void makeTile(Tile& tile);
+  std::vector<Tile> tiles_;
+};
+
+/// The inner loops of the products, for one instruction set. They differ in roundings: with fused
+/// multiply-add there are half as many.
+struct BlockKernels {
+  const char* instructions;
+  /// y = B x for the rows [begin, end). Shapes: 3 * columns -> 3 * rows.
+  void (*gather)(const BlockRows& rows, std::size_t begin, std::size_t end, const float* x, float* y);
+  /// sums += B^T y for the rows [begin, end). Rows whose y is zero cost nothing. Shapes: 3 * rows -> columns.
+  void (*scatter)(const BlockRows& rows, std::size_t begin, std::size_t end, const float* y,
+                  ColumnSums& sums);
+};
+
+/// What this processor can run, the quickest last; the first runs on every processor of its kind.
+std::span<const BlockKernels> blockKernels();
+
+}  // namespace relucent

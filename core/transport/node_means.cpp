@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "transport/node_layout.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::size_t rowsOfATask = 16;
+
+/// Where the blocks of one level lie along one side of a projector: all are `side` pixels long but the last,
+/// which the border may cut off.
+class Cuts {
+ public:
+  Cuts(int pixels, int level, int blocks) : pixels_(pixels), side_(1 << level), blocks_(blocks) {}
+  int blocks() const { return blocks_; }
+  /// How many of the first blocks have two children of full length.
+  int whole() const { return pixels_ / side_; }
+  int length(int block) const { return std::min(side_, pixels_ - block * side_); }
+  /// Of the block's two halves. The second is 0 where the border leaves nothing of it.
+  int firstHalf(int block) const { return std::min(side_ / 2, length(block)); }
+  int secondHalf(int block) const { return length(block) - firstHalf(block); }
+
+ private:
+  int pixels_, side_, blocks_;
+};
+
+/// Pixels of a node's children: weighting by them keeps every pixel's say equal however its block is cut.
+struct ChildWeights {
+  float upperLeft, upperRight, lowerLeft, lowerRight, sum;
+
+  ChildWeights(const Cuts& columns, const Cuts& rows, int x, int y)
+      : upperLeft(static_cast<float>(columns.firstHalf(x) * rows.firstHalf(y))),
+        upperRight(static_cast<float>(columns.secondHalf(x) * rows.firstHalf(y))),
+        lowerLeft(static_cast<float>(columns.firstHalf(x) * rows.secondHalf(y))),
+        lowerRight(static_cast<float>(columns.secondHalf(x) * rows.secondHalf(y))),
+        sum(static_cast<float>(columns.length(x) * rows.length(y))) {}
+};
+
+/// One row of a level's means from the two rows below it; `lower` is `upper` where there is no second, and
+/// then its weights are 0.
+void meansOfRow(const Cuts& columns, const Cuts& rows, int y, const float* upper, const float* lower,
+                float* out) {
+  const bool wholeRow = y < rows.whole();
+  const int whole = wholeRow ? columns.whole() : 0;
+  for (int x = 0; x < whole; ++x, upper += 6, lower += 6, out += 3)
+    for (int c = 0; c < 3; ++c) out[c] = 0.25f * ((upper[c] + upper[c + 3]) + (lower[c] + lower[c + 3]));
+
+  for (int x = whole; x < columns.blocks(); ++x, upper += 6, lower += 6, out += 3) {
+    ChildWeights weights(columns, rows, x, y);
+    const int right = columns.secondHalf(x) > 0 ? 3 : 0;
+    for (int c = 0; c < 3; ++c)
+      out[c] = (weights.upperLeft * upper[c] + weights.upperRight * upper[c + right] +
+                weights.lowerLeft * lower[c] + weights.lowerRight * lower[c + right]) /
+               weights.sum;
+  }
+}
+
+/// The adjoint: a row of a level hands what it holds to one row of children, in proportion to their pixels.
+void spreadRow(const Cuts& columns, const Cuts& rows, int y, bool upper, const float* from, float* to) {
+  const bool wholeRow = y < rows.whole();
+  const int whole = wholeRow ? columns.whole() : 0;
+  for (int x = 0; x < whole; ++x, from += 3, to += 6) {
+    for (int c = 0; c < 3; ++c) {
+      to[c] += 0.25f * from[c];
+      to[c + 3] += 0.25f * from[c];
+    }
+  }
+
+  for (int x = whole; x < columns.blocks(); ++x, from += 3, to += 6) {
+    ChildWeights weights(columns, rows, x, y);
+    const float left = (upper ? weights.upperLeft : weights.lowerLeft) / weights.sum;
+    const float right = (upper ? weights.upperRight : weights.lowerRight) / weights.sum;
+    for (int c = 0; c < 3; ++c) {
+      to[c] += left * from[c];
+      if (columns.secondHalf(x) > 0) to[c + 3] += right * from[c];
+    }
+  }
+}
+
+}  // namespace
+
+Stack NodeLayout::means(const Stack& pattern) const {
+  require(pattern.size() == 3 * projectors_.count(), "a pattern of {} values for {} projector pixels",
+          pattern.size(), projectors_.count());
+  Stack values;
+  values.reserve(3 * count_);
+  values.assign(pattern.begin(), pattern.end());
+  values.resize(3 * count_);
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
+    Size pixels = projectors_.size(projector);
+    for (int level = 1; level < levels(projector); ++level) {
+      const Grid& fine = grids_[projector][static_cast<std::size_t>(level - 1)];
+      const Grid& coarse = grids_[projector][static_cast<std::size_t>(level)];
+      const Cuts columns(pixels.width, level, coarse.size.width);
+      const Cuts rows(pixels.height, level, coarse.size.height);
+      const std::size_t rowValues = 3 * static_cast<std::size_t>(fine.size.width);
+      parallelFor(0, static_cast<std::size_t>(coarse.size.height), rowsOfATask, [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        const float* upper = &values[3 * (fine.offset + indexOf(fine.size, {0, 2 * y}))];
+        const float* lower = rows.secondHalf(y) > 0 ? upper + rowValues : upper;
+        meansOfRow(columns, rows, y, upper, lower,
+                   &values[3 * (coarse.offset + indexOf(coarse.size, {0, y}))]);
+      });
+    }
+  }
+  return values;
+}
+
+Stack NodeLayout::meansAdjoint(Stack nodeValues) const {
+  require(nodeValues.size() == 3 * count_, "{} values for {} nodes", nodeValues.size(), count_);
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
+    Size pixels = projectors_.size(projector);
+    for (int level = levels(projector) - 1; level > 0; --level) {
+      const Grid& fine = grids_[projector][static_cast<std::size_t>(level - 1)];
+      const Grid& coarse = grids_[projector][static_cast<std::size_t>(level)];
+      const Cuts columns(pixels.width, level, coarse.size.width);
+      const Cuts rows(pixels.height, level, coarse.size.height);
+      parallelFor(0, static_cast<std::size_t>(fine.size.height), 2 * rowsOfATask, [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        spreadRow(columns, rows, y / 2, y % 2 == 0,
+                  &nodeValues[3 * (coarse.offset + indexOf(coarse.size, {0, y / 2}))],
+                  &nodeValues[3 * (fine.offset + indexOf(fine.size, {0, y}))]);
+      });
+    }
+  }
+  nodeValues.resize(3 * projectors_.count());
+  return nodeValues;
+}
+
+}  // namespace relucent

@@ -98,8 +98,30 @@ CommandRigSettings commandsFrom(const Json& json) {
   return rig;
 }
 
+Json importedToJson(const ImportedRigSettings& rig) {
+  return {{"kind", "imported"},
+          {"projector", sizeToJson(rig.projector)},
+          {"camera", sizeToJson(rig.camera)},
+          {"pictures", rig.pictures},
+          {"patterns", rig.patterns},
+          {"photographs", rig.photographs},
+          {"fingerprint", rig.fingerprint}};
+}
+
+ImportedRigSettings importedFrom(const Json& json) {
+  ImportedRigSettings rig;
+  read(json, "projector", rig.projector);
+  read(json, "camera", rig.camera);
+  read(json, "pictures", rig.pictures);
+  read(json, "patterns", rig.patterns);
+  read(json, "photographs", rig.photographs);
+  read(json, "fingerprint", rig.fingerprint);
+  return rig;
+}
+
 RigSettings rigFrom(const Json& json) {
   std::string kind = json.at("kind");
+  if (kind == "imported") return importedFrom(json);
   if (kind == "simulated") return venueFrom(json);
   if (kind == "commands") return commandsFrom(json);
   throw Error(ErrorKind::format,
@@ -222,6 +244,23 @@ Json toJson(const BenchResult& result) {
           {"benchmarks", std::move(benchmarks)}};
 }
 
+Json toJson(const ImportResult& result) {
+  return {{"patterns", result.patterns},
+          {"fitted", result.fitted},
+          {"held_out", result.heldOut},
+          {"nrmse",
+           {{"one_to_one", result.error.oneToOne},
+            {"mix", result.error.mix},
+            {"transport", result.error.transport}}},
+          {"projector", sizeToJson(result.projector)},
+          {"camera", sizeToJson(result.camera)},
+          {"leaves", result.leaves},
+          {"flagged_share", result.flaggedShare},
+          {"seconds", result.seconds},
+          {"peak_memory_bytes", result.peakMemoryBytes},
+          {"findings", result.findings}};
+}
+
 Json toJson(const std::vector<VenueDescription>& venues) {
   Json list = Json::array();
   for (const VenueDescription& venue : venues)
@@ -231,6 +270,7 @@ Json toJson(const std::vector<VenueDescription>& venues) {
 
 Json toJson(const RigSettings& settings) {
   if (const auto* venue = std::get_if<VenueSettings>(&settings)) return venueToJson(*venue);
+  if (const auto* imported = std::get_if<ImportedRigSettings>(&settings)) return importedToJson(*imported);
   return commandsToJson(std::get<CommandRigSettings>(settings));
 }
 

@@ -110,6 +110,7 @@ class Importing {
     bool levels = false;
     for (int c = 0; c < 3; ++c) levels = levels || codesOf(patterns_, frames_, c).size() > 2;
     responseKnown_ = levels;
+    for (int frame : frames_.fitted) isBinary_.push_back(isBinary(frame) ? 1 : 0);
     const int rounds = levels ? 4 : 2;
     std::vector<std::uint32_t> chosen = sample();
     for (int round = 0; round < rounds; ++round) {
@@ -128,10 +129,28 @@ class Importing {
       mixing_ = commonMixing(seen);
       if (!levels || round + 1 == rounds) continue;
       for (std::size_t i = 0; i < seen.size(); ++i)
-        sampled[i].colour = fitColour(seen[i], mixing_, prior_.noise);
+        sampled[i].colour = fitColour(blackAndWhite(seen[i]), mixing_, prior_.noise);
       response_ = estimateResponse(patterns_, photographs_, frames_, sampled, response_);
       pyramid_ = sequencePyramid(patterns_, frames_, DriveTable(response_));
     }
+  }
+
+  /// Only the frames without levels between black and white, where these are enough: what they say of gains
+  /// is true whatever the response is, so that curves are found in one step.
+  PixelFrames blackAndWhite(PixelFrames seen) const {
+    constexpr float least = 8.0f;
+    Eigen::VectorXf weight = seen.weight;
+    for (std::size_t row = 0; row < frames_.fitted.size(); ++row)
+      if (!isBinary_[row]) weight[static_cast<Eigen::Index>(row)] = 0.0f;
+    if (weight.sum() >= least) seen.weight = weight;
+    return seen;
+  }
+
+  bool isBinary(int frame) const {
+    for (std::size_t pixel = 0; pixel < patterns_.size().count(); ++pixel)
+      for (int c = 0; c < 3; ++c)
+        if (int code = patterns_.code(pixel, frame, c); code != 0 && code != 65535) return false;
+    return true;
   }
 
   /// Pixels that decoded well, evenly spread over the lit ones.
@@ -191,13 +210,15 @@ class Importing {
       if (lit_[pixel] != 0 && decoded_[pixel].pixel >= 0) {
         PixelFrames seen = reader.read(pixel, pixelAlone(decoded_[pixel], patterns_.size()));
         oneToOne_[pixel] = fitGains(seen);
-        mix_[pixel] = fitColour(seen, mixing_, prior_.noise);
+        mix_[pixel] = colourOf(seen);
       }
       PixelFrames seen = footprint_[pixel].found()
                              ? reader.read(pixel, sharesOf(footprint_[pixel], patterns_.size()))
                              : reader.readEverywhere(pixel);
-      colours[pixel] = fitColour(seen, mixing_, prior_.noise);
-      if (lit_[pixel] != 0) acquisition.flagged[pixel] = isExplained(seen, colours[pixel]) ? 0 : 1;
+      colours[pixel] = colourOf(seen);
+      // Light from everywhere cannot be compensated pixel by pixel: no inverse may rely on such a row.
+      bool known = footprint_[pixel].found() && isExplained(seen, colours[pixel]);
+      acquisition.flagged[pixel] = known ? 0 : 1;
     });
     progress.checkpoint();
     acquisition.transport = rows(colours);
@@ -221,6 +242,16 @@ class Importing {
     return result;
   }
 
+  /// Grey patterns say nothing about mixing: then a gain for each channel is all there is.
+  PixelColour colourOf(const PixelFrames& seen) const {
+    return colouredPatterns() ? fitColour(seen, mixing_, prior_.noise) : fitGains(seen);
+  }
+
+  bool colouredPatterns() const {
+    return std::any_of(frames_.fitted.begin(), frames_.fitted.end(),
+                       [&](int frame) { return patterns_.isColoured(frame); });
+  }
+
   TransportMatrix rows(const std::vector<PixelColour>& colours) const {
     Size projector = patterns_.size();
     NodeLayout layout{Rasters(projector)};
@@ -236,7 +267,8 @@ class Importing {
         for (const NodeShare& share : shares) strongest = std::max(strongest, share.share);
         blocks[row] = shares.size();
       }
-      fullScale[row] = strongest * colours[row].block.cwiseAbs().maxCoeff();
+      constexpr float leastScale = 1e-9f;  // of rows that hold nothing
+      fullScale[row] = std::max(leastScale, strongest * colours[row].block.cwiseAbs().maxCoeff());
     });
     std::vector<float> scale(fullScale);
     for (float& value : scale) value /= 32767.0f;
@@ -277,9 +309,7 @@ class Importing {
 
   void addFindings(Import& result) const {
     std::vector<std::string>& findings = result.acquisition.findings;
-    bool colouredPatterns = false;
-    for (int frame : frames_.fitted) colouredPatterns = colouredPatterns || patterns_.isColoured(frame);
-    if (!colouredPatterns)
+    if (!colouredPatterns())
       findings.push_back(
           photographs_.isColoured()
               ? "The patterns are grey: how colours mix was not measured, and T's blocks are diagonal."
@@ -309,6 +339,7 @@ class Importing {
   ImportFrames frames_;
   ProjectorResponse response_;
   bool responseKnown_ = false;
+  std::vector<std::uint8_t> isBinary_;  // of each fitted frame: nothing between black and white
   ColourBlock mixing_ = ColourBlock::Identity();
   FootprintPrior prior_;
   SequencePyramid pyramid_;

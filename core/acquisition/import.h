@@ -36,7 +36,8 @@ struct Import {
 };
 
 /// The patterns that are held out: of those that are not even all over, ordered by how fine they are (mean
-/// difference between neighbouring pixels), every `every`th, so all stripe widths have their turn.
+/// difference between neighbouring pixels), one of every `every`, so that all stripe widths have their turn:
+/// the middle one, or another of its group where the rest could not tell places apart without that one.
 std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every);
 
 /// Estimates T from patterns and photographs of them that were taken elsewhere. `patterns` holds encoded

@@ -30,7 +30,8 @@ double finenessOf(const PictureSequence& patterns, int picture) {
   return sum / static_cast<double>(size.count() * static_cast<std::size_t>(channels));
 }
 
-/// Pictures with content, coarse ones first.
+}  // namespace
+
 std::vector<int> byFineness(const PictureSequence& patterns) {
   std::vector<std::pair<double, int>> ranked;
   for (int k = 0; k < patterns.pictures(); ++k)
@@ -39,18 +40,6 @@ std::vector<int> byFineness(const PictureSequence& patterns) {
   std::vector<int> order;
   for (const auto& [fineness, k] : ranked) order.push_back(k);
   return order;
-}
-
-}  // namespace
-
-std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every) {
-  std::vector<int> order = byFineness(patterns);
-  std::vector<int> held;
-  for (std::size_t i = static_cast<std::size_t>(every) / 2; i < order.size();
-       i += static_cast<std::size_t>(every))
-    held.push_back(order[i]);
-  std::sort(held.begin(), held.end());
-  return held;
 }
 
 ImportFrames chooseFrames(const PictureSequence& patterns, const PictureSequence& photographs,

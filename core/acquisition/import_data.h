@@ -22,6 +22,9 @@ struct ImportFrames {
   /// Values of a sequence: one for each spatial frame and channel, frame after frame.
   int samples() const { return static_cast<int>(spatial.size()) * channels; }
 };
+/// Patterns that are not even all over, coarse ones first.
+std::vector<int> byFineness(const PictureSequence& patterns);
+
 ImportFrames chooseFrames(const PictureSequence& patterns, const PictureSequence& photographs,
                           int holdOutEvery);
 

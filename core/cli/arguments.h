@@ -25,6 +25,14 @@ struct Resume {
   std::filesystem::path calibration;
   std::filesystem::path cache;
 };
+struct ImportPictures {
+  std::filesystem::path calibration;
+  ImportPicturesSettings settings;
+};
+struct Plan {
+  PatternPlanSettings settings;
+  std::filesystem::path out;
+};
 struct Compensate {
   std::filesystem::path calibration;
   CompensateSettings settings;
@@ -59,7 +67,7 @@ struct Bench {
   std::string name;
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Compensate, Evaluate, Export, Relight,
+using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, ImportPictures, Plan, Compensate, Evaluate, Export, Relight,
                              Separate, Difference, Report, Bench>;
 
 struct Arguments {

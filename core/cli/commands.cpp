@@ -42,6 +42,18 @@ std::string textOf(const CalibrateResult& result) {
          lines(result.findings);
 }
 
+std::string textOf(const ImportResult& result) {
+  return fmt::format(
+             "Imported {} photographs of a {}x{} projector in {:.0f} s; {} of them were not fitted but "
+             "predicted.\n"
+             "Error of the prediction, as a share of what varies: {:.1f} % by T, {:.1f} % by one colour mix "
+             "a "
+             "pixel, {:.1f} % by a one-to-one map.\n",
+             result.patterns, result.projector.width, result.projector.height, result.seconds, result.heldOut,
+             100.0 * result.error.transport, 100.0 * result.error.mix, 100.0 * result.error.oneToOne) +
+         lines(result.findings);
+}
+
 std::string textOf(const WrittenFiles& result) {
   std::string text;
   for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
@@ -145,6 +157,16 @@ struct Executor {
 
   Outcome operator()(const Resume& command) const {
     return outcomeOf(resume(command.calibration, command.cache, progress));
+  }
+
+  Outcome operator()(const ImportPictures& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(importPictures(command.calibration, command.settings, progress));
+  }
+
+  Outcome operator()(const Plan& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(exportPlan(command.settings, command.out, progress));
   }
 
   Outcome operator()(const Compensate& command) const {

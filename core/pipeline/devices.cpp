@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/devices.h"
 
+#include "base/error.h"
 #include "devices/command_camera.h"
 #include "devices/command_projector.h"
 
@@ -27,6 +28,11 @@ OpenedRig opened(const CommandRigSettings& settings, const std::filesystem::path
   result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
   result.rig.cameras.push_back(std::make_unique<CommandCamera>(std::move(camera)));
   return result;
+}
+
+OpenedRig opened(const ImportedRigSettings& settings, const std::filesystem::path&, Progress&) {
+  throw Error(ErrorKind::input, "this calibration was imported from photographs and has no devices",
+              "import again, into a new folder: relucent-cli import", settings.photographs);
 }
 
 }  // namespace

@@ -135,6 +135,23 @@ Json toJson(const BenchResult& result) {
           {"benchmarks", std::move(benchmarks)}};
 }
 
+Json toJson(const ImportResult& result) {
+  return {{"patterns", result.patterns},
+          {"fitted", result.fitted},
+          {"held_out", result.heldOut},
+          {"nrmse",
+           {{"one_to_one", result.error.oneToOne},
+            {"mix", result.error.mix},
+            {"transport", result.error.transport}}},
+          {"projector", sizeToJson(result.projector)},
+          {"camera", sizeToJson(result.camera)},
+          {"leaves", result.leaves},
+          {"flagged_share", result.flaggedShare},
+          {"seconds", result.seconds},
+          {"peak_memory_bytes", result.peakMemoryBytes},
+          {"findings", result.findings}};
+}
+
 Json toJson(const std::vector<VenueDescription>& venues) {
   Json list = Json::array();
   for (const VenueDescription& venue : venues)

@@ -10,6 +10,7 @@ namespace relucent {
 
 /// The documents of the command line: snake_case keys, numbers without units. What is not finite is null.
 Json toJson(const CalibrateResult& result);
+Json toJson(const ImportResult& result);
 Json toJson(const CompensateResult& result);
 Json toJson(const EvaluateResult& result);
 Json toJson(const WrittenFiles& result);

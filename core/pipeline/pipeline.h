@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "acquisition/acquisition.h"
+#include "acquisition/import.h"
+#include "acquisition/pattern_plan.h"
 #include "base/progress.h"
 #include "compensation/direct_light.h"
 #include "compensation/method.h"
@@ -36,8 +38,18 @@ struct CommandRigSettings {
   double longestExposure = 4.0;    // seconds
 };
 
-/// How the rig is made: a simulated venue or external programs.
-using RigSettings = std::variant<VenueSettings, CommandRigSettings>;
+/// No devices: patterns and photographs of them that were taken elsewhere.
+struct ImportedRigSettings {
+  Size projector;  // of the patterns
+  Size camera;     // of the photographs
+  int pictures = 0;
+  std::string patterns;  // folders that they were read from
+  std::string photographs;
+  std::string fingerprint;  // of all pictures' files
+};
+
+/// How the rig is made: a simulated venue, external programs, or none at all.
+using RigSettings = std::variant<VenueSettings, CommandRigSettings, ImportedRigSettings>;
 
 struct CalibrateSettings {
   RigSettings rig;
@@ -85,6 +97,34 @@ CalibrateResult resume(const std::filesystem::path& folder, const std::filesyste
                        Progress& progress);
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
                        const AlarmHandler& handler, Progress& progress);
+
+struct ImportPicturesSettings {
+  std::filesystem::path patterns;     // folder of pictures: what was projected, in the projector's own pixels
+  std::filesystem::path photographs;  // folder of pictures: linear signals, one for each pattern
+  ImportSettings import;
+};
+std::vector<std::string> problems(const ImportPicturesSettings& settings);
+
+struct ImportResult {
+  int patterns = 0;
+  int fitted = 0;
+  int heldOut = 0;
+  HeldOutError error;  // on held-out patterns, normalised root mean square
+  Size projector;
+  Size camera;
+  std::uint64_t leaves = 0;
+  double flaggedShare = 0.0;
+  double seconds = 0.0;
+  std::uint64_t peakMemoryBytes = 0;
+  std::vector<std::string> findings;
+};
+
+/// A new calibration out of patterns and photographs taken elsewhere, paired in the order of their names;
+/// files that are no pictures are passed over. Nothing is written before everything is computed. Throws:
+/// Error{input} if the folders hold different numbers of pictures or pictures of different sizes, if `folder`
+/// holds anything already, or as importTransport(); Error{disk, format} for unreadable files.
+ImportResult importPictures(const std::filesystem::path& folder, const ImportPicturesSettings& settings,
+                            Progress& progress);
 
 struct CompensateSettings {
   std::filesystem::path image;     // content, sRGB file or linear EXR
@@ -230,6 +270,13 @@ struct DifferenceResult {
 /// changed, or a prediction against a photograph. Values are compared as they are, unscaled.
 /// Throws: Error{input} if the sizes differ or values are not finite; as readPicture().
 DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress);
+
+/// Writes the patterns of planPatterns() as numbered PNG files for cameras that nothing connects to the
+/// projector, with plan.json (what each is) and instructions.txt (how to photograph them). The folder can be
+/// given to importPictures() as it is.
+/// Throws: Error{input} if `out` holds pictures already; Error{disk}; Cancelled.
+WrittenFiles exportPlan(const PatternPlanSettings& settings, const std::filesystem::path& out,
+                        Progress& progress);
 
 struct ReportSettings {
   std::filesystem::path out;                  // the HTML file; empty: report.html in the calibration folder

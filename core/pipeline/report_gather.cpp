@@ -12,6 +12,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string venueSentence(const RigSettings& rig) {
+  if (const auto* imported = std::get_if<ImportedRigSettings>(&rig))
+    return fmt::format("Imported from {} photographs taken elsewhere", imported->pictures);
   const auto* simulated = std::get_if<VenueSettings>(&rig);
   if (simulated == nullptr) return "Measured with external programs";
   for (const VenueDescription& venue : venues())

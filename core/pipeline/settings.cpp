@@ -49,6 +49,13 @@ Problems problemsOf(const CommandRigSettings& settings) {
   return found;
 }
 
+Problems problemsOf(const ImportedRigSettings& settings) {
+  Problems found;
+  checkSize(found, "projector", settings.projector);
+  checkSize(found, "camera", settings.camera);
+  return found;
+}
+
 void checkTarget(Problems& problems, const TargetSettings& target) {
   append(problems, relucent::problems(target));
 }
@@ -68,6 +75,14 @@ Problems problems(const CalibrateSettings& settings) {
   append(found, problems(settings.linearization));
   append(found, problems(settings.acquisition));
   append(found, problems(settings.windows));
+  return found;
+}
+
+Problems problems(const ImportPicturesSettings& settings) {
+  Problems found;
+  if (settings.patterns.empty()) found.push_back("no folder of patterns is given");
+  if (settings.photographs.empty()) found.push_back("no folder of photographs is given");
+  append(found, problems(settings.import));
   return found;
 }
 

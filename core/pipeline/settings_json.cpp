@@ -55,12 +55,31 @@ CommandRigSettings commandRigFromJson(const Sorted& json) {
   return settings;
 }
 
+Sorted importedRigToJson(const ImportedRigSettings& settings) {
+  return {{"projector", settings.projector},     {"camera", settings.camera},
+          {"pictures", settings.pictures},       {"patterns", settings.patterns},
+          {"photographs", settings.photographs}, {"fingerprint", settings.fingerprint}};
+}
+
+ImportedRigSettings importedRigFromJson(const Sorted& json) {
+  ImportedRigSettings settings;
+  settings.projector = json.at("projector");
+  settings.camera = json.at("camera");
+  settings.pictures = json.value("pictures", settings.pictures);
+  settings.patterns = json.value("patterns", settings.patterns);
+  settings.photographs = json.value("photographs", settings.photographs);
+  settings.fingerprint = json.value("fingerprint", settings.fingerprint);
+  return settings;
+}
+
 }  // namespace
 
 Json rigToJson(const RigSettings& settings) {
   Sorted json;
   if (const auto* venue = std::get_if<VenueSettings>(&settings))
     json = {{"kind", "simulated"}, {"venue", *venue}};
+  else if (const auto* imported = std::get_if<ImportedRigSettings>(&settings))
+    json = {{"kind", "imported"}, {"imported", importedRigToJson(*imported)}};
   else
     json = {{"kind", "commands"}, {"commands", commandRigToJson(std::get<CommandRigSettings>(settings))}};
   return Json(json);
@@ -72,6 +91,7 @@ RigSettings rigFromJson(const Json& json) {
     std::string kind = sorted.at("kind");
     if (kind == "simulated") return sorted.at("venue").get<VenueSettings>();
     if (kind == "commands") return commandRigFromJson(sorted.at("commands"));
+    if (kind == "imported") return importedRigFromJson(sorted.at("imported"));
     throw Error(ErrorKind::format,
                 fmt::format("the calibration was made with devices of the kind \"{}\"", kind),
                 "open it with the version of Relucent that made it");

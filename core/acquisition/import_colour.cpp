@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "acquisition/import_colour.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace relucent {
+namespace {
+
+using Drive = Eigen::Matrix<float, Eigen::Dynamic, 3>;
+
+Drive meansOf(const PictureSequence& patterns, const ImportFrames& frames, const DriveTable& drive) {
+  Drive mean(static_cast<Eigen::Index>(frames.fitted.size()), 3);
+  parallelFor(0, frames.fitted.size(), 1, [&](std::size_t row) {
+    for (int c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (std::size_t pixel = 0; pixel < patterns.size().count(); ++pixel)
+        sum += static_cast<double>(drive(patterns.code(pixel, frames.fitted[row], c), c));
+      mean(static_cast<Eigen::Index>(row), c) =
+          static_cast<float>(sum / static_cast<double>(patterns.size().count()));
+    }
+  });
+  return mean;
+}
+
+/// signal = black + gain * drive of one channel.
+struct Line {
+  float black = 0.0f;
+  float gain = 0.0f;
+};
+
+Line lineThrough(const Eigen::VectorXf& drive, const Eigen::VectorXf& signal, const Eigen::VectorXf& weight) {
+  float count = weight.sum();
+  if (!(count > 0.0f)) return {};
+  float meanDrive = drive.dot(weight) / count, meanSignal = signal.dot(weight) / count;
+  Eigen::VectorXf centred = (drive.array() - meanDrive).matrix();
+  float spread = centred.cwiseAbs2().dot(weight);
+  float along = centred.cwiseProduct(weight).dot(signal);
+  float gain = spread > 1e-8f ? std::max(0.0f, along / spread) : 0.0f;
+  return {meanSignal - gain * meanDrive, gain};
+}
+
+}  // namespace
+
+FrameReader::FrameReader(const PictureSequence& patterns, const PictureSequence& photographs,
+                         const ImportFrames& frames, const SequencePyramid& pyramid, const DriveTable& drive)
+    : photographs_(photographs), frames_(frames), pyramid_(pyramid), mean_(meansOf(patterns, frames, drive)) {
+  for (int frame : frames.fitted) {
+    auto found = std::find(frames.spatial.begin(), frames.spatial.end(), frame);
+    spatialPlace_.push_back(found == frames.spatial.end() ? -1
+                                                          : static_cast<int>(found - frames.spatial.begin()));
+  }
+}
+
+PixelFrames FrameReader::photographed(std::size_t cameraPixel) const {
+  PixelFrames result;
+  auto count = static_cast<Eigen::Index>(frames_.fitted.size());
+  result.signal.resize(count, 3);
+  result.weight.resize(count);
+  for (Eigen::Index row = 0; row < count; ++row) {
+    for (int c = 0; c < 3; ++c)
+      result.signal(row, c) =
+          photographs_.value(cameraPixel, frames_.fitted[static_cast<std::size_t>(row)], c);
+    result.weight[row] = result.signal.row(row).maxCoeff() < importSaturation ? 1.0f : 0.0f;
+  }
+  // A pixel cut off in most frames is better known wrongly than not at all.
+  if (result.weight.sum() < 4.0f) result.weight.setOnes();
+  return result;
+}
+
+PixelFrames FrameReader::read(std::size_t cameraPixel, const std::vector<NodeShare>& shares) const {
+  PixelFrames result = photographed(cameraPixel);
+  Eigen::VectorXf seen = Eigen::VectorXf::Zero(pyramid_.samples);
+  float all = 0.0f;
+  for (const NodeShare& share : shares) {
+    all += share.share;
+    const SequencePyramid::Level& level = pyramid_.levels[static_cast<std::size_t>(share.level)];
+    seen += share.share *
+            Eigen::Map<const Eigen::VectorXf>(
+                level.node(indexOf(level.grid, {share.x, share.y}), pyramid_.samples), pyramid_.samples);
+  }
+  result.drive = all * mean_;
+  for (std::size_t row = 0; row < spatialPlace_.size(); ++row) {
+    if (spatialPlace_[row] < 0) continue;
+    for (int c = 0; c < 3; ++c)
+      result.drive(static_cast<Eigen::Index>(row), c) =
+          seen[spatialPlace_[row] * pyramid_.channels + (pyramid_.channels == 3 ? c : 0)];
+  }
+  return result;
+}
+
+PixelFrames FrameReader::readEverywhere(std::size_t cameraPixel) const {
+  PixelFrames result = photographed(cameraPixel);
+  result.drive = mean_;
+  return result;
+}
+
+PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise) {
+  // How far a surface's mixing is expected to be from the common one, relative to its gain.
+  constexpr float spread = 0.3f;
+  PixelColour colour;
+  Eigen::Matrix<float, Eigen::Dynamic, 4> basis(frames.drive.rows(), 4);
+  basis.col(0) = frames.weight;
+  for (int c = 0; c < 3; ++c) basis.col(c + 1) = frames.drive.col(c).cwiseProduct(frames.weight);
+  Eigen::Matrix4d normal = (basis.transpose() * basis).cast<double>();
+  for (int c = 0; c < 3; ++c) {
+    Line line = lineThrough(frames.drive * mixing.row(c).transpose(), frames.signal.col(c), frames.weight);
+    Eigen::Vector4d centre;
+    centre << static_cast<double>(line.black), (line.gain * mixing.row(c).transpose()).cast<double>();
+    double stiffness = std::pow(noise / (spread * std::max(line.gain, noise)), 2.0);
+    Eigen::Matrix4d system = normal;
+    system.diagonal().array() += Eigen::Array4d(1e-6, stiffness, stiffness, stiffness);
+    Eigen::Vector4d wanted =
+        (basis.transpose() * frames.signal.col(c).cwiseProduct(frames.weight)).cast<double>();
+    Eigen::Vector4d fit = centre + system.ldlt().solve(wanted - normal * centre);
+    colour.black[c] = static_cast<float>(fit[0]);
+    colour.block.row(c) = fit.tail<3>().cast<float>();
+  }
+  return colour;
+}
+
+ColourBlock commonMixing(const std::vector<PixelFrames>& sample) {
+  constexpr int rounds = 6;
+  ColourBlock mixing = ColourBlock::Identity();
+  for (int round = 0; round < rounds; ++round) {
+    ColourBlock next;
+    for (int c = 0; c < 3; ++c) {
+      Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+      Eigen::Vector3d wanted = Eigen::Vector3d::Zero();
+      for (const PixelFrames& frames : sample) {
+        Line line =
+            lineThrough(frames.drive * mixing.row(c).transpose(), frames.signal.col(c), frames.weight);
+        if (!(line.gain > 1e-4f)) continue;
+        // Normalised by the pixel's gain and weighted with it: bright pixels are the surest.
+        Eigen::VectorXf target = (frames.signal.col(c).array() - line.black).matrix() -
+                                 line.gain * frames.drive * mixing.row(c).transpose();
+        Drive lit = line.gain * (frames.weight.asDiagonal() * frames.drive);
+        normal += (lit.transpose() * lit).cast<double>();
+        wanted += (lit.transpose() * target).cast<double>();
+      }
+      normal.diagonal().array() += 1e-3 * normal.trace() + 1e-12;
+      Eigen::Vector3d row = mixing.row(c).transpose().cast<double>() + normal.ldlt().solve(wanted);
+      row = row.cwiseMax(0.0);
+      next.row(c) = (row / std::max(1e-6, row.sum())).transpose().cast<float>();
+    }
+    mixing = next;
+  }
+  return mixing;
+}
+
+}  // namespace relucent

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "acquisition/import.h"
+#include "acquisition/import_colour.h"
+
+namespace relucent {
+
+/// Predictions of the simpler models, and what all are judged by.
+struct HeldOutInput {
+  const PictureSequence& patterns;
+  const PictureSequence& photographs;
+  const ImportFrames& frames;
+  const std::vector<std::uint8_t>& lit;
+  const std::vector<Decoded>& decoded;
+  const std::vector<PixelColour>& oneToOne;
+  const std::vector<PixelColour>& mix;
+};
+
+struct HeldOutScore {
+  HeldOutError error;
+  double relative = 0.0;  // of T: root of the residuals' over the photographs' energy less e, lit pixels
+};
+
+/// Predicts every held-out photograph with each model.  Same bits for every number of threads.
+HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisition, const DriveTable& drive,
+                          Progress& progress);
+
+/// One black and one gain a channel, least squares: the diagonal part of PixelColour alone is used.
+PixelColour fitGains(const PixelFrames& frames);
+
+/// How many held-out patterns are the exact negative of a fitted one.
+int complementsAmong(const PictureSequence& patterns, const ImportFrames& frames);
+
+}  // namespace relucent

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "acquisition/import.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/fingerprint.h"
+#include "calibration/results.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/settings_json.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+bool isPictureName(const fs::path& path) {
+  static const std::set<std::string> endings{".png", ".tif",  ".tiff", ".jpg", ".jpeg",
+                                             ".bmp", ".webp", ".pgm",  ".ppm", ".exr"};
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return endings.count(ending) > 0 && !path.filename().string().starts_with(".");
+}
+
+/// The pictures of a folder in the order of their names.
+std::vector<fs::path> picturesIn(const fs::path& folder, const char* what) {
+  std::error_code code;
+  std::vector<fs::path> pictures;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
+    if (entry->is_regular_file(code) && isPictureName(entry->path())) pictures.push_back(entry->path());
+  if (code)
+    throw Error(ErrorKind::disk,
+                fmt::format("the folder of the {} cannot be read ({})", what, code.message()),
+                "check its name", folder.string());
+  if (pictures.empty())
+    throw Error(ErrorKind::input, fmt::format("the folder of the {} holds no pictures", what),
+                "name the folder with the PNG, TIFF, JPEG or EXR files themselves", folder.string());
+  std::sort(pictures.begin(), pictures.end());
+  return pictures;
+}
+
+void clampToDrive(Image& image) {
+  for (float& value : image.data()) value = std::clamp(value, 0.0f, 1.0f);
+}
+
+/// Reads all pictures of a folder, which must be of one size.
+PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive, Fingerprint& fingerprint,
+                             Progress& progress) {
+  PictureSequence sequence;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    Image image = readPicture(paths[k]).encoded;
+    checkFinite(image, paths[k]);
+    if (drive) clampToDrive(image);
+    if (k == 0) sequence = PictureSequence(image.size(), static_cast<int>(paths.size()));
+    if (image.size() != sequence.size())
+      throw Error(
+          ErrorKind::input,
+          fmt::format("the picture has {}x{} pixels, but {} has {}x{}", image.width(), image.height(),
+                      paths.front().filename().string(), sequence.size().width, sequence.size().height),
+          "take out pictures that do not belong there", paths[k].string());
+    sequence.set(static_cast<int>(k), image);
+    fingerprint.add(image.data());
+    progress.report(static_cast<double>(k + 1) / static_cast<double>(paths.size()));
+  }
+  return sequence;
+}
+
+/// Before minutes are spent: what CalibrationFolder::create() would refuse in the end.
+void checkFolderIsFree(const fs::path& folder) {
+  std::error_code code;
+  if (!fs::exists(folder, code)) return;
+  if (!fs::is_directory(folder, code) || fs::directory_iterator(folder, code) != fs::directory_iterator())
+    throw Error(ErrorKind::input, "there is something of this name already",
+                "choose a new or an empty folder for the calibration", folder.string());
+}
+
+std::uint64_t peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+struct Pictures {
+  PictureSequence patterns, photographs;
+  ImportedRigSettings rig;
+};
+
+Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress) {
+  std::vector<fs::path> patterns = picturesIn(settings.patterns, "patterns");
+  std::vector<fs::path> photographs = picturesIn(settings.photographs, "photographs");
+  if (patterns.size() != photographs.size())
+    throw Error(ErrorKind::input,
+                fmt::format("there are {} patterns but {} photographs", patterns.size(), photographs.size()),
+                "give one photograph for each pattern, paired in the order of their names");
+  Fingerprint fingerprint;
+  Pictures pictures;
+  Progress first = progress.part(0.4, "Reading the patterns");
+  pictures.patterns = readSequence(patterns, true, fingerprint, first);
+  Progress second = progress.part(0.6, "Reading the photographs");
+  pictures.photographs = readSequence(photographs, false, fingerprint, second);
+  pictures.rig = {pictures.patterns.size(),
+                  pictures.photographs.size(),
+                  static_cast<int>(patterns.size()),
+                  fs::absolute(settings.patterns).string(),
+                  fs::absolute(settings.photographs).string(),
+                  fingerprint.hex()};
+  return pictures;
+}
+
+Json curveOf(const RidgeChoice& choice) {
+  Json curve = Json::array();
+  for (const RidgeTrial& trial : choice.curve)
+    curve.push_back({{"ridge", trial.ridge}, {"psnr", trial.psnr}});
+  return curve;
+}
+
+double flaggedShare(const Acquisition& acquisition) {
+  auto flagged = static_cast<double>(
+      acquisition.flagged.size() -
+      static_cast<std::size_t>(std::count(acquisition.flagged.begin(), acquisition.flagged.end(), 0)));
+  return flagged / static_cast<double>(acquisition.flagged.size());
+}
+
+void store(const fs::path& path, const CalibrateSettings& settings, const Import& import, double seconds) {
+  CalibrationFolder folder = CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  storeLinearization(folder, linearizationFingerprint(folder), import.linearization,
+                     Json{{"seconds", 0.0}, {"patterns", 0}, {"exposures", 0}});
+  storeAcquisition(folder, acquisitionFingerprint(folder), import.acquisition,
+                   Json{{"seconds", seconds},
+                        {"patterns", import.acquisition.patterns},
+                        {"exposures", import.acquisition.exposures},
+                        {"held_out", import.heldOut},
+                        {"nrmse",
+                         {{"one_to_one", import.error.oneToOne},
+                          {"mix", import.error.mix},
+                          {"transport", import.error.transport}}}});
+}
+
+void storeInverse(const fs::path& path, const RidgeChoice& choice, double seconds) {
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+  folder.store(stage::inverse, inverseFingerprint(folder),
+               Json{{"ridge", choice.ridge},
+                    {"curve", curveOf(choice)},
+                    {"bytes", choice.inverse.bytes()},
+                    {"cost", {{"seconds", seconds}, {"patterns", 0}, {"exposures", 0}}}});
+}
+
+}  // namespace
+
+ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& settings,
+                            Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  checkFolderIsFree(path);
+  auto begin = Clock::now();
+  ImportResult result;
+  Import import;
+  CalibrateSettings stages;
+  {
+    Progress reading = progress.part(0.1, "Reading the pictures");
+    Pictures pictures = readPictures(settings, reading);
+    stages.rig = pictures.rig;
+    result.projector = pictures.rig.projector;
+    result.camera = pictures.rig.camera;
+    result.patterns = pictures.rig.pictures;
+    Progress estimating = progress.part(0.7, "Estimating the light transport");
+    import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
+  }
+  result.heldOut = static_cast<int>(import.heldOut.size());
+  result.fitted = result.patterns - result.heldOut;
+  result.error = import.error;
+  result.leaves = import.acquisition.transport.leaves().blocks();
+  result.flaggedShare = flaggedShare(import.acquisition);
+  result.findings = import.linearization.findings;
+  result.findings.insert(result.findings.end(), import.acquisition.findings.begin(),
+                         import.acquisition.findings.end());
+
+  // What was estimated is safe before it is inverted.
+  store(path, stages, import, secondsSince(begin));
+  auto inverted = Clock::now();
+  Progress inverting = progress.part(0.2, "Inverting the light transport");
+  MeasuredVenue venue = takeMeasuredVenue(import.acquisition, stages.threshold);
+  RidgeChoice choice = invert(venue, stages, inverting);
+  storeInverse(path, choice, secondsSince(inverted));
+  progress.report(1.0);
+  result.seconds = secondsSince(begin);
+  result.peakMemoryBytes = peakMemory();
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Patterns written, photographed by a made-up venue, read back: files and folders of an import.
+#include <QTemporaryDir>
+#include <QtTest>
+#include <fstream>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+#include "pipeline/pipeline.h"
+#include "support/scripted_rig.h"
+
+using namespace relucent;
+using namespace relucent::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr Size projector{40, 32};
+constexpr Size camera{36, 28};
+
+/// A folder with a plan and photographs of it.
+class Studio {
+ public:
+  Studio() {
+    PatternPlanSettings plan;
+    plan.projector = projector;
+    Progress progress;
+    written = exportPlan(plan, patterns(), progress);
+    SyntheticSettings synthetic;
+    synthetic.projectors = {projector};
+    synthetic.cameras = {camera};
+    ScriptedVenue venue(syntheticTransport(synthetic), {}, {});
+    Rig rig = venue.rig();
+    fs::create_directories(photographs());
+    int number = 0;
+    for (const fs::path& file : written.files) {
+      if (file.extension() != ".png") continue;
+      rig.projectors.front()->show(readPicture(file).encoded);
+      RawFrame frame = rig.cameras.front()->capture({{"plan", number}, 0, 0.03});
+      writePng(photographs() / fmt::format("IMG_{:04}.png", 100 + number++), frame.signal, 16);
+    }
+  }
+
+  fs::path patterns() const { return root() / "plan"; }
+  fs::path photographs() const { return root() / "photographs"; }
+  fs::path calibration() const { return root() / "calibration"; }
+  ImportResult import() const {
+    ImportPicturesSettings settings;
+    settings.patterns = patterns();
+    settings.photographs = photographs();
+    Progress progress;
+    return importPictures(calibration(), settings, progress);
+  }
+  QString failure() const {
+    try {
+      import();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  WrittenFiles written;
+
+ private:
+  fs::path root() const { return folder_.path().toStdString(); }
+  QTemporaryDir folder_;
+};
+
+}  // namespace
+
+class TestImportPictures : public QObject {
+  Q_OBJECT
+ private slots:
+  void aPlanComesBackAsACalibration() {
+    Studio studio;
+    QVERIFY(fs::exists(studio.patterns() / "plan.json"));
+    QVERIFY(fs::exists(studio.patterns() / "instructions.txt"));
+    ImportResult result = studio.import();
+    QCOMPARE(result.fitted + result.heldOut, result.patterns);
+    QCOMPARE(static_cast<std::size_t>(result.patterns) + 2, studio.written.files.size());
+    // Noise of a 12-bit camera beside what a footprint of this width loses one-to-one.
+    QVERIFY2(result.error.transport < 0.5 * result.error.oneToOne,
+             qPrintable(QString("%1 of %2").arg(result.error.transport).arg(result.error.oneToOne)));
+    QVERIFY(result.error.transport < 0.1);
+
+    Progress progress;
+    RelightSettings relighting;
+    relighting.image = studio.written.files.front();
+    relighting.out = studio.calibration() / "relit.exr";
+    QCOMPARE(relight(studio.calibration(), relighting, progress).files.size(), std::size_t{1});
+    CompensateSettings compensation;
+    compensation.image = studio.written.files.at(1);
+    compensation.method = "windows";
+    compensation.out = studio.calibration() / "compensated";
+    QVERIFY(compensate(studio.calibration(), compensation, progress).psnrPredicted > 10.0);
+    QVERIFY_EXCEPTION_THROWN(evaluate(studio.calibration(), {}, {}, progress), Error);
+    QVERIFY(studio.failure().contains("already"));
+  }
+
+  void saysWhatIsWrong_data() {
+    QTest::addColumn<QString>("fault");
+    QTest::addColumn<QString>("sentence");
+    QTest::addRow("a photograph too few") << "missing"
+                                          << "patterns but";
+    QTest::addRow("another size") << "size"
+                                  << "has 20x10 pixels";
+    QTest::addRow("NaN") << "nan"
+                         << "NaN";
+    QTest::addRow("not a picture") << "text"
+                                   << "IMG_0105.png";
+    QTest::addRow("no photographs") << "empty"
+                                    << "holds no pictures";
+    QTest::addRow("no folder") << "gone"
+                               << "cannot be read";
+  }
+  void saysWhatIsWrong() {
+    QFETCH(QString, fault);
+    QFETCH(QString, sentence);
+    Studio studio;
+    fs::path victim = studio.photographs() / "IMG_0105.png";
+    if (fault == "missing") fs::remove(victim);
+    if (fault == "size") writePng(victim, Image({20, 10}, 3, 0.5f), 8);
+    if (fault == "text") std::ofstream(victim) << "not a picture";
+    if (fault == "nan") {
+      fs::remove(victim);
+      writeExr(studio.photographs() / "IMG_0105.exr", Image(camera, 3, std::nanf("")), ExrType::floatType);
+    }
+    if (fault == "empty" || fault == "gone") fs::remove_all(studio.photographs());
+    if (fault == "empty") fs::create_directories(studio.photographs());
+    QString failure = studio.failure();
+    QVERIFY2(failure.contains(sentence), qPrintable(failure));
+    QVERIFY(!fs::exists(studio.calibration()));
+  }
+
+  void plansHaveTheProjectorsSize() {
+    Progress progress;
+    QTemporaryDir folder;
+    PatternPlanSettings settings;
+    settings.projector = {33, 9};
+    fs::path out = folder.filePath("plan").toStdString();
+    WrittenFiles written = exportPlan(settings, out, progress);
+    QCOMPARE(readPicture(written.files.front()).encoded.size(), settings.projector);
+    QVERIFY_EXCEPTION_THROWN(exportPlan(settings, out, progress), Error);
+    settings.projector = {4, 4};
+    QVERIFY_EXCEPTION_THROWN(exportPlan(settings, folder.filePath("other").toStdString(), progress), Error);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestImportPictures)
+#include "test_import_pictures.moc"

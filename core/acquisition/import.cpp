@@ -40,6 +40,12 @@ class Importing {
         photographs_(photographs),
         settings_(settings),
         frames_(chooseFrames(patterns, photographs, settings.holdOutEvery)) {
+    constexpr int leastSide = 8;
+    if (std::min(patterns.size().width, patterns.size().height) < leastSide)
+      throw Error(ErrorKind::input,
+                  fmt::format("the patterns have {}x{} pixels, which is no projector", patterns.size().width,
+                              patterns.size().height),
+                  fmt::format("give patterns of at least {0}x{0} pixels", leastSide));
     if (static_cast<int>(frames_.spatial.size()) < leastSpatial)
       throw Error(
           ErrorKind::input,
@@ -129,7 +135,7 @@ class Importing {
       mixing_ = commonMixing(seen);
       if (!levels || round + 1 == rounds) continue;
       for (std::size_t i = 0; i < seen.size(); ++i)
-        sampled[i].colour = fitColour(blackAndWhite(seen[i]), mixing_, prior_.noise);
+        sampled[i].colour = fitColour(blackAndWhite(seen[i]), mixing_, prior_.noise, false);
       response_ = estimateResponse(patterns_, photographs_, frames_, sampled, response_);
       pyramid_ = sequencePyramid(patterns_, frames_, DriveTable(response_));
     }
@@ -209,13 +215,13 @@ class Importing {
     parallelInParts(all, colouring, [&](std::uint32_t pixel) {
       if (lit_[pixel] != 0 && decoded_[pixel].pixel >= 0) {
         PixelFrames seen = reader.read(pixel, pixelAlone(decoded_[pixel], patterns_.size()));
-        oneToOne_[pixel] = fitGains(seen);
-        mix_[pixel] = colourOf(seen);
+        oneToOne_[pixel] = fitGains(seen, prior_.noise, false);
+        mix_[pixel] = colourOf(seen, false);
       }
       PixelFrames seen = footprint_[pixel].found()
                              ? reader.read(pixel, sharesOf(footprint_[pixel], patterns_.size()))
                              : reader.readEverywhere(pixel);
-      colours[pixel] = colourOf(seen);
+      colours[pixel] = colourOf(seen, footprint_[pixel].found());
       // Light from everywhere cannot be compensated pixel by pixel: no inverse may rely on such a row.
       bool known = footprint_[pixel].found() && isExplained(seen, colours[pixel]);
       acquisition.flagged[pixel] = known ? 0 : 1;
@@ -243,8 +249,9 @@ class Importing {
   }
 
   /// Grey patterns say nothing about mixing: then a gain for each channel is all there is.
-  PixelColour colourOf(const PixelFrames& seen) const {
-    return colouredPatterns() ? fitColour(seen, mixing_, prior_.noise) : fitGains(seen);
+  PixelColour colourOf(const PixelFrames& seen, bool withFar) const {
+    return colouredPatterns() ? fitColour(seen, mixing_, prior_.noise, withFar)
+                              : fitGains(seen, prior_.noise, withFar);
   }
 
   bool colouredPatterns() const {
@@ -265,10 +272,11 @@ class Importing {
         std::vector<NodeShare> shares = sharesOf(footprint_[row], projector);
         strongest = 0.0f;
         for (const NodeShare& share : shares) strongest = std::max(strongest, share.share);
-        blocks[row] = shares.size();
+        blocks[row] = shares.size() + 1;
       }
       constexpr float leastScale = 1e-9f;  // of rows that hold nothing
       fullScale[row] = std::max(leastScale, strongest * colours[row].block.cwiseAbs().maxCoeff());
+      fullScale[row] = std::max(fullScale[row], colours[row].far.cwiseAbs().maxCoeff());
     });
     std::vector<float> scale(fullScale);
     for (float& value : scale) value /= 32767.0f;
@@ -276,12 +284,14 @@ class Importing {
                              std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}));
     for (std::size_t row = 0; row < colours.size(); ++row) {
       const ColourBlock& block = colours[row].block;
-      if (footprint_[row].found())
+      if (!footprint_[row].found()) {
+        writer.add(root, codeOf(block, scale[row]));
+      } else {
         for (const NodeShare& share : sharesOf(footprint_[row], projector))
           writer.add(layout.index({0, share.level, share.x, share.y}),
                      codeOf(ColourBlock(share.share * block), scale[row]));
-      else
-        writer.add(root, codeOf(block, scale[row]));
+        writer.add(root, codeOf(colours[row].far, scale[row]));
+      }
       writer.endRow();
     }
     return TransportMatrix(Rasters(photographs_.size()), Rasters(projector), writer.build());
@@ -293,7 +303,9 @@ class Importing {
     float apart = 0.0f, varies = 0.0f;
     for (int c = 0; c < 3; ++c) {
       Eigen::VectorXf signal = seen.signal.col(c);
-      Eigen::VectorXf predicted = (seen.drive * colour.block.row(c).transpose()).array() + colour.black[c];
+      Eigen::VectorXf predicted =
+          (seen.drive * colour.block.row(c).transpose() + seen.mean * colour.far.row(c).transpose()).array() +
+          colour.black[c];
       apart += (signal - predicted).cwiseAbs2().dot(seen.weight);
       varies += (signal.array() - signal.mean()).matrix().cwiseAbs2().dot(seen.weight);
     }

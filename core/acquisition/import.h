@@ -50,7 +50,7 @@ std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every);
 ///  5. Every camera pixel: black e and its own 3x3 block, held to the common mixing where the patterns are
 ///     silent.
 ///  6. Predict the held-out photographs.
-/// Source: core/acquisition/README.md.
+/// Source: core/acquisition/README-import.md.
 /// Throws: Error{input} if the patterns are too few to tell places apart or no camera pixel reacts to them;
 /// Cancelled.
 Import importTransport(const PictureSequence& patterns, const PictureSequence& photographs,

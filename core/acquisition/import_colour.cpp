@@ -80,6 +80,7 @@ PixelFrames FrameReader::read(std::size_t cameraPixel, const std::vector<NodeSha
             Eigen::Map<const Eigen::VectorXf>(
                 level.node(indexOf(level.grid, {share.x, share.y}), pyramid_.samples), pyramid_.samples);
   }
+  result.mean = mean_;
   result.drive = all * mean_;
   for (std::size_t row = 0; row < spatialPlace_.size(); ++row) {
     if (spatialPlace_[row] < 0) continue;
@@ -93,29 +94,76 @@ PixelFrames FrameReader::read(std::size_t cameraPixel, const std::vector<NodeSha
 PixelFrames FrameReader::readEverywhere(std::size_t cameraPixel) const {
   PixelFrames result = photographed(cameraPixel);
   result.drive = mean_;
+  result.mean = mean_;
   return result;
 }
 
-PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise) {
-  // How far a surface's mixing is expected to be from the common one, relative to its gain.
-  constexpr float spread = 0.3f;
+namespace {
+
+// How far a surface's mixing is expected to be from the common one, and how strong far light is, both
+// relative to the pixel's gain.
+constexpr float mixingSpread = 0.3f;
+constexpr float farSpread = 0.1f;
+
+double stiffnessOf(float noise, float spread, float gain) {
+  return std::pow(static_cast<double>(noise / (spread * std::max(gain, noise))), 2.0);
+}
+
+/// Weighted least squares drawn towards `centre`.
+Eigen::VectorXd drawnFit(const Eigen::MatrixXd& basis, const Eigen::VectorXd& signal,
+                         const Eigen::VectorXd& centre, const Eigen::VectorXd& stiffness) {
+  Eigen::MatrixXd normal = basis.transpose() * basis;
+  Eigen::VectorXd rest = basis.transpose() * signal - normal * centre;
+  normal.diagonal() += stiffness;
+  return centre + normal.ldlt().solve(rest);
+}
+
+}  // namespace
+
+PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise, bool withFar) {
   PixelColour colour;
-  Eigen::Matrix<float, Eigen::Dynamic, 4> basis(frames.drive.rows(), 4);
-  basis.col(0) = frames.weight;
-  for (int c = 0; c < 3; ++c) basis.col(c + 1) = frames.drive.col(c).cwiseProduct(frames.weight);
-  Eigen::Matrix4d normal = (basis.transpose() * basis).cast<double>();
+  const Eigen::Index columns = withFar ? 7 : 4;
+  Eigen::VectorXd weight = frames.weight.cast<double>();
+  Eigen::MatrixXd basis(frames.drive.rows(), columns);
+  basis.col(0) = weight;
+  basis.middleCols<3>(1) = weight.asDiagonal() * frames.drive.cast<double>();
+  if (withFar) basis.middleCols<3>(4) = weight.asDiagonal() * frames.mean.cast<double>();
   for (int c = 0; c < 3; ++c) {
     Line line = lineThrough(frames.drive * mixing.row(c).transpose(), frames.signal.col(c), frames.weight);
-    Eigen::Vector4d centre;
-    centre << static_cast<double>(line.black), (line.gain * mixing.row(c).transpose()).cast<double>();
-    double stiffness = std::pow(noise / (spread * std::max(line.gain, noise)), 2.0);
-    Eigen::Matrix4d system = normal;
-    system.diagonal().array() += Eigen::Array4d(1e-6, stiffness, stiffness, stiffness);
-    Eigen::Vector4d wanted =
-        (basis.transpose() * frames.signal.col(c).cwiseProduct(frames.weight)).cast<double>();
-    Eigen::Vector4d fit = centre + system.ldlt().solve(wanted - normal * centre);
+    Eigen::VectorXd centre = Eigen::VectorXd::Zero(columns), stiffness(columns);
+    centre[0] = static_cast<double>(line.black);
+    centre.segment<3>(1) = (line.gain * mixing.row(c).transpose()).cast<double>();
+    stiffness.setConstant(stiffnessOf(noise, farSpread, line.gain));
+    stiffness[0] = 1e-6;
+    stiffness.segment<3>(1).setConstant(stiffnessOf(noise, mixingSpread, line.gain));
+    Eigen::VectorXd signal = weight.cwiseProduct(frames.signal.col(c).cast<double>());
+    Eigen::VectorXd fit = drawnFit(basis, signal, centre, stiffness);
     colour.black[c] = static_cast<float>(fit[0]);
-    colour.block.row(c) = fit.tail<3>().cast<float>();
+    colour.block.row(c) = fit.segment<3>(1).cast<float>();
+    if (withFar) colour.far.row(c) = fit.segment<3>(4).cast<float>();
+  }
+  return colour;
+}
+
+PixelColour fitGains(const PixelFrames& frames, float noise, bool withFar) {
+  PixelColour colour;
+  for (int c = 0; c < 3; ++c) {
+    Line line = lineThrough(frames.drive.col(c), frames.signal.col(c), frames.weight);
+    colour.black[c] = line.black;
+    colour.block(c, c) = line.gain;
+    if (!withFar || !(line.gain > 0.0f)) continue;
+    Eigen::VectorXd weight = frames.weight.cast<double>();
+    Eigen::MatrixXd basis(frames.drive.rows(), 3);
+    basis.col(0) = weight;
+    basis.col(1) = weight.cwiseProduct(frames.drive.col(c).cast<double>());
+    basis.col(2) = weight.cwiseProduct(frames.mean.col(c).cast<double>());
+    Eigen::Vector3d centre(static_cast<double>(line.black), static_cast<double>(line.gain), 0.0);
+    Eigen::Vector3d stiffness(1e-6, 1e-6, stiffnessOf(noise, farSpread, line.gain));
+    Eigen::VectorXd signal = weight.cwiseProduct(frames.signal.col(c).cast<double>());
+    Eigen::VectorXd fit = drawnFit(basis, signal, centre, stiffness);
+    colour.black[c] = static_cast<float>(fit[0]);
+    colour.block(c, c) = static_cast<float>(fit[1]);
+    colour.far(c, c) = static_cast<float>(fit[2]);
   }
   return colour;
 }

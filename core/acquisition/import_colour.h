@@ -15,6 +15,7 @@ namespace relucent {
 struct PixelFrames {
   Eigen::Matrix<float, Eigen::Dynamic, 3> drive;   // linear, under the footprint
   Eigen::Matrix<float, Eigen::Dynamic, 3> signal;  // photographed
+  Eigen::Matrix<float, Eigen::Dynamic, 3> mean;    // linear, over the whole projector
   Eigen::VectorXf weight;                          // 0 where the photograph is cut off
 };
 
@@ -38,16 +39,20 @@ class FrameReader {
   std::vector<int> spatialPlace_;                 // of a fitted frame among the spatial ones; -1: even
 };
 
-/// signal = black + block * drive.
+/// signal = black + block * drive + far * mean.
 struct PixelColour {
   Eigen::Vector3f black = Eigen::Vector3f::Zero();
   ColourBlock block = ColourBlock::Zero();
+  ColourBlock far = ColourBlock::Zero();  // light that arrives from all over the projector
 };
 
 /// Least squares with black free and the block drawn towards diag(a) M, M the common mixing and a the pixel's
 /// gains, where the patterns do not decide: with grey patterns alone the block is diag(a) M.
-/// Contract: weights are not all zero.
-PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise);
+/// `withFar`: far is fitted too, drawn towards zero; else it is zero. Contract: weights are not all zero.
+PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise, bool withFar);
+
+/// The same with diagonal blocks, for grey patterns: a black, a gain and a far light for each channel.
+PixelColour fitGains(const PixelFrames& frames, float noise, bool withFar);
 
 /// The one 3x3 that, with a gain for each pixel and camera channel, explains a sample best; rows sum to 1.
 /// What grey patterns leave open stays the identity.

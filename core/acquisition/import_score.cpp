@@ -87,20 +87,6 @@ HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisit
           ratio(all.transport, all.light)};
 }
 
-PixelColour fitGains(const PixelFrames& frames) {
-  PixelColour colour;
-  float count = std::max(1.0f, frames.weight.sum());
-  for (int c = 0; c < 3; ++c) {
-    float meanDrive = frames.drive.col(c).dot(frames.weight) / count;
-    float meanSignal = frames.signal.col(c).dot(frames.weight) / count;
-    Eigen::VectorXf centred = (frames.drive.col(c).array() - meanDrive).matrix().cwiseProduct(frames.weight);
-    float spread = centred.squaredNorm();
-    if (spread > 0.0f) colour.block(c, c) = std::max(0.0f, centred.dot(frames.signal.col(c)) / spread);
-    colour.black[c] = meanSignal - colour.block(c, c) * meanDrive;
-  }
-  return colour;
-}
-
 int complementsAmong(const PictureSequence& patterns, const ImportFrames& frames) {
   auto isNegative = [&](int a, int b) {
     for (std::size_t pixel = 0; pixel < patterns.size().count(); ++pixel)

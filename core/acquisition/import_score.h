@@ -26,9 +26,6 @@ struct HeldOutScore {
 HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisition, const DriveTable& drive,
                           Progress& progress);
 
-/// One black and one gain a channel, least squares: the diagonal part of PixelColour alone is used.
-PixelColour fitGains(const PixelFrames& frames);
-
 /// How many held-out patterns are the exact negative of a fitted one.
 int complementsAmong(const PictureSequence& patterns, const ImportFrames& frames);
 

@@ -33,6 +33,7 @@ class Estimate {
     int unknowns = 3 * knots + static_cast<int>(frames_.size());
     normal_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
     right_ = Eigen::VectorXd::Zero(unknowns);
+    samples_ = Eigen::VectorXd::Zero(3 * knots);
     seen_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(frames_.size()));
   }
 
@@ -43,6 +44,11 @@ class Estimate {
     solution_ = normal_.ldlt().solve(right_);
   }
 
+  /// Whether signals were seen about a knot. Elsewhere the curve is a continuation that tells nothing.
+  bool supported(std::size_t channel, int index) const {
+    constexpr double fewest = 10.0;
+    return samples_[static_cast<int>(channel) * knots + index] >= fewest;
+  }
   double knot(int index) const { return darkest_ + spacing_ * index; }
   double logResponse(std::size_t channel, int index) const {
     return solution_[static_cast<int>(channel) * knots + index];
@@ -99,13 +105,24 @@ class Estimate {
       rows.clear();
       for (std::size_t k = 0; k < frames_.size(); ++k) {
         double signal = static_cast<double>(frames_[k]->signal.pixel(pixel)[channel]);
-        if (signal >= 0.98 * saturation_ || std::log(std::max(signal, 1e-9)) < darkest_) continue;
+        if (signal >= 0.98 * saturation_ || signal <= 0.0 || tooDark(pixel, channel, k)) continue;
         rows.push_back(equation(channel, k, signal));
       }
       if (rows.size() < 2) continue;
       addEliminated(rows);
-      for (const Row& row : rows) seen_[row.unknown[2] - 3 * knots] += 1.0;
+      for (const Row& row : rows) {
+        seen_[row.unknown[2] - 3 * knots] += 1.0;
+        for (std::size_t i = 0; i < 2; ++i) samples_[row.unknown[i]] += row.factor[i];
+      }
     }
+  }
+
+  /// Judged by the next longer exposure where there is one: sorting values out by their own noise would leave
+  /// those that it had made brighter.
+  bool tooDark(std::size_t pixel, std::size_t channel, std::size_t exposure) const {
+    std::size_t judge = exposure > 0 ? exposure - 1 : exposure;
+    double signal = static_cast<double>(frames_[judge]->signal.pixel(pixel)[channel]);
+    return signal * frames_[exposure]->seconds / frames_[judge]->seconds < std::exp(darkest_);
   }
 
   Row equation(std::size_t channel, std::size_t exposure, double signal) const {
@@ -151,7 +168,7 @@ class Estimate {
   double saturation_;
   double step_ = 0.0, darkest_ = 0.0, spacing_ = 0.0;
   Eigen::MatrixXd normal_;
-  Eigen::VectorXd right_, solution_, seen_;
+  Eigen::VectorXd right_, solution_, seen_, samples_;
 };
 
 struct PowerLaw {
@@ -162,12 +179,16 @@ struct PowerLaw {
 /// The power law closest to a channel's curve between 5 and 95 % of full signal.
 PowerLaw closestPowerLaw(const Estimate& estimate, std::size_t channel) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  auto inside = [&](int i) { return estimate.knot(i) > std::log(0.05) && estimate.knot(i) < std::log(0.95); };
+  auto inside = [&](int i) {
+    return estimate.knot(i) > std::log(0.05) && estimate.knot(i) < std::log(0.95) &&
+           estimate.supported(channel, i);
+  };
   for (int i = 0; i < knots; ++i) {
     if (!inside(i)) continue;
     double atX = estimate.knot(i), atY = estimate.logResponse(channel, i);
     n += 1.0, x += atX, y += atY, xx += atX * atX, xy += atX * atY;
   }
+  if (n < 2.0) return {};  // nothing speaks against a straight line
   PowerLaw law{(n * xy - x * y) / (n * xx - x * x), 0.0};
   double offset = (y - law.exponent * x) / n;
   for (int i = 0; i < knots; ++i)

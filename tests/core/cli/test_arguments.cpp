@@ -159,7 +159,8 @@ class TestArguments : public QObject {
     QTest::newRow("only an option") << QByteArray("--json") << QByteArray("say what to do");
     QTest::newRow("unknown") << QByteArray("celebrate d")
                              << QByteArray("'celebrate' cannot be done: there are venues");
-    QTest::newRow("not built") << QByteArray("import d") << QByteArray("'import' cannot be done");
+    QTest::newRow("no such command") << QByteArray("dream d") << QByteArray("'dream' cannot be done");
+    QTest::newRow("nothing to import") << QByteArray("import d") << QByteArray("--patterns is required");
     QTest::newRow("no folder") << QByteArray("calibrate") << QByteArray("CALIBRATION is required");
     QTest::newRow("unknown option") << QByteArray("calibrate d --fast") << QByteArray("--fast");
     QTest::newRow("no size") << QByteArray("calibrate d --camera big") << QByteArray("'big' is no size");

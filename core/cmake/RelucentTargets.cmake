@@ -37,6 +37,7 @@ function(relucent_test source)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
+  # Qt Test has a limit of its own, 300 s for each function, whatever ctest allows.
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${CMAKE_SOURCE_DIR}/../shared/data")
+    ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${CMAKE_SOURCE_DIR}/../shared/data")
 endfunction()

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "inverse/unmixing.h"
 
 namespace relucent {
 
@@ -25,16 +25,7 @@ std::size_t ClusterInverse::bytes() const {
 }
 
 Stack ClusterInverse::apply(const Stack& cameraResidual) const {
-  require(cameraResidual.size() == 3 * cameras_.count(), "{} values for {} camera pixels",
-          cameraResidual.size(), cameras_.count());
-  Stack unmixed(cameraResidual.size());
-  parallelFor(0, cameras_.count(), 1024, [&](std::size_t row) {
-    const float* u = &unmix_[9 * row];
-    const float* in = &cameraResidual[3 * row];
-    for (std::size_t c = 0; c < 3; ++c)
-      unmixed[3 * row + c] = u[3 * c] * in[0] + u[3 * c + 1] * in[1] + u[3 * c + 2] * in[2];
-  });
-
+  Stack light = unmixed(unmix_, cameraResidual);
   Stack projector(3 * projectors_.count(), 0.0f);
   parallelFor(0, scale_.size(), 16, [&](std::size_t cluster) {
     constexpr std::size_t lanes = 32;  // pixels at once: what stays in registers and the first cache
@@ -44,7 +35,7 @@ Stack ClusterInverse::apply(const Stack& cameraResidual) const {
       float sum[3][lanes] = {};
       const std::int16_t* code = weight_.data() + weightStart_[cluster] + first;
       for (std::size_t k = rowStart_[cluster]; k < rowStart_[cluster + 1]; ++k, code += planes() * pixels) {
-        const float* in = &unmixed[3 * static_cast<std::size_t>(row_[k])];
+        const float* in = &light[3 * static_cast<std::size_t>(row_[k])];
         for (std::size_t p = 0; p < 3; ++p) {
           if (full_) {
             for (std::size_t c = 0; c < 3; ++c)

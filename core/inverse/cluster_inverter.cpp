@@ -6,13 +6,11 @@
 #include "base/parallel.h"
 #include "inverse/cluster_inverse.h"
 #include "inverse/cluster_solver.h"
-#include "inverse/near_field.h"
+#include "inverse/unmixing.h"
 
 namespace relucent {
 namespace {
 
-/// As for the windows: colours that a surface returns by less than this share of the rest are noise.
-constexpr float unmixingShare = 0.03f;
 /// Factoring more equations than this takes minutes, inverting more weights gigabytes: not what clusters
 /// are for.
 constexpr std::size_t mostEquations = 4096;
@@ -98,7 +96,7 @@ class ClusterInverter {
       Eigen::Map<ColourBlock> u(&inverse_.unmix_[9 * row]);
       float brightness = mixing[row].sum() / 3.0f;
       if (!inverse_.full_)
-        u = regularisedUnmixing(mixing[row], unmixingShare);
+        u = regularisedUnmixing(mixing[row]);
       else if (brightness > 0.0f)
         u = ColourBlock::Identity() / brightness;
       if (!u.allFinite()) u.setZero();

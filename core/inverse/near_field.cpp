@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "inverse/near_field.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "inverse/unmixing.h"
+#include "transport/statistics.h"
 
 namespace relucent {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 /// Below this share of the row's brightest projector pixel a leaf cannot matter beside the ridge: pairs of
 /// such leaves contribute at most its square to G, the ridge is tenths of G's diagonal.
 constexpr float nearShare = 0.01f;
-/// Colours that a surface returns by less than this share of the rest are noise, not information.
-constexpr float unmixingShare = 0.03f;
 
 float mean(const NearField::Value& value) {
   return (value[0] + value[1] + value[2]) / 3.0f;
@@ -30,25 +29,12 @@ NearField::Value unmixed(const ColourBlock& unmix, const ColourBlock& block) {
 
 }  // namespace
 
-ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share) {
-  float norm = mixing.norm();
-  if (!(norm > 0.0f)) return ColourBlock::Zero();
-  Eigen::Matrix3d b = mixing.cast<double>() / static_cast<double>(norm);
-  Eigen::Matrix3d normal = b.transpose() * b;
-  normal.diagonal().array() += static_cast<double>(share) * static_cast<double>(share);
-  return (normal.inverse() * b.transpose() / static_cast<double>(norm)).cast<float>();
-}
-
 NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
   const BlockSparse& leaves = transport.leaves();
   require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
           leaves.rows());
 
-  std::vector<float> pixelsOf(transport.layout().count());
-  parallelFor(0, pixelsOf.size(), 1024, [&](std::size_t node) {
-    pixelsOf[node] = static_cast<float>(transport.layout().block(transport.layout().node(node)).count());
-  });
-
+  NodeTable nodes(transport.layout());
   NearField near;
   near.unmix.assign(leaves.rows(), ColourBlock::Zero());
   near.flood.assign(leaves.rows(), NearField::Value{});
@@ -59,12 +45,12 @@ NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::u
   // measure.
   auto brightness = [&](std::size_t row, std::size_t entry) {
     return std::abs(mean(unmixed(near.unmix[row], leaves.block(row, entry)))) /
-           pixelsOf[leaves.column(entry)];
+           nodes.pixels[leaves.column(entry)];
   };
   near.start.assign(leaves.rows() + 1, 0);
   parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
     if (!usable[row]) return;
-    near.unmix[row] = regularisedUnmixing(mixing[row], unmixingShare);
+    near.unmix[row] = regularisedUnmixing(mixing[row]);
     Eigen::Vector3f flood = near.unmix[row] * (mixing[row] * Eigen::Vector3f::Ones());
     near.flood[row] = {flood[0], flood[1], flood[2], 0.0f};
     float brightest = 0.0f;

@@ -9,10 +9,6 @@
 
 namespace relucent {
 
-/// Inverse of a 3x3 colour mixing that stays bounded where the mixing loses a colour:
-///   U = (B^T B + (share * |B|_F)^2 I)^-1 B^T.   Zero for B = 0.
-ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share);
-
 /// The bright part of every row of T, with the colours unmixed and so reduced to one number a projector
 /// channel: value(leaf) = diag(U_i T_i,leaf), zero rows where a camera pixel is not usable.
 /// A leaf belongs to the near field if its value per projector pixel is at least `nearShare` of the row's

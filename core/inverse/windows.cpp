@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "inverse/windows.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "inverse/unmixing.h"
 
 namespace relucent {
 
@@ -23,16 +23,7 @@ std::size_t WindowInverse::bytes() const {
 }
 
 Stack WindowInverse::apply(const Stack& cameraResidual) const {
-  require(cameraResidual.size() == 3 * cameras_.count(), "{} values for {} camera pixels",
-          cameraResidual.size(), cameras_.count());
-  Stack unmixed(cameraResidual.size());
-  parallelFor(0, cameras_.count(), 1024, [&](std::size_t row) {
-    const float* u = &unmix_[9 * row];
-    const float* in = &cameraResidual[3 * row];
-    for (std::size_t c = 0; c < 3; ++c)
-      unmixed[3 * row + c] = u[3 * c] * in[0] + u[3 * c + 1] * in[1] + u[3 * c + 2] * in[2];
-  });
-
+  Stack light = unmixed(unmix_, cameraResidual);
   Stack projector(3 * projectors_.count());
   for (std::size_t device = 0; device < projectors_.devices(); ++device) {
     Size size = projectors_.size(device);
@@ -45,7 +36,7 @@ Stack WindowInverse::apply(const Stack& cameraResidual) const {
       for (std::size_t part = 0; part < pixels; part += lanes) {
         float sum[3][lanes] = {};
         for (std::size_t k = tileStart_[tile]; k < tileStart_[tile + 1]; ++k) {
-          const float* in = &unmixed[3 * static_cast<std::size_t>(row_[k])];
+          const float* in = &light[3 * static_cast<std::size_t>(row_[k])];
           const std::int16_t* code = &weight_[3 * pixels * k + part];
           for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes; ++i)

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+/// Colours that a surface returns by less than this share of the rest are noise, not information.
+inline constexpr float unmixingShare = 0.03f;
+
+/// Inverse of a 3x3 colour mixing that stays bounded where the mixing loses a colour:
+///   U = (B^T B + (share * |B|_F)^2 I)^-1 B^T.   Zero for B = 0.
+ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share = unmixingShare);
+
+/// U_i y_i of every camera pixel.  Shapes: 9 floats a camera pixel, row-major; 3 values a camera pixel.
+/// Throws: std::logic_error if the shapes differ.
+Stack unmixed(const std::vector<float>& unmixing, const Stack& camera);
+
+}  // namespace relucent

@@ -115,8 +115,7 @@ TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSe
   std::vector<std::uint8_t> direct(leaves.blocks(), 0);
   eachRow(leaves.rows(), progress,
           [&](std::size_t row) { rule.eachDirect(row, [&](std::size_t entry) { direct[entry] = 1; }); });
-  BlockSparse kept = leaves.filtered([&](std::size_t, std::size_t entry) { return direct[entry] != 0; });
-  return TransportMatrix(transport.cameras(), transport.projectors(), std::move(kept));
+  return TransportMatrix(transport.cameras(), transport.projectors(), leaves.filtered(direct));
 }
 
 std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,

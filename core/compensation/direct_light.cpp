@@ -127,6 +127,12 @@ std::vector<DirectLook> directLooks(const TransportMatrix& transport, const Dire
   return looks;
 }
 
+std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks, double leastShare) {
+  std::vector<std::uint8_t> lit(looks.size());
+  for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = static_cast<double>(looks[i].share) >= leastShare;
+  return lit;
+}
+
 TransportMatrix defocusOnly(const TransportMatrix& transport, const DirectLightSettings& settings,
                             Progress& progress) {
   return rescaledToFloodlight(directPart(transport, settings, progress), transport.floodlight());

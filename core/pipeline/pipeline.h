@@ -124,7 +124,8 @@ VerifyResult verifyCalibration(const std::filesystem::path& folder, const Verify
 
 struct ImportPicturesSettings {
   std::filesystem::path patterns;     // folder of pictures: what was projected, in the projector's own pixels
-  std::filesystem::path photographs;  // folder of pictures: linear signals, one for each pattern
+  /// Folder of pictures: linear signals, one for each pattern; JPEG is decoded by the curve of sRGB.
+  std::filesystem::path photographs;
   ImportSettings import;
 };
 std::vector<std::string> problems(const ImportPicturesSettings& settings);

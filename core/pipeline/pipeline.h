@@ -123,7 +123,7 @@ VerifyResult verifyCalibration(const std::filesystem::path& folder, const Verify
                                const std::filesystem::path& cache, Progress& progress);
 
 struct ImportPicturesSettings {
-  std::filesystem::path patterns;     // folder of pictures: what was projected, in the projector's own pixels
+  std::filesystem::path patterns;  // folder of pictures: what was projected, in the projector's own pixels
   /// Folder of pictures: linear signals, one for each pattern; JPEG is decoded by the curve of sRGB.
   std::filesystem::path photographs;
   ImportSettings import;

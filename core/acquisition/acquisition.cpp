@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acquisition/forecast.h"
 #include "acquisition/growth.h"
 #include "acquisition/repair.h"
 #include "base/error.h"
@@ -80,10 +81,14 @@ class Measurement {
   Measurement(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
               Decisions& decisions)
       : settings_(settings),
+        shots_(shots),
+        linearization_(linearization),
+        shotsBefore_(shots.shots()),
         photographer_(shots, linearization),
         watch_(photographer_, shots, references_, settings, decisions) {}
 
   Acquisition run(Progress& progress) {
+    expect(progress, {});
     Progress referencePart = progress.part(referenceShare, "black and full light");
     references_ = measureReferences(photographer_, settings_.references, settings_.dimShare, referencePart);
     bool kept = unlessKept([&] { watch_.begin(referencePart); });
@@ -91,7 +96,8 @@ class Measurement {
     Progress treePart = progress.part(treeShare, "light transport");
     Tree tree = plantedTree(photographer_.projectors(), references_, references_.usable);
     Scheme scheme = schemeOf(settings_, references_);
-    kept = growTree(tree, watch_, references_, scheme, kept, treePart) || kept;
+    auto levelBegins = [&](const std::vector<int>& patterns) { expect(progress, patterns); };
+    kept = growTree(tree, watch_, references_, scheme, kept, treePart, levelBegins) || kept;
     Acquisition result;
     result.leafVariance = leafVarianceOf(tree);
     std::vector<std::uint8_t> unknown = tree.unknown;
@@ -125,6 +131,11 @@ class Measurement {
   }
 
  private:
+  void expect(const Progress& progress, const std::vector<int>& levels) const {
+    AcquisitionState state{levels, shots_.shots() - shotsBefore_, shots_.times()};
+    progress.expect(forecast(shots_.rig(), linearization_, settings_, linearization_.times, state));
+  }
+
   /// True if the user asked to keep what there is instead.
   template <typename Work>
   static bool unlessKept(const Work& work) {
@@ -137,6 +148,9 @@ class Measurement {
   }
 
   const AcquisitionSettings& settings_;
+  const ShotTaker& shots_;
+  const Linearization& linearization_;
+  int shotsBefore_;
   References references_;
   Photographer photographer_;
   Watch watch_;

@@ -65,23 +65,36 @@ ColourClass::ColourClass(Tree& tree, std::span<const Seen> seen, const Reference
       seen_(seen),
       references_(references),
       scheme_(scheme),
-      predicted_(seen.size(), ColourBlock::Zero()),
       measured_(quadrants * seen.size()),
       wanted_(seen.size(), 1) {}
 
-void ColourClass::measure(int quadrant, const std::vector<std::uint8_t>& lit, Watch& watch,
-                          const Progress& progress) {
+std::shared_ptr<const LitQuadrant> ColourClass::lit(int quadrant, std::vector<std::uint8_t> pixels) const {
+  auto result = std::make_shared<LitQuadrant>();
+  result->quadrant = quadrant;
+  result->predicted.assign(seen_.size(), ColourBlock::Zero());
   if (scheme_.subtractsLeaves) {
-    std::vector<float> shares = litShares(lit, tree_.layout);
-    parallelFor(0, seen_.size(), 256,
-                [&](std::size_t i) { predicted_[i] = underPattern(tree_.leaves, seen_[i].row, shares); });
+    std::vector<float> shares = litShares(pixels, tree_.layout);
+    parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
+      result->predicted[i] = underPattern(tree_.leaves, seen_[i].row, shares);
+    });
   }
-  for (const Light& light : scheme_.lights) {
-    Stack pattern = patternIn(light, lit);
-    HdrFrame frame = scheme_.allExposures ? watch.lightOfAll(pattern, progress)
-                                          : watch.light(pattern, demands(light), progress);
-    extract(quadrant, light, frame);
-  }
+  result->lit = std::move(pixels);
+  return result;
+}
+
+ClassFrame ColourClass::frame(std::shared_ptr<const LitQuadrant> quadrant, const Light& light) const {
+  ClassFrame frame;
+  frame.light = light;
+  frame.pattern = patternIn(light, quadrant->lit);
+  if (!scheme_.allExposures) frame.demands = demands(*quadrant, light);
+  frame.quadrant = std::move(quadrant);
+  return frame;
+}
+
+HdrFrame ColourClass::photograph(const ClassFrame& frame, Watch& watch, const Progress& progress,
+                                 const Meanwhile& meanwhile) {
+  if (frame.demands.empty()) return watch.lightOfAll(frame.pattern, progress, meanwhile);
+  return watch.light(frame.pattern, frame.demands, progress, meanwhile);
 }
 
 void ColourClass::settle(Children& children) {
@@ -111,14 +124,14 @@ bool ColourClass::contradictsParents() {
   return contradicting >= fewestContradictions + seen_.size() / mostRows;
 }
 
-std::vector<Demand> ColourClass::demands(const Light& light) const {
+std::vector<Demand> ColourClass::demands(const LitQuadrant& quadrant, const Light& light) const {
   std::vector<Demand> demands(references_.usable.size());
   parallelFor(0, seen_.size(), 1024, [&](std::size_t i) {
     std::size_t row = seen_[i].row;
     ColourBlock parent = tree_.active.block(row, seen_[i].pair);
     float brightest = 0.0f, expected = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
-      float around = references_.black.radiance[3 * row + c] + inLight(predicted_[i], c, light);
+      float around = references_.black.radiance[3 * row + c] + inLight(quadrant.predicted[i], c, light);
       float block = std::max(0.0f, inLight(parent, c, light));
       brightest = std::max(brightest, around + brighterThanParent * block);
       expected = std::max(expected, around + block / quadrants);
@@ -132,17 +145,18 @@ std::size_t ColourClass::projectorOf(const Seen& seen) const {
   return static_cast<std::size_t>(tree_.layout.node(tree_.active.column(seen.pair)).projector);
 }
 
-void ColourClass::extract(int quadrant, const Light& light, const HdrFrame& frame) {
+void ColourClass::extract(const ClassFrame& frame, const HdrFrame& seen) {
+  const Light& light = frame.light;
   parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
     if (!wanted_[i]) return;
     std::size_t row = seen_[i].row, projector = projectorOf(seen_[i]);
     ColourBlock shares =
         channelShares(light, references_.root[projector][row], references_.rootVariance[projector][row]);
-    Estimate& child = measured_[quadrants * i + static_cast<std::size_t>(quadrant)];
+    Estimate& child = measured_[quadrants * i + static_cast<std::size_t>(frame.quadrant->quadrant)];
     for (std::size_t c = 0; c < 3; ++c) {
       std::size_t at = 3 * row + c;
-      float value = frame.radiance[at] - inLight(predicted_[i], c, light);
-      float variance = frame.variance[at];
+      float value = seen.radiance[at] - inLight(frame.quadrant->predicted[i], c, light);
+      float variance = seen.variance[at];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!light[k]) continue;
         float share = shares.data()[3 * c + k];
@@ -150,7 +164,7 @@ void ColourClass::extract(int quadrant, const Light& light, const HdrFrame& fram
         child.variance.data()[3 * c + k] = share * share * variance;
       }
       // Too bright for every exposure: the whole camera pixel is in doubt.
-      if (!frame.valid[at]) tree_.unknown[row] = 1;
+      if (!seen.valid[at]) tree_.unknown[row] = 1;
     }
   });
 }

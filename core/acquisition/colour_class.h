@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,18 +12,40 @@
 
 namespace relucent {
 
+/// One quadrant of the blocks of a colour, the same in every light.
+struct LitQuadrant {
+  int quadrant = 0;
+  std::vector<std::uint8_t> lit;       // as from litPixels()
+  std::vector<ColourBlock> predicted;  // what stored leaves send to each camera pixel of the class
+};
+
+/// A photograph to be taken: all that can be computed before it is.
+struct ClassFrame {
+  std::shared_ptr<const LitQuadrant> quadrant;
+  Light light{};
+  Stack pattern;
+  std::vector<Demand> demands;  // empty: all exposures
+};
+
 /// The blocks that one colour of the schedule lights together: their quadrants are measured one after the
-/// other, then sorted by the scheme.
+/// other, then sorted by the scheme. lit() and frame() may run while another frame is being photographed or
+/// extracted.
 class ColourClass {
  public:
   /// Keeps references: all outlive it.
   ColourClass(Tree& tree, std::span<const Seen> seen, const References& references, const Scheme& scheme);
 
-  /// Photographs one quadrant in every light of the scheme. `lit`: as from litPixels().
-  void measure(int quadrant, const std::vector<std::uint8_t>& lit, Watch& watch, const Progress& progress);
+  std::shared_ptr<const LitQuadrant> lit(int quadrant, std::vector<std::uint8_t> pixels) const;
+  ClassFrame frame(std::shared_ptr<const LitQuadrant> quadrant, const Light& light) const;
+
+  static HdrFrame photograph(const ClassFrame& frame, Watch& watch, const Progress& progress,
+                             const Meanwhile& meanwhile);
+
+  /// What a photograph says about the children.
+  void extract(const ClassFrame& frame, const HdrFrame& seen);
 
   /// After all quadrants: whether many camera pixels contradict what their parents sent before, which is what
-  /// a disturbance during some of the photographs looks like. Those are measured anew by the next measure()
+  /// a disturbance during some of the photographs looks like. Those are extracted anew from the next frames
   /// of all quadrants, the others keep their values.
   bool contradictsParents();
 
@@ -30,8 +53,7 @@ class ColourClass {
   void settle(Children& children);
 
  private:
-  std::vector<Demand> demands(const Light& light) const;
-  void extract(int quadrant, const Light& light, const HdrFrame& frame);
+  std::vector<Demand> demands(const LitQuadrant& quadrant, const Light& light) const;
   bool contradictsParent(std::size_t i) const;
   void settle(std::size_t i, Children& children) const;
   /// A value as codes of a row, what the rounding leaves over handed on to the row's next leaf.
@@ -42,9 +64,8 @@ class ColourClass {
   std::span<const Seen> seen_;
   const References& references_;
   const Scheme& scheme_;
-  std::vector<ColourBlock> predicted_;  // as seen_, in the quadrant under way
-  std::vector<Estimate> measured_;      // as seen_, four each
-  std::vector<std::uint8_t> wanted_;    // as seen_: to be measured
+  std::vector<Estimate> measured_;    // as seen_, four each
+  std::vector<std::uint8_t> wanted_;  // as seen_: to be measured
 };
 
 }  // namespace relucent

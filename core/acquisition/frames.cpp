@@ -57,7 +57,7 @@ std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const NodeLay
   return shares;
 }
 
-int framesOf(const Schedule& schedule, const NodeLayout& layout, int level) {
+std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const NodeLayout& layout, int level) {
   std::vector<std::uint8_t> used(quadrants * schedule.colours, 0);
   for (std::size_t i = 0; i < schedule.colourOf.size(); ++i) {
     if (schedule.colourOf[i] == Schedule::dark) continue;
@@ -67,6 +67,11 @@ int framesOf(const Schedule& schedule, const NodeLayout& layout, int level) {
       if (childOf(layout, node, quadrant, child))
         used[quadrants * schedule.colourOf[i] + static_cast<std::size_t>(quadrant)] = 1;
   }
+  return used;
+}
+
+int framesOf(const Schedule& schedule, const NodeLayout& layout, int level) {
+  std::vector<std::uint8_t> used = litQuadrants(schedule, layout, level);
   return static_cast<int>(std::count(used.begin(), used.end(), 1));
 }
 

@@ -37,6 +37,9 @@ std::vector<std::uint8_t> litPixels(const Schedule& schedule, const NodeLayout& 
 /// The share of every node's block that is lit.
 std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const NodeLayout& layout);
 
+/// Quadrant q of colour c lights anything: [quadrants * c + q].
+std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const NodeLayout& layout, int level);
+
 /// Quadrants of colours that light anything: the patterns of one level, in one light.
 int framesOf(const Schedule& schedule, const NodeLayout& layout, int level);
 

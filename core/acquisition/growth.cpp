@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
+#include "acquisition/forecast.h"
 #include "acquisition/refinement.h"
 
 namespace relucent {
 namespace {
 
-/// Divides one level. False if it was dropped on an alarm; the tree is as it was.
-bool divided(Tree& tree, int level, Watch& watch, const References& references, const Scheme& scheme,
-             Progress& progress) {
+/// The blocks of one level that matter, in colours.
+Schedule scheduleOf(const Tree& tree, int level) {
   const NodeLayout& layout = tree.layout;
   std::size_t nodes = 0, firstNode = 0;
   for (std::size_t projector = layout.projectors().devices(); projector-- > 0;) {
@@ -20,10 +20,28 @@ bool divided(Tree& tree, int level, Watch& watch, const References& references, 
     firstNode = layout.index({static_cast<int>(projector), level, 0, 0});
     nodes += layout.gridSize(projector, level).count();
   }
-  Schedule plan = schedule(tree.active, firstNode, nodes);
-  int last = layout.levels() - 1;
-  Progress part = progress.part(1.0 / last, fmt::format("level {} of {}: {} patterns", last - level + 1, last,
-                                                        patternsOf(plan, scheme, layout, level)));
+  return schedule(tree.active, firstNode, nodes);
+}
+
+/// How much of the tree's work has been handed out, by what is known and expected of its levels.
+class Shares {
+ public:
+  /// The share of the level that begins now.
+  double next(const std::vector<PatternRange>& levels, std::size_t begun) {
+    double rest = 0.0;
+    for (std::size_t level = begun; level < levels.size(); ++level) rest += levels[level].likely;
+    double own = levels[begun - 1].likely, share = left_ * own / std::max(1.0, own + rest);
+    left_ -= share;
+    return share;
+  }
+
+ private:
+  double left_ = 1.0;
+};
+
+/// Divides one level. False if it was dropped on an alarm; the tree is as it was.
+bool divided(Tree& tree, int level, const Schedule& plan, Watch& watch, const References& references,
+             const Scheme& scheme, Progress& part) {
   std::vector<ColourBlock> rounding = tree.rounding;
   std::vector<LeafNoise> leafNoise = tree.leafNoise;
   std::vector<std::uint8_t> unknown = tree.unknown;
@@ -49,13 +67,29 @@ Tree plantedTree(const Rasters& projectors, const References& references,
 }
 
 bool growTree(Tree& tree, Watch& watch, const References& references, const Scheme& scheme, bool rootsOnly,
-              Progress& progress) {
+              Progress& progress, const LevelBegins& levelBegins) {
   bool kept = false;
+  std::vector<int> patterns;
+  Shares shares;
+  int last = tree.layout.levels() - 1;
   for (int level = tree.layout.levels() - 1; level >= 0; --level) {
     plantRoots(tree, level, references, scheme);
-    if (level == 0 || tree.active.blocks() == 0) continue;
+    if (level == 0) continue;
+    if (tree.active.blocks() == 0) {
+      patterns.push_back(0);
+      continue;
+    }
     bool goOn = !rootsOnly && !kept && !progress.stopAndKeep();
-    if (goOn && divided(tree, level, watch, references, scheme, progress)) continue;
+    if (goOn) {
+      Schedule plan = scheduleOf(tree, level);
+      patterns.push_back(patternsOf(plan, scheme, tree.layout, level));
+      if (levelBegins) levelBegins(patterns);
+      double share = shares.next(levelPatterns(tree.layout.projectors(), scheme.lights.size(), patterns),
+                                 patterns.size());
+      Progress part = progress.part(
+          share, fmt::format("level {} of {}: {} patterns", last - level + 1, last, patterns.back()));
+      if (divided(tree, level, plan, watch, references, scheme, part)) continue;
+    }
     kept = kept || goOn;
     stopDividing(tree, references);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "acquisition/import_agreement.h"
 #include "acquisition/import_response.h"
 #include "acquisition/import_score.h"
 #include "base/error.h"
@@ -35,11 +36,11 @@ std::vector<NodeShare> pixelAlone(const Decoded& decoded, Size projector) {
 class Importing {
  public:
   Importing(const PictureSequence& patterns, const PictureSequence& photographs,
-            const ImportSettings& settings)
+            const ImportSettings& settings, std::vector<int> heldOut)
       : patterns_(patterns),
         photographs_(photographs),
         settings_(settings),
-        frames_(chooseFrames(patterns, photographs, settings.holdOutEvery)) {
+        frames_(chooseFrames(patterns, photographs, std::move(heldOut))) {
     constexpr int leastSide = 8;
     if (std::min(patterns.size().width, patterns.size().height) < leastSide)
       throw Error(ErrorKind::input,
@@ -68,7 +69,7 @@ class Importing {
     Progress assembling = progress.part(0.07, "Assembling the light transport");
     Import result = assembled(assembling);
     Progress scoring = progress.part(0.03, "Predicting held-out patterns");
-    score(result, scoring);
+    if (!frames_.heldOut.empty()) score(result, scoring);
     addFindings(result);
     progress.report(1.0);
     return result;
@@ -107,6 +108,7 @@ class Importing {
     decoded_ = decodePixels(pyramid_, photographs_, frames_, litPixels_, settings_.beam, descending);
     Progress propagating = progress.part(0.3, "Decoding");
     propagate(pyramid_, photographs_, frames_, lit_, 4, decoded_, propagating);
+    agreeOnPlaces(pyramid_, photographs_.size(), decoded_);
     footprint_.resize(decoded_.size());
     residual_.resize(decoded_.size());
   }
@@ -335,11 +337,6 @@ class Importing {
           "The patterns hold black and white only: the projector's response is taken to be a power of 2.2.");
     result.linearization.findings.push_back(
         "The camera is taken to be linear, and one photograph counts as one second of exposure.");
-    if (int complements = complementsAmong(patterns_, frames_); complements > 0)
-      findings.push_back(
-          fmt::format("{} of the {} held-out patterns are the negatives of fitted ones, which "
-                      "makes them easier to predict.",
-                      complements, frames_.heldOut.size()));
     double share = static_cast<double>(litPixels_.size()) / static_cast<double>(lit_.size());
     if (share < 0.9)
       findings.push_back(fmt::format("The projector lights {:.0f} % of the camera's pixels.", 100.0 * share));
@@ -377,7 +374,16 @@ Import importTransport(const PictureSequence& patterns, const PictureSequence& p
   require(problems(settings).empty(), "settings with problems");
   require(patterns.pictures() == photographs.pictures(), "{} patterns and {} photographs",
           patterns.pictures(), photographs.pictures());
-  return Importing(patterns, photographs, settings).run(progress);
+  std::vector<int> heldOut = heldOutPatterns(patterns, settings.holdOutEvery);
+  Progress predicting = progress.part(settings.refit ? 0.5 : 1.0, progress.stage());
+  Import predicted = Importing(patterns, photographs, settings, heldOut).run(predicting);
+  if (!settings.refit) return predicted;
+  Progress refitting = progress.part(0.5, progress.stage());
+  Import import = Importing(patterns, photographs, settings, {}).run(refitting);
+  import.heldOut = std::move(predicted.heldOut);
+  import.error = predicted.error;
+  import.acquisition.verificationError = predicted.acquisition.verificationError;
+  return import;
 }
 
 }  // namespace relucent

@@ -14,6 +14,7 @@ namespace relucent {
 struct ImportSettings {
   int holdOutEvery = 5;  // every so manieth pattern, ordered by fineness, takes no part in the fit
   int beam = 8;          // places that the search keeps at each level
+  bool refit = true;     // once the held-out patterns are predicted, T is fitted to all patterns
 };
 std::vector<std::string> problems(const ImportSettings& settings);
 
@@ -31,13 +32,15 @@ struct HeldOutError {
 struct Import {
   Linearization linearization;  // the projector's estimated response, a linear camera
   Acquisition acquisition;      // one photograph counts as one second of exposure
-  std::vector<int> heldOut;     // indices of the patterns that took no part in the fit
-  HeldOutError error;
+  std::vector<int> heldOut;     // indices of the patterns that took no part in the fit that predicted them
+  HeldOutError error;           // of that fit; T, fitted to all of them, is hardly worse
 };
 
 /// The patterns that are held out: of those that are not even all over, ordered by how fine they are (mean
 /// difference between neighbouring pixels), one of every `every`, so that all stripe widths have their turn:
-/// the middle one, or another of its group where the rest could not tell places apart without that one.
+/// the middle one, or another of its group where the rest could not tell places apart without that one, or
+/// else one of a finer group. Equal patterns and negatives of each other count as one: they say the same, so
+/// that all of them are held out or none.
 std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every);
 
 /// Estimates T from patterns and photographs of them that were taken elsewhere. `patterns` holds encoded
@@ -50,6 +53,8 @@ std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every);
 ///  5. Every camera pixel: black e and its own 3x3 block, held to the common mixing where the patterns are
 ///     silent.
 ///  6. Predict the held-out photographs.
+///  7. If wanted, steps 2 to 5 once more with all patterns: what is held out is the finest stripes above all,
+///     which T had better know.
 /// Source: core/acquisition/README-import.md.
 /// Throws: Error{input} if the patterns are too few to tell places apart or no camera pixel reacts to them;
 /// Cancelled.

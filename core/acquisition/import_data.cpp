@@ -7,9 +7,7 @@
 #include "acquisition/import.h"
 
 namespace relucent {
-namespace {
 
-/// Mean difference between neighbouring pixels, all channels: how fine a pattern is. 0: even all over.
 double finenessOf(const PictureSequence& patterns, int picture) {
   Size size = patterns.size();
   int channels = patterns.isColoured() ? 3 : 1;
@@ -30,8 +28,6 @@ double finenessOf(const PictureSequence& patterns, int picture) {
   return sum / static_cast<double>(size.count() * static_cast<std::size_t>(channels));
 }
 
-}  // namespace
-
 std::vector<int> byFineness(const PictureSequence& patterns) {
   std::vector<std::pair<double, int>> ranked;
   for (int k = 0; k < patterns.pictures(); ++k)
@@ -43,9 +39,9 @@ std::vector<int> byFineness(const PictureSequence& patterns) {
 }
 
 ImportFrames chooseFrames(const PictureSequence& patterns, const PictureSequence& photographs,
-                          int holdOutEvery) {
+                          std::vector<int> heldOut) {
   ImportFrames frames;
-  frames.heldOut = heldOutPatterns(patterns, holdOutEvery);
+  frames.heldOut = std::move(heldOut);
   std::vector<int> spatial = byFineness(patterns);
   std::sort(spatial.begin(), spatial.end());
   auto held = [&](int k) { return std::binary_search(frames.heldOut.begin(), frames.heldOut.end(), k); };

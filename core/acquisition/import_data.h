@@ -22,11 +22,14 @@ struct ImportFrames {
   /// Values of a sequence: one for each spatial frame and channel, frame after frame.
   int samples() const { return static_cast<int>(spatial.size()) * channels; }
 };
+/// Mean difference between neighbouring pixels, all channels: how fine a pattern is. 0: even all over.
+double finenessOf(const PictureSequence& patterns, int picture);
 /// Patterns that are not even all over, coarse ones first.
 std::vector<int> byFineness(const PictureSequence& patterns);
 
+/// `heldOut`: ascending; may be empty.
 ImportFrames chooseFrames(const PictureSequence& patterns, const PictureSequence& photographs,
-                          int holdOutEvery);
+                          std::vector<int> heldOut);
 
 /// Linear drive of every encoded value that a pattern can hold.
 class DriveTable {

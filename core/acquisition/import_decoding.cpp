@@ -114,7 +114,7 @@ Decoded descended(const SequencePyramid& pyramid, const Probe& probe, std::size_
   }
   Candidate best = *std::min_element(candidates.begin(), candidates.end());
   if (!(best.score > 0.0f)) return {};
-  return {static_cast<std::int32_t>(best.node), std::sqrt(best.score)};
+  return {static_cast<std::int32_t>(best.node), std::sqrt(best.score), 0.0f, 0.0f};
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ class Propagation {
       if (place.x < 0 || place.y < 0 || place.x >= projector.width || place.y >= projector.height) return;
       std::size_t node = indexOf(projector, place);
       float score = std::sqrt(probe.explained(pyramid_.levels.front(), node));
-      if (score > best.correlation) best = {static_cast<std::int32_t>(node), score};
+      if (score > best.correlation) best = {static_cast<std::int32_t>(node), score, 0.0f, 0.0f};
     };
     // Near neighbours and, as sweeps go on, less near ones: good places spread quickly.
     int reach = 1 << (number % 4);

@@ -12,6 +12,7 @@ namespace relucent {
 struct Decoded {
   std::int32_t pixel = -1;   // projector pixel; -1: none
   float correlation = 0.0f;  // 0 to 1: root of the share of the sequence's variation that it explains
+  float x = 0.0f, y = 0.0f;  // where its centre is sought from, projector pixels; see import_agreement.h
 };
 
 /// The projector pixel whose sequence explains most of a camera pixel's,

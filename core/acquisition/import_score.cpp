@@ -87,21 +87,4 @@ HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisit
           ratio(all.transport, all.light)};
 }
 
-int complementsAmong(const PictureSequence& patterns, const ImportFrames& frames) {
-  auto isNegative = [&](int a, int b) {
-    for (std::size_t pixel = 0; pixel < patterns.size().count(); ++pixel)
-      for (int c = 0; c < 3; ++c)
-        if (patterns.code(pixel, a, c) + patterns.code(pixel, b, c) != 65535) return false;
-    return true;
-  };
-  int count = 0;
-  for (int held : frames.heldOut)
-    for (int fitted : frames.spatial)
-      if (isNegative(held, fitted)) {
-        ++count;
-        break;
-      }
-  return count;
-}
-
 }  // namespace relucent

@@ -26,7 +26,4 @@ struct HeldOutScore {
 HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisition, const DriveTable& drive,
                           Progress& progress);
 
-/// How many held-out patterns are the exact negative of a fitted one.
-int complementsAmong(const PictureSequence& patterns, const ImportFrames& frames);
-
 }  // namespace relucent

@@ -242,9 +242,7 @@ FootprintFitter::Fit FootprintFitter::fit(std::size_t cameraPixel, const Decoded
   if (start.pixel < 0) return {};
   CameraSequence camera;
   readSequence(photographs_, frames_, cameraPixel, camera);
-  Pixel place = pixelAt(pyramid_.levels.front().grid, static_cast<std::size_t>(start.pixel));
-  Problem problem(pyramid_, camera, prior_, static_cast<float>(place.x) + 0.5f,
-                  static_cast<float>(place.y) + 0.5f);
+  Problem problem(pyramid_, camera, prior_, start.x, start.y);
 
   Problem::State state = problem.evaluate(problem.prior());
   float damping = 1e-2f;

@@ -113,10 +113,10 @@ std::vector<std::size_t> Photographer::exposuresFor(const std::vector<Demand>& d
 }
 
 Shot Photographer::shoot(const std::vector<Image>& encoded, const std::vector<std::size_t>& exposures,
-                         const Progress& progress) {
+                         const Progress& progress, const Meanwhile& meanwhile) {
   std::vector<double> seconds;
   for (std::size_t exposure : exposures) seconds.push_back(linearization_.exposures[exposure]);
-  Shot shot = shots_.take(encoded, seconds, progress);
+  Shot shot = besides(meanwhile, [&] { return shots_.take(encoded, seconds, progress); });
   progress.preview(previewOf(shot));
   return shot;
 }
@@ -130,7 +130,7 @@ bool Photographer::needsShorter(const HdrFrame& frame, const std::vector<Demand>
 }
 
 HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& demands,
-                            const Progress& progress) {
+                            const Progress& progress, const Meanwhile& meanwhile) {
   require(demands.size() == cameras_.count(), "{} demands for {} camera pixels", demands.size(),
           cameras_.count());
   std::vector<std::size_t> exposures = exposuresFor(demands);
@@ -139,12 +139,12 @@ HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& dem
   std::vector<Image> encoded;
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)
     encoded.push_back(imageFromStack(pattern, projectors_, projector));
-  Shot shot = shoot(encoded, exposures, progress);
+  Shot shot = shoot(encoded, exposures, progress, meanwhile);
   HdrFrame frame = mergeBracket(shot, linearization_.cameras, cameras_);
 
   for (std::size_t shorter = exposures.back() + 1; shorter < linearization_.exposures.size(); ++shorter) {
     if (!needsShorter(frame, demands)) break;
-    Shot again = shoot(encoded, {shorter}, progress);
+    Shot again = shoot(encoded, {shorter}, progress, {});
     shot.frames.push_back(std::move(again.frames.front()));
     frame = mergeBracket(shot, linearization_.cameras, cameras_);
   }
@@ -152,13 +152,13 @@ HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& dem
   return frame;
 }
 
-HdrFrame Photographer::takeAll(const Stack& pattern, const Progress& progress) {
+HdrFrame Photographer::takeAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile) {
   std::vector<Image> encoded;
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)
     encoded.push_back(imageFromStack(pattern, projectors_, projector));
   std::vector<std::size_t> all(linearization_.exposures.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  Shot shot = shoot(encoded, all, progress);
+  Shot shot = shoot(encoded, all, progress, meanwhile);
   contradiction_ = bracketContradiction(shot, linearization_.cameras);
   return mergeBracket(shot, linearization_.cameras, cameras_);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "linearization/linearization.h"
@@ -14,6 +15,9 @@ struct Demand {
   float deviation = 0.0f;   // standard deviation of its radiance that is good enough
 };
 
+/// Work that needs no device and goes on while a photograph is exposed; empty: none.
+using Meanwhile = std::function<void()>;
+
 /// Chooses for each pattern the fewest exposures that do justice to the pixels that are needed, and takes
 /// what came out saturated again with shorter ones.
 class Photographer {
@@ -26,10 +30,11 @@ class Photographer {
 
   /// Merged radiance under linear binary patterns (a projector stack of zeros and ones: full drive needs no
   /// projector curve). Demands: one per camera pixel. Pixels with a demand that stay invalid are saturated
-  /// at the shortest exposure.
-  HdrFrame take(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress);
+  /// at the shortest exposure. `meanwhile` is done, besides, when this returns.
+  HdrFrame take(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
+                const Meanwhile& meanwhile = {});
   /// With every exposure there is.
-  HdrFrame takeAll(const Stack& pattern, const Progress& progress);
+  HdrFrame takeAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile = {});
 
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }
@@ -44,7 +49,7 @@ class Photographer {
  private:
   std::size_t longestUnsaturated(std::size_t row, double radiance) const;
   Shot shoot(const std::vector<Image>& encoded, const std::vector<std::size_t>& exposures,
-             const Progress& progress);
+             const Progress& progress, const Meanwhile& meanwhile);
   bool needsShorter(const HdrFrame& frame, const std::vector<Demand>& demands) const;
 
   ShotTaker& shots_;

@@ -8,6 +8,9 @@
 
 namespace relucent {
 
+/// Block sizes of the verification patterns, in turn: 1, 2, 4, 8 pixels.
+inline constexpr int verificationSizes = 4;
+
 /// What decides which nodes of the tree are divided and what is stored: see scheme.h.
 enum class AcquisitionScheme { adaptive, sen };
 /// Light that patterns are shown in: red, green and blue in turn, or white, unmixed afterwards.

@@ -31,6 +31,50 @@ Prediction predict(const TransportMatrix& transport, std::size_t row, const Stac
   return prediction;
 }
 
+std::vector<Prediction> predictions(const TransportMatrix& transport, const Stack& pattern,
+                                    const std::vector<std::uint8_t>& rows) {
+  Stack means = transport.layout().means(pattern);
+  std::vector<Prediction> predicted(rows.size());
+  parallelFor(0, rows.size(), 256, [&](std::size_t row) {
+    if (rows[row]) predicted[row] = predict(transport, row, means);
+  });
+  return predicted;
+}
+
+std::vector<Demand> demandsOf(const Expectation& expected, const std::vector<Prediction>& predicted,
+                              const std::vector<std::uint8_t>& rows) {
+  std::vector<Demand> demands(rows.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (!rows[row]) continue;
+    float brightest = 0.0f;
+    for (std::size_t c = 0; c < 3; ++c)
+      brightest = std::max(brightest, expected.black[3 * row + c] + predicted[row].light[c]);
+    demands[row] = {brightest, brightest, expected.tolerable[row]};
+  }
+  return demands;
+}
+
+/// One pattern's share of the sums; the squares of the differences are added to `map`.
+std::vector<Residual> compared(const HdrFrame& seen, const std::vector<Prediction>& predicted,
+                               const std::vector<std::uint8_t>& rows, Stack& map) {
+  std::vector<Residual> residual(rows.size());
+  parallelFor(0, rows.size(), 1024, [&](std::size_t row) {
+    if (!rows[row]) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::size_t at = 3 * row + c;
+      if (!seen.valid[at]) continue;
+      double light = static_cast<double>(seen.radiance[at]);
+      double expected = static_cast<double>(predicted[row].light[c]), difference = light - expected;
+      residual[row].add(
+          {difference * difference,
+           static_cast<double>(seen.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise)),
+           light * light, expected * expected});
+      map[at] += static_cast<float>(difference * difference);
+    }
+  });
+  return residual;
+}
+
 }  // namespace
 
 Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed) {
@@ -55,47 +99,34 @@ Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t s
   return pattern;
 }
 
-Verification verify(const TransportMatrix& transport, Watch& watch, const References& references,
+void Residual::add(const Residual& other) {
+  squared += other.squared;
+  variance += other.variance;
+  light += other.light;
+  predicted += other.predicted;
+}
+
+Verification verify(const Expectation& expected, const LightSource& light,
                     const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
                     Progress& progress) {
   std::size_t count = rows.size();
-  Scheme scheme = schemeOf(settings, references);
-  std::vector<Residual> residual(count);
   Verification verification;
+  verification.rows.assign(count, {});
   verification.residual.assign(verificationSizes, Stack(3 * count, 0.0f));
   std::array<int, verificationSizes> patterns{};
   bool any = std::any_of(rows.begin(), rows.end(), [](std::uint8_t row) { return row != 0; });
   for (int number = first; any && number < first + settings.verificationPatterns; ++number) {
-    Stack pattern = verificationPattern(watch.projectors(), number, settings.seed);
-    Stack means = transport.layout().means(pattern);
-    std::vector<Prediction> predicted(count);
-    std::vector<Demand> demands(count);
-    parallelFor(0, count, 256, [&](std::size_t row) {
-      if (!rows[row]) return;
-      predicted[row] = predict(transport, row, means);
-      float brightest = 0.0f;
-      for (std::size_t c = 0; c < 3; ++c)
-        brightest = std::max(brightest, references.black.radiance[3 * row + c] + predicted[row].light[c]);
-      demands[row] = {brightest, brightest, scheme.tolerable[row]};
-    });
+    Stack pattern = verificationPattern(expected.transport.projectors(), number, settings.seed);
+    std::vector<Prediction> predicted = predictions(expected.transport, pattern, rows);
+    HdrFrame seen = light(pattern, demandsOf(expected, predicted, rows));
 
-    HdrFrame light = watch.light(pattern, demands, progress);
-    Stack& map = verification.residual[static_cast<std::size_t>(number % verificationSizes)];
-    ++patterns[static_cast<std::size_t>(number % verificationSizes)];
-    parallelFor(0, count, 1024, [&](std::size_t row) {
-      if (!rows[row]) return;
-      for (std::size_t c = 0; c < 3; ++c) {
-        std::size_t at = 3 * row + c;
-        if (!light.valid[at]) continue;
-        double seen = static_cast<double>(light.radiance[at]);
-        double difference = seen - static_cast<double>(predicted[row].light[c]);
-        residual[row].squared += difference * difference;
-        residual[row].light += seen * seen;
-        residual[row].variance +=
-            static_cast<double>(light.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise));
-        map[at] += static_cast<float>(difference * difference);
-      }
-    });
+    auto size = static_cast<std::size_t>(number % verificationSizes);
+    ++patterns[size];
+    std::vector<Residual> residual = compared(seen, predicted, rows, verification.residual[size]);
+    for (std::size_t row = 0; row < count; ++row) {
+      verification.rows[row].add(residual[row]);
+      verification.bySize[size].add(residual[row]);
+    }
     progress.report(static_cast<double>(number - first + 1) / settings.verificationPatterns);
   }
   for (std::size_t size = 0; size < verificationSizes; ++size)
@@ -103,14 +134,26 @@ Verification verify(const TransportMatrix& transport, Watch& watch, const Refere
       value = std::sqrt(value / static_cast<float>(std::max(1, patterns[size])));
 
   verification.flagged.assign(count, 0);
-  for (std::size_t row = 0; row < count; ++row) {
-    const Residual& r = residual[row];
-    double relative = settings.flagRelative * settings.flagRelative;
-    double sigmas = settings.flagSigmas * settings.flagSigmas;
-    verification.flagged[row] = r.squared > relative * r.light && r.squared > sigmas * r.variance;
-  }
-  verification.rows = std::move(residual);
+  for (std::size_t row = 0; row < count; ++row)
+    verification.flagged[row] = isWrong(verification.rows[row], settings) ? 1 : 0;
   return verification;
+}
+
+Verification verify(const TransportMatrix& transport, Watch& watch, const References& references,
+                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
+                    Progress& progress) {
+  Scheme scheme = schemeOf(settings, references);
+  auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) {
+    return watch.light(pattern, demands, progress);
+  };
+  return verify({transport, references.black.radiance, scheme.tolerable}, light, settings, rows, first,
+                progress);
+}
+
+bool isWrong(const Residual& residual, const AcquisitionSettings& settings) {
+  double relative = settings.flagRelative * settings.flagRelative;
+  double sigmas = settings.flagSigmas * settings.flagSigmas;
+  return residual.squared > relative * residual.light && residual.squared > sigmas * residual.variance;
 }
 
 double errorOf(const std::vector<Residual>& rows) {

@@ -1,38 +1,64 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "acquisition/watch.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
 
-/// Block sizes of the verification patterns, in turn: 1, 2, 4, 8 pixels.
-inline constexpr int verificationSizes = 4;
-
-/// Sums over the patterns, of one camera pixel.
+/// Sums over patterns, of one camera pixel or of all.
 struct Residual {
-  double squared = 0.0;   // of measured - predicted
-  double variance = 0.0;  // expected of that, from noise alone
-  double light = 0.0;     // squared, of measured - e
+  double squared = 0.0;    // of measured - predicted
+  double variance = 0.0;   // expected of that, from noise alone
+  double light = 0.0;      // squared, of measured - e
+  double predicted = 0.0;  // squared, of T p
 
   double relative() const { return light > 0.0 ? std::sqrt(squared / light) : 0.0; }
+  /// (measured - e) * T p, summed.
+  double cross() const { return 0.5 * (light + predicted - squared); }
+  /// What `squared` would be if the lamp's power were `power` times what it was: of measured - e - power T p.
+  double squaredAt(double power) const {
+    return std::max(0.0, light - 2.0 * power * cross() + power * power * predicted);
+  }
+  void add(const Residual& other);
 };
+
+/// Whether a residual is large both as a share of the light and beyond its noise.
+bool isWrong(const Residual& residual, const AcquisitionSettings& settings);
 
 /// |measured - predicted| / |measured - e| over all camera pixels.
 double errorOf(const std::vector<Residual>& rows);
 
 /// How well T predicts photographs that it was not made from.
 struct Verification {
-  std::vector<Residual> rows;         // per camera pixel; zeros where it did not count
+  std::vector<Residual> rows;                      // per camera pixel; zeros where it did not count
+  std::array<Residual, verificationSizes> bySize;  // per block size, all camera pixels
   std::vector<std::uint8_t> flagged;  // per camera pixel: wrong both relatively and beyond its noise
   std::vector<Stack> residual;  // per block size: root of the mean square of measured - predicted, radiance
 };
 
+/// The light of a pattern, radiance less e.
+using LightSource = std::function<HdrFrame(const Stack& pattern, const std::vector<Demand>& demands)>;
+
+/// What a held-out photograph is compared with, and how good it has to be.
+struct Expectation {
+  const TransportMatrix& transport;
+  const Stack& black;                   // e
+  const std::vector<float>& tolerable;  // deviation of a frame that is good enough, per camera pixel
+};
+
 /// Photographs random binary patterns of blocks of 1, 2, 4 and 8 pixels, every channel of every block lit or
 /// not by chance, and compares them with T p. `rows`: the camera pixels that count. `first`: the number of
-/// the first pattern, so that another round sees other patterns. Throws: as Watch::check().
+/// the first pattern, so that another round sees other patterns. Throws: what `light` throws; Cancelled.
+Verification verify(const Expectation& expected, const LightSource& light,
+                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
+                    Progress& progress);
+/// The same while T is being measured. Throws: as Watch::check().
 Verification verify(const TransportMatrix& transport, Watch& watch, const References& references,
                     const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
                     Progress& progress);

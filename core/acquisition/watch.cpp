@@ -155,16 +155,17 @@ HdrFrame Watch::lightOf(HdrFrame frame) const {
   return frame;
 }
 
-HdrFrame Watch::light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress) {
+HdrFrame Watch::light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
+                      const Meanwhile& meanwhile) {
   checkIfDue(progress);
-  HdrFrame frame = photographer_.take(pattern, demands, progress);
+  HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
   inspectBracket();
   return lightOf(std::move(frame));
 }
 
-HdrFrame Watch::lightOfAll(const Stack& pattern, const Progress& progress) {
+HdrFrame Watch::lightOfAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile) {
   checkIfDue(progress);
-  HdrFrame frame = photographer_.takeAll(pattern, progress);
+  HdrFrame frame = photographer_.takeAll(pattern, progress, meanwhile);
   inspectBracket();
   return lightOf(std::move(frame));
 }

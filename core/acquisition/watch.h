@@ -39,9 +39,11 @@ class Watch {
   /// Throws: BeginAgain, KeepAndStop; Error{device} if an alarm has nobody to handle it.
   void check(const Progress& progress);
 
-  /// Light of a pattern, see Photographer::take. Throws: as check().
-  HdrFrame light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress);
-  HdrFrame lightOfAll(const Stack& pattern, const Progress& progress);
+  /// Light of a pattern, see Photographer::take. `meanwhile` goes on during that photograph, not during a
+  /// check that is due before it: e does not change under its hands. Throws: as check().
+  HdrFrame light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
+                 const Meanwhile& meanwhile = {});
+  HdrFrame lightOfAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile = {});
 
   /// Power of the lamp now, relative to the first check.
   double power() const;

@@ -3,8 +3,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <cstddef>
+#include <functional>
 
 namespace relucent {
 
@@ -31,6 +33,29 @@ void parallelChunks(std::size_t begin, std::size_t end, std::size_t chunks, cons
         body(chunk, begin + length * chunk / chunks, begin + length * (chunk + 1) / chunks);
       },
       tbb::simple_partitioner());
+}
+
+/// Runs foreground() on this thread, as devices want it, and background() on whatever other core is free;
+/// returns what the first returns when both are done. They must not touch the same data. An exception is
+/// rethrown here, that of the foreground if both throw. No background: just the foreground.
+template <typename Foreground>
+auto besides(const std::function<void()>& background, const Foreground& foreground) {
+  if (!background) return foreground();
+  tbb::task_group group;
+  group.run(background);
+  auto finished = [&]() -> decltype(foreground()) {
+    try {
+      return foreground();
+    } catch (...) {
+      try {
+        group.wait();
+      } catch (...) {  // NOLINT(bugprone-empty-catch): the foreground's exception says more
+      }
+      throw;
+    }
+  }();
+  group.wait();
+  return finished;
 }
 
 }  // namespace relucent

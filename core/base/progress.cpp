@@ -53,4 +53,8 @@ void Progress::preview(Preview preview) const {
   if (sink_ != nullptr) sink_->previewed(preview);
 }
 
+void Progress::expect(const WorkLeft& work) const {
+  if (sink_ != nullptr) sink_->expected(work);
+}
+
 }  // namespace relucent

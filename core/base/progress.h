@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <string>
@@ -38,6 +39,16 @@ struct Preview {
   std::vector<float> rgb;
 };
 
+/// What a measurement has still to do, as far as can be told.
+struct WorkLeft {
+  int shots = 0;  // patterns to be photographed
+  int leastShots = 0, mostShots = 0;
+  int exposures = 0;
+  double seconds = 0.0;
+  std::uint64_t diskBytes = 0;
+  std::uint64_t memoryBytes = 0;  // at its peak
+};
+
 /// Where progress goes: a terminal, a log, a Qt signal. Called from the thread that does the work.
 class ProgressSink {
  public:
@@ -45,6 +56,8 @@ class ProgressSink {
   /// `fraction` of the whole, 0 to 1, never going back; `stage` names the innermost part under way.
   virtual void progressed(double fraction, std::string_view stage) = 0;
   virtual void previewed(const Preview&) {}
+  /// Better and better known while a measurement goes on.
+  virtual void expected(const WorkLeft&) {}
 };
 
 /// A stage's share of a longer job. Pass by reference, last parameter; split with part().
@@ -68,6 +81,7 @@ class Progress {
   bool stopAndKeep() const;
 
   void preview(Preview preview) const;
+  void expect(const WorkLeft& work) const;
   const std::string& stage() const { return stage_; }
 
  private:

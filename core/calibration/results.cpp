@@ -137,6 +137,39 @@ constexpr const char* varianceUnits = "(camera signal per second)^2";
 
 }  // namespace
 
+namespace {
+
+Json timesToJson(const ShotTimes& times) {
+  return {{"shots", times.shots},
+          {"exposures", times.exposures},
+          {"showing", times.showing},
+          {"capturing", times.capturing},
+          {"keeping", times.keeping},
+          {"between", times.between},
+          {"asked", times.asked},
+          {"asked_squared", times.askedSquared},
+          {"asked_capturing", times.askedCapturing},
+          {"bytes", times.bytes}};
+}
+
+/// A calibration of an older version has none.
+ShotTimes timesFrom(const Json& json) {
+  ShotTimes times;
+  times.shots = json.value("shots", 0);
+  times.exposures = json.value("exposures", 0);
+  times.showing = json.value("showing", 0.0);
+  times.capturing = json.value("capturing", 0.0);
+  times.keeping = json.value("keeping", 0.0);
+  times.between = json.value("between", 0.0);
+  times.asked = json.value("asked", 0.0);
+  times.askedSquared = json.value("asked_squared", 0.0);
+  times.askedCapturing = json.value("asked_capturing", 0.0);
+  times.bytes = json.value("bytes", std::uint64_t{0});
+  return times;
+}
+
+}  // namespace
+
 StageResult storeLinearization(CalibrationFolder& folder, const std::string& inputs,
                                const Linearization& linearization, const Json& cost) {
   Json projectors = Json::array();
@@ -150,6 +183,7 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
                            {"exposures", linearization.exposures},
                            {"additivity_error", linearization.additivityError},
                            {"findings", linearization.findings},
+                           {"times", timesToJson(linearization.times)},
                            {"cost", cost}});
 }
 
@@ -162,6 +196,7 @@ Linearization loadLinearization(const StageResult& result) {
     linearization.exposures = values.at("exposures").get<std::vector<double>>();
     linearization.additivityError = values.at("additivity_error").get<std::vector<double>>();
     linearization.findings = values.at("findings").get<std::vector<std::string>>();
+    linearization.times = timesFrom(values.value("times", Json::object()));
     return linearization;
   });
 }

@@ -37,6 +37,7 @@ class Parser {
     addVenues();
     addCalibrate();
     addResume();
+    addVerify();
     addImport();
     addPlan();
     addCompensate();
@@ -118,6 +119,17 @@ class Parser {
     CLI::App* sub = add("resume", "Go on with an interrupted calibration", command);
     addFolder(sub, command->calibration, "Folder of the calibration");
     addCache(sub, command->cache);
+  }
+
+  void addVerify() {
+    auto command = std::make_shared<Verify>();
+    CLI::App* sub =
+        add("verify", "Photograph test patterns and say whether a calibration still holds", command);
+    addFolder(sub, command->calibration, "Folder of the calibration");
+    sub->add_option("--out", command->settings.out, "Folder for maps of what has changed, OpenEXR; created")
+        ->type_name("DIR");
+    addCache(sub, command->cache);
+    sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as ever.");
   }
 
   void addImport() {

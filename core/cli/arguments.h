@@ -25,6 +25,11 @@ struct Resume {
   std::filesystem::path calibration;
   std::filesystem::path cache;
 };
+struct Verify {
+  std::filesystem::path calibration;
+  VerifySettings settings;
+  std::filesystem::path cache;
+};
 struct ImportPictures {
   std::filesystem::path calibration;
   ImportPicturesSettings settings;
@@ -67,8 +72,8 @@ struct Bench {
   std::string name;
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, ImportPictures, Plan, Compensate, Evaluate, Export, Relight,
-                             Separate, Difference, Report, Bench>;
+using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, ImportPictures, Plan,
+                             Compensate, Evaluate, Export, Relight, Separate, Difference, Report, Bench>;
 
 struct Arguments {
   Command command;

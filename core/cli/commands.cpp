@@ -15,7 +15,7 @@
 namespace relucent {
 namespace {
 
-enum ExitStatus { done = 0, failed = 1, wrongUsage = 2, interrupted = 130 };
+enum ExitStatus { done = 0, failed = 1, wrongUsage = 2, remeasure = 3, startAgain = 4, interrupted = 130 };
 
 /// Throws: Error{input} if there are any, naming all of them.
 void refuse(const std::vector<std::string>& problems) {
@@ -42,6 +42,25 @@ std::string textOf(const CalibrateResult& result) {
          lines(result.findings);
 }
 
+std::string textOf(const WrittenFiles& result) {
+  std::string text;
+  for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
+  for (const std::string& note : result.notes) text += "Note: " + note + ".\n";
+  return text;
+}
+
+std::string textOf(const VerifyResult& result) {
+  const Reverification& found = result.found;
+  std::string text = fmt::format("{}\nError by size of the pattern's blocks:", result.judgement.sentence);
+  for (std::size_t size = 0; size < found.errorOf.size(); ++size)
+    text += fmt::format("{} {} {:.1f} %", size == 0 ? "" : ",", 1 << size, 100.0 * found.errorOf[size]);
+  text += fmt::format(
+      ".\nThe lamp gives {:.1f} % of its light; the room's light changed by {:+.2f} % of the flood image; "
+      "{} photographs in {:.0f} s.\n",
+      100.0 * found.lamp, 100.0 * found.ambient, found.exposures, result.seconds);
+  return text + textOf(WrittenFiles{result.files});
+}
+
 std::string textOf(const ImportResult& result) {
   return fmt::format(
              "Imported {} photographs of a {}x{} projector in {:.0f} s; {} of them were not fitted but "
@@ -52,13 +71,6 @@ std::string textOf(const ImportResult& result) {
              result.patterns, result.projector.width, result.projector.height, result.seconds, result.heldOut,
              100.0 * result.error.transport, 100.0 * result.error.mix, 100.0 * result.error.oneToOne) +
          lines(result.findings);
-}
-
-std::string textOf(const WrittenFiles& result) {
-  std::string text;
-  for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
-  for (const std::string& note : result.notes) text += "Note: " + note + ".\n";
-  return text;
 }
 
 std::string textOf(const CompensateResult& result) {
@@ -132,6 +144,18 @@ std::string textOf(const InverseBenchResult& result) {
   return text + "\n";
 }
 
+int statusOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stillGood:
+      return done;
+    case Verdict::remeasure:
+      return remeasure;
+    case Verdict::startAgain:
+      return startAgain;
+  }
+  return failed;
+}
+
 template <typename Result>
 Outcome outcomeOf(const Result& result) {
   return {toJson(result), textOf(result)};
@@ -157,6 +181,14 @@ struct Executor {
 
   Outcome operator()(const Resume& command) const {
     return outcomeOf(resume(command.calibration, command.cache, progress));
+  }
+
+  Outcome operator()(const Verify& command) const {
+    refuse(problems(command.settings));
+    VerifyResult result = verifyCalibration(command.calibration, command.settings, command.cache, progress);
+    Outcome outcome = outcomeOf(result);
+    outcome.status = statusOf(result.judgement.verdict);
+    return outcome;
   }
 
   Outcome operator()(const ImportPictures& command) const {
@@ -270,7 +302,7 @@ int runCommandLine(const std::vector<std::string>& arguments) {
       outcome = execute(parsed.command, progress);
     }
     print(outcome, parsed.json);
-    return done;
+    return outcome.status;
   } catch (const Cancelled&) {
     return fail(interruptedSentence(parsed.command), interrupted);
   } catch (const Error& error) {

@@ -12,6 +12,7 @@ namespace relucent {
 struct Outcome {
   Json document;
   std::string text;
+  int status = 0;  // of the program
 };
 
 /// Does what the command line asks for.

@@ -24,24 +24,57 @@ void TimeLeft::add(Seconds now, double fraction) {
   while (samples_.size() > 2 && now - samples_[1].time >= window) samples_.pop_front();
 }
 
+void TimeLeft::expect(Seconds now, Seconds left) {
+  expectedEnd_ = now + left;
+}
+
 Seconds TimeLeft::left() const {
   constexpr Seconds leastTime{3.0};
   if (samples_.empty()) return Seconds{-1.0};
+  if (expectedEnd_ > samples_.back().time) return expectedEnd_ - samples_.back().time;
   Seconds time = samples_.back().time - samples_.front().time;
   double share = samples_.back().fraction - samples_.front().fraction;
   if (time < leastTime || share <= 0.0) return Seconds{-1.0};
   return time * ((1.0 - samples_.back().fraction) / share);
 }
 
+namespace {
+
+/// Rounded up: 10 s below a minute, whole minutes above.
+std::string timeOf(double seconds) {
+  if (seconds <= 50.0) return fmt::format("{:.0f} s", std::max(10.0, 10.0 * std::ceil(seconds / 10.0)));
+  double minutes = std::ceil(seconds / 60.0);
+  if (minutes < 60.0) return fmt::format("{:.0f} min", minutes);
+  return fmt::format("{:.0f} h {:02.0f} min", std::floor(minutes / 60.0), std::fmod(minutes, 60.0));
+}
+
+/// Two digits say as much as is known.
+double rounded(double value) {
+  if (value < 10.0) return std::round(value);
+  double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return unit * std::round(value / unit);
+}
+
+std::string bytesOf(std::uint64_t bytes) {
+  auto value = static_cast<double>(bytes);
+  if (value < 1e9) return fmt::format("{:.0f} MB", std::max(1.0, rounded(value / 1e6)));
+  return fmt::format("{:.1f} GB", value / 1e9);
+}
+
+}  // namespace
+
 std::string TimeLeft::sentence() const {
   double seconds = left().count();
-  if (seconds < 0.0) return {};
-  if (seconds <= 50.0)
-    return fmt::format("about {:.0f} s left", std::max(10.0, 10.0 * std::ceil(seconds / 10.0)));
-  double minutes = std::ceil(seconds / 60.0);
-  if (minutes < 60.0) return fmt::format("about {:.0f} min left", minutes);
-  return fmt::format("about {:.0f} h {:02.0f} min left", std::floor(minutes / 60.0),
-                     std::fmod(minutes, 60.0));
+  return seconds < 0.0 ? std::string() : fmt::format("about {} left", timeOf(seconds));
+}
+
+std::string workSentence(const WorkLeft& work) {
+  return fmt::format(
+      "About {:.0f} patterns to photograph ({:.0f} to {:.0f}), {:.0f} photographs: about {}, {} on disk, {} "
+      "of "
+      "memory",
+      rounded(work.shots), rounded(work.leastShots), rounded(work.mostShots), rounded(work.exposures),
+      timeOf(work.seconds), bytesOf(work.diskBytes), bytesOf(work.memoryBytes));
 }
 
 std::string barLine(std::string_view stage, double fraction, std::string_view timeLeft, int width) {
@@ -100,6 +133,14 @@ void TerminalProgress::progressed(double fraction, std::string_view stage) {
     drawn_ = now;
     drawBar(width);
   }
+}
+
+void TerminalProgress::expected(const WorkLeft& work) {
+  timeLeft_.expect(terminal_.now(), Seconds{work.seconds});
+  if (workIsSaid_) return;
+  workIsSaid_ = true;
+  finish();
+  *terminal_.out << workSentence(work) << "\n" << std::flush;
 }
 
 void TerminalProgress::drawBar(int width) {

@@ -18,6 +18,8 @@ class TimeLeft {
   using Seconds = std::chrono::duration<double>;
 
   void add(Seconds now, double fraction);
+  /// What somebody who knows the work expects; believed until it has passed.
+  void expect(Seconds now, Seconds left);
   /// Below zero: not known yet.
   Seconds left() const;
   /// "about 3 min left", rounded up; empty while it is not known.
@@ -29,6 +31,7 @@ class TimeLeft {
     double fraction;
   };
   std::deque<Sample> samples_;
+  Seconds expectedEnd_{-1.0};
 };
 
 /// Progress on a terminal as one line that is redrawn at most ten times a second; elsewhere (a log, a pipe)
@@ -49,6 +52,8 @@ class TerminalProgress : public ProgressSink {
   ~TerminalProgress() override;
 
   void progressed(double fraction, std::string_view stage) override;
+  /// Says so in a line of its own the first time; after that the time left follows it.
+  void expected(const WorkLeft& work) override;
   /// Takes the bar away, so that a sentence can be printed in its place. Called by the destructor too.
   void finish();
 
@@ -62,9 +67,13 @@ class TerminalProgress : public ProgressSink {
   std::string stage_;
   std::chrono::duration<double> drawn_{-1.0};
   bool barIsShown_ = false;
+  bool workIsSaid_ = false;
   std::string printedStage_;
   double printedFraction_ = -1.0;
 };
+
+/// "About 2100 patterns to photograph (430 to 4300), 4200 photographs, ..."
+std::string workSentence(const WorkLeft& work);
 
 /// A bar's line: stage, bar, percent, time left, in at most `width` - 1 columns; parts that do not fit are
 /// left out, the percentage last.

@@ -107,6 +107,7 @@ Linearization linearize(ShotTaker& shots, const LinearizationSettings& settings,
     result.projectors.push_back(measureRamps(meter, projector, additivity, settings, ramps));
   }
   progress.report(1.0);
+  result.times = shots.times();
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hdr/hdr.h"
+#include "rig/shot.h"
 
 namespace relucent {
 
@@ -43,6 +44,8 @@ struct Linearization {
   /// Per projector: largest relative deviation of white from red + green + blue, and of the flood image from
   /// the sum of two halves.
   std::vector<double> additivityError;
+  /// What its shots took: a benchmark of the devices. Shots that a log held already are not in it.
+  ShotTimes times;
   /// Sentences about what was found wrong (a white segment, a picture mode, a flicker); empty: nothing.
   std::vector<std::string> findings;
 };

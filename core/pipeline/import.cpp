@@ -9,6 +9,7 @@
 #include "base/fingerprint.h"
 #include "base/stopwatch.h"
 #include "calibration/results.h"
+#include "image/color.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
@@ -20,13 +21,17 @@ namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
-bool isPictureName(const fs::path& path) {
-  static const std::set<std::string> endings{".png", ".tif",  ".tiff", ".jpg", ".jpeg",
-                                             ".bmp", ".webp", ".pgm",  ".ppm", ".exr"};
+std::string endingOf(const fs::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  return endings.count(ending) > 0 && !path.filename().string().starts_with(".");
+  return ending;
+}
+
+bool isPictureName(const fs::path& path) {
+  static const std::set<std::string> endings{".png", ".tif",  ".tiff", ".jpg", ".jpeg",
+                                             ".bmp", ".webp", ".pgm",  ".ppm", ".exr"};
+  return endings.count(endingOf(path)) > 0 && !path.filename().string().starts_with(".");
 }
 
 /// The pictures of a folder in the order of their names.
@@ -46,6 +51,12 @@ std::vector<fs::path> picturesIn(const fs::path& folder, const char* what) {
   return pictures;
 }
 
+/// Files that cameras develop for looking at, by about the curve of sRGB.
+bool isDeveloped(const fs::path& path) {
+  static const std::set<std::string> endings{".jpg", ".jpeg", ".webp"};
+  return endings.count(endingOf(path)) > 0;
+}
+
 void clampToDrive(Image& image) {
   for (float& value : image.data()) value = std::clamp(value, 0.0f, 1.0f);
 }
@@ -57,7 +68,10 @@ PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive, Fin
   for (std::size_t k = 0; k < paths.size(); ++k) {
     Image image = readPicture(paths[k]).encoded;
     checkFinite(image, paths[k]);
-    if (drive) clampToDrive(image);
+    if (drive)
+      clampToDrive(image);
+    else if (isDeveloped(paths[k]))
+      image = srgbDecoded(image);
     if (k == 0) sequence = PictureSequence(image.size(), static_cast<int>(paths.size()));
     if (image.size() != sequence.size())
       throw Error(
@@ -83,6 +97,7 @@ void checkFolderIsFree(const fs::path& folder) {
 
 struct Pictures {
   PictureSequence patterns, photographs;
+  bool developed = false;  // some of the photographs were not linear
   ImportedRigSettings rig;
 };
 
@@ -99,6 +114,7 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   pictures.patterns = readSequence(patterns, true, fingerprint, first);
   Progress second = progress.part(0.6, "Reading the photographs");
   pictures.photographs = readSequence(photographs, false, fingerprint, second);
+  pictures.developed = std::any_of(photographs.begin(), photographs.end(), isDeveloped);
   pictures.rig = {pictures.patterns.size(),
                   pictures.photographs.size(),
                   static_cast<int>(patterns.size()),
@@ -166,6 +182,10 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
     result.patterns = pictures.rig.pictures;
     Progress estimating = progress.part(0.7, "Estimating the light transport");
     import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
+    if (pictures.developed)
+      import.linearization.findings.emplace_back(
+          "The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only "
+          "roughly; develop them linearly, as TIFF or EXR, to measure more exactly.");
   }
   result.heldOut = static_cast<int>(import.heldOut.size());
   result.fitted = result.patterns - result.heldOut;

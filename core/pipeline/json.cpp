@@ -57,6 +57,25 @@ Json toJson(const CalibrateResult& result) {
           {"findings", result.findings}};
 }
 
+Json toJson(const VerifyResult& result) {
+  Json errors = Json::object();
+  for (int size = 0; size < verificationSizes; ++size)
+    errors[std::to_string(1 << size)] = result.found.errorOf[static_cast<std::size_t>(size)];
+  return {{"verdict", toString(result.judgement.verdict)},
+          {"sentence", result.judgement.sentence},
+          {"error", result.found.error},
+          {"error_then", result.errorThen},
+          {"error_by_block", errors},
+          {"error_without_lamp", result.found.adapted},
+          {"changed_share", result.found.changedShare},
+          {"lamp", result.found.lamp},
+          {"ambient", result.found.ambient},
+          {"patterns", result.found.patterns},
+          {"exposures", result.found.exposures},
+          {"seconds", result.seconds},
+          {"files", pathsToJson(result.files)}};
+}
+
 Json toJson(const CompensateResult& result) {
   return {{"method", result.method},       {"psnr_predicted", result.psnrPredicted},
           {"delta_e", result.deltaE},      {"clipped", result.clipped},

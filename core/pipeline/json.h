@@ -9,7 +9,10 @@
 namespace relucent {
 
 /// The documents of the command line: snake_case keys, numbers without units. What is not finite is null.
+/// verify: {"verdict", "sentence", "error", "error_then", "error_by_block": {"1", "2", "4", "8"},
+///   "error_without_lamp", "changed_share", "lamp", "ambient", "patterns", "exposures", "seconds", "files"}.
 Json toJson(const CalibrateResult& result);
+Json toJson(const VerifyResult& result);
 Json toJson(const ImportResult& result);
 Json toJson(const CompensateResult& result);
 Json toJson(const EvaluateResult& result);

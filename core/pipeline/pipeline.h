@@ -12,6 +12,7 @@
 #include "acquisition/acquisition.h"
 #include "acquisition/import.h"
 #include "acquisition/pattern_plan.h"
+#include "acquisition/reverification.h"
 #include "base/progress.h"
 #include "compensation/direct_light.h"
 #include "compensation/method.h"
@@ -98,9 +99,33 @@ CalibrateResult resume(const std::filesystem::path& folder, const std::filesyste
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
                        const AlarmHandler& handler, Progress& progress);
 
+struct VerifySettings {
+  std::filesystem::path out;       // folder for maps as EXR; created; empty: none
+  std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
+};
+std::vector<std::string> problems(const VerifySettings& settings);
+
+struct VerifyResult {
+  Judgement judgement;
+  Reverification found;
+  double errorThen = 0.0;  // of the same patterns when T was measured
+  double seconds = 0.0;    // reading and preparing not included
+  std::vector<std::filesystem::path> files;
+};
+
+/// Whether T still predicts the venue: photographs black and the held-out patterns again, ten shots or so,
+/// and compares them (acquisition/reverification.h). Changes nothing in the calibration. Writes into `out`,
+/// a file a camera: residual-1-1.exr to residual-8-1.exr (block size; root mean square of measured less
+/// predicted, camera signal per second) and changed-1.exr (1 where a pixel changed).
+/// Throws: Error{input} if the calibration is not finished, was imported, or has other sizes than the
+/// devices; Error{device, disk}; Cancelled.
+VerifyResult verifyCalibration(const std::filesystem::path& folder, const VerifySettings& settings,
+                               const std::filesystem::path& cache, Progress& progress);
+
 struct ImportPicturesSettings {
-  std::filesystem::path patterns;     // folder of pictures: what was projected, in the projector's own pixels
-  std::filesystem::path photographs;  // folder of pictures: linear signals, one for each pattern
+  std::filesystem::path patterns;  // folder of pictures: what was projected, in the projector's own pixels
+  /// Folder of pictures: linear signals, one for each pattern; JPEG is decoded by the curve of sRGB.
+  std::filesystem::path photographs;
   ImportSettings import;
 };
 std::vector<std::string> problems(const ImportPicturesSettings& settings);

@@ -78,6 +78,11 @@ Problems problems(const CalibrateSettings& settings) {
   return found;
 }
 
+std::vector<std::string> problems(const VerifySettings& settings) {
+  if (!settings.rig) return {};
+  return std::visit([](const auto& rig) { return problemsOf(rig); }, *settings.rig);
+}
+
 Problems problems(const ImportPicturesSettings& settings) {
   Problems found;
   if (settings.patterns.empty()) found.push_back("no folder of patterns is given");

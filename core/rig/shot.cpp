@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "rig/shot.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/fingerprint.h"
 
@@ -17,8 +19,24 @@ std::string fingerprintOf(const std::vector<Image>& patterns, const std::vector<
 
 }  // namespace
 
-ShotTaker::ShotTaker(Rig& rig, ShotLog& log, std::string stage)
-    : rig_(rig), log_(log), stage_(std::move(stage)) {}
+double ShotTimes::shotSeconds() const {
+  return shots > 0 ? (showing + keeping + between) / shots : 0.0;
+}
+
+double ShotTimes::exposureSeconds(double seconds) const {
+  if (exposures == 0) return seconds;
+  double mean = asked / exposures, spread = askedSquared - asked * mean;
+  double slope = 1.0;
+  if (spread > 1e-9 * askedSquared) slope = (askedCapturing - capturing * mean) / spread;
+  // Two exposure times that are hardly apart, or a busy machine, must not make a photograph take no time.
+  slope = std::clamp(slope, 0.0, 2.0);
+  return std::max(0.0, capturing / exposures + slope * (seconds - mean));
+}
+
+ShotTaker::ShotTaker(Rig& rig, ShotLog& log, std::string stage, Clock clock)
+    : rig_(rig), log_(log), stage_(std::move(stage)), clock_(std::move(clock)) {
+  if (!clock_) clock_ = [] { return std::chrono::steady_clock::now().time_since_epoch(); };
+}
 
 Shot ShotTaker::take(const std::vector<Image>& encodedPatterns, const std::vector<double>& exposures,
                      const Progress& progress) {
@@ -29,20 +47,44 @@ Shot ShotTaker::take(const std::vector<Image>& encodedPatterns, const std::vecto
 
   Shot shot{{stage_, shots()}, fingerprintOf(encodedPatterns, exposures), {}, exposures};
   taken_.push_back({shot.fingerprint, static_cast<int>(exposures.size())});
-  if (std::optional<Shot> kept = log_.find(shot.id, shot.fingerprint)) return *std::move(kept);
+  if (std::optional<Shot> kept = log_.find(shot.id, shot.fingerprint)) {
+    lastEnd_.reset();
+    return *std::move(kept);
+  }
 
+  double begin = now();
+  if (lastEnd_) times_.between += begin - *lastEnd_;
   for (std::size_t projector = 0; projector < rig_.projectors.size(); ++projector)
     rig_.projectors[projector]->show(encodedPatterns[projector]);
+  double shown = now();
   for (std::size_t exposure = 0; exposure < exposures.size(); ++exposure) {
     std::vector<RawFrame>& frames = shot.frames.emplace_back();
     for (const auto& camera : rig_.cameras) {
       progress.checkpoint();
+      double opened = now();
       frames.push_back(camera->capture({shot.id, static_cast<int>(exposure), exposures[exposure]}));
+      addExposure(frames.back(), exposures[exposure], now() - opened);
       checkFrame(frames.back(), camera->size(), camera->name());
     }
   }
+  double photographed = now();
   log_.keep(shot);
+  lastEnd_ = now();
+  times_.showing += shown - begin;
+  times_.keeping += *lastEnd_ - photographed;
+  ++times_.shots;
   return shot;
+}
+
+void ShotTaker::addExposure(const RawFrame& frame, double asked, double took) {
+  ++times_.exposures;
+  times_.asked += asked;
+  times_.askedSquared += asked * asked;
+  times_.capturing += took;
+  times_.askedCapturing += asked * took;
+  // Whole codes take a byte or two each, anything else four.
+  std::uint64_t each = frame.bits < 1 || frame.bits > 16 ? 4 : frame.bits <= 8 ? 1 : 2;
+  times_.bytes += each * frame.signal.data().size();
 }
 
 int ShotTaker::exposures() const {

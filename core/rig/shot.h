@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,12 +42,35 @@ class NoShotLog : public ShotLog {
   void keep(const Shot&) override {}
 };
 
+/// What shots took that were taken and not read from a log, summed: a benchmark of the devices. Seconds.
+struct ShotTimes {
+  int shots = 0;
+  int exposures = 0;            // photographs
+  double showing = 0.0;         // in Projector::show
+  double capturing = 0.0;       // in Camera::capture
+  double keeping = 0.0;         // in ShotLog::keep
+  double between = 0.0;         // from the end of one shot to the begin of the next: computing
+  double asked = 0.0;           // exposure times
+  double askedSquared = 0.0;    // sum of their squares
+  double askedCapturing = 0.0;  // sum of exposure time * time in capture
+  std::uint64_t bytes = 0;      // of samples that a log keeps
+
+  /// What a shot takes besides its exposures, mean.
+  double shotSeconds() const;
+  /// What an exposure of `asked` seconds takes: the line through those that were taken, by least squares. A
+  /// simulated camera takes the same time for all of them, a real one at least the exposure's.
+  double exposureSeconds(double asked) const;
+};
+
 /// Takes the numbered shots of one stage, one after the other. Each is kept in the log before the next
 /// begins; a shot that the log already holds for the same patterns and exposures is read instead of taken,
 /// so that running a stage again with the same settings is how it is resumed.
 class ShotTaker {
  public:
-  ShotTaker(Rig& rig, ShotLog& log, std::string stage);
+  using Clock = std::function<std::chrono::duration<double>()>;
+
+  /// `clock`: what shots are timed by; none: the machine's.
+  ShotTaker(Rig& rig, ShotLog& log, std::string stage, Clock clock = {});
 
   /// Shows `encodedPatterns` (one per projector) and photographs them with each of `exposures` (seconds).
   /// Throws: Error{device, input, disk}; Cancelled.
@@ -61,8 +87,12 @@ class ShotTaker {
   /// Shots and single exposures so far, those read from the log included.
   int shots() const { return static_cast<int>(taken_.size()); }
   int exposures() const;
+  const ShotTimes& times() const { return times_; }
 
  private:
+  double now() const { return clock_().count(); }
+  void addExposure(const RawFrame& frame, double asked, double took);
+
   Rig& rig_;
   ShotLog& log_;
   std::string stage_;
@@ -71,6 +101,9 @@ class ShotTaker {
     int exposures = 0;
   };
   std::vector<Taken> taken_;
+  Clock clock_;
+  ShotTimes times_;
+  std::optional<double> lastEnd_;  // of the last shot, if that was taken
 };
 
 }  // namespace relucent

@@ -145,10 +145,12 @@ class TestImport : public QObject {
     Import import = imported(scene, wholePlan());
     qInfo() << import.error.transport << import.error.mix << import.error.oneToOne
             << relightingError(scene, import);
-    // The footprint is a Gaussian, cut off at a hundredth; the synthetic one is sampled at pixels' centres.
-    QVERIFY2(import.error.transport < 0.04, qPrintable(QString::number(import.error.transport)));
-    QVERIFY(import.error.transport < 0.3 * import.error.mix);
+    // Stripes of which neither phase was fitted are predicted from places and spreads alone: 60 % of what a
+    // one-to-one map leaves is what the product promises, and footprints of their own do clearly better.
+    QVERIFY2(import.error.transport < 0.5 * import.error.oneToOne,
+             qPrintable(QString::number(import.error.transport)));
     QVERIFY(import.error.mix <= 1.05 * import.error.oneToOne);
+    // The footprint is a Gaussian, cut off at a hundredth; the synthetic one is sampled at pixels' centres.
     QVERIFY2(relightingError(scene, import) < 0.06,
              qPrintable(QString::number(relightingError(scene, import))));
   }
@@ -169,9 +171,8 @@ class TestImport : public QObject {
     if (negative)
       for (Image& pattern : patterns) pattern = ::negative(pattern);
     Import import = imported(scene, patterns);
-    // Which of a pattern and its negative is held out changes, and with it the fit, a little.
+    // The order decides how sums round, and where two places explain a pixel alike, which is taken.
     QVERIFY(std::abs(relightingError(scene, import) - before) < 0.02);
-    QVERIFY(import.error.transport < 0.05);
   }
 
   void needsNoWholeCode() {
@@ -181,8 +182,10 @@ class TestImport : public QObject {
       if (k % 3 != 1) some.push_back(patterns[k]);
     Scene scene;
     Import import = imported(scene, some);
-    QVERIFY2(import.error.transport < 0.5 * import.error.oneToOne,
-             qPrintable(QString::number(import.error.transport)));
+    // What is left cannot spare anything: the figure is for patterns that T needs, so T itself is judged.
+    // Half a pixel off turns a smooth pattern's phase by 0.17.
+    QVERIFY2(relightingError(scene, import) < 0.25,
+             qPrintable(QString::number(relightingError(scene, import))));
   }
 
   void findsPlacesInNoise() {
@@ -198,29 +201,47 @@ class TestImport : public QObject {
     std::vector<Image> patterns = wholePlan();
     std::vector<Image> photographs = photographsOf(scene, patterns);
     Progress progress;
-    Import before = importTransport(sequenceOf(patterns), sequenceOf(photographs), {}, progress);
+    ImportSettings settings;
+    settings.refit = false;
+    Import before = importTransport(sequenceOf(patterns), sequenceOf(photographs), settings, progress);
     QVERIFY(before.heldOut.size() >= 4);
     for (int k : before.heldOut) photographs[static_cast<std::size_t>(k)] = Image(camera, 3, 0.3f);
-    Import after = importTransport(sequenceOf(patterns), sequenceOf(photographs), {}, progress);
+    Import after = importTransport(sequenceOf(patterns), sequenceOf(photographs), settings, progress);
     QCOMPARE(after.heldOut, before.heldOut);
     QVERIFY(after.acquisition.transport.leaves() == before.acquisition.transport.leaves());
     QVERIFY(after.acquisition.black == before.acquisition.black);
     QVERIFY(after.error.transport > before.error.transport);
   }
 
-  void heldOutPatternsAreOfAllFinenesses() {
-    std::vector<Image> patterns = planned(isGrayCode);
-    PictureSequence sequence = sequenceOf(patterns);
-    std::vector<int> held = heldOutPatterns(sequence, 5);
-    QVERIFY(held.size() >= patterns.size() / 5);
-    std::set<int> bits;
+  /// Law: what is held out is held out with all that says the same, its negative above all, and the rest can
+  /// still tell places apart, within what neighbours can settle together.
+  void negativesStayTogether() {
     PatternPlanSettings settings;
     settings.projector = projector;
     std::vector<PlannedPattern> plan;
     for (const PlannedPattern& pattern : planPatterns(settings))
       if (isGrayCode(pattern)) plan.push_back(pattern);
-    for (int k : held) bits.insert(plan[static_cast<std::size_t>(k)].bit);
-    QVERIFY2(bits.size() >= 4, qPrintable(QString::number(bits.size())));
+    std::vector<int> held = heldOutPatterns(sequenceOf(planned(isGrayCode)), 5);
+    QVERIFY2(held.size() >= 4 && held.size() % 2 == 0, qPrintable(QString::number(held.size())));
+    auto isHeld = [&](std::size_t k) {
+      return std::find(held.begin(), held.end(), static_cast<int>(k)) != held.end();
+    };
+    for (std::size_t a = 0; a < plan.size(); ++a)
+      for (std::size_t b = 0; b < plan.size(); ++b)
+        if (plan[a].kind == plan[b].kind && plan[a].bit == plan[b].bit) QCOMPARE(isHeld(a), isHeld(b));
+  }
+
+  /// The same for pictures that went through a lossy file: equal but for a few codes.
+  void nearlyNegativesStayTogether() {
+    std::vector<Image> patterns = planned(isGrayCode);
+    std::vector<int> exact = heldOutPatterns(sequenceOf(patterns), 5);
+    Random random{5};
+    for (Image& pattern : patterns)
+      for (float& value : pattern.data())
+        value = std::clamp(value + 0.01f * (random.uniformFloat() - 0.5f), 0.0f, 1.0f);
+    std::vector<int> noisy = heldOutPatterns(sequenceOf(patterns), 5);
+    QCOMPARE(noisy.size() % 2, std::size_t{0});
+    QVERIFY(!noisy.empty());
   }
 
   void evenPatternsAreNeverHeldOut() {

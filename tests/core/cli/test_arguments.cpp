@@ -127,6 +127,8 @@ class TestArguments : public QObject {
     QVERIFY(!parsed<Report>("report d --no-evaluate").settings.evaluate);
     QCOMPARE(parsed<Bench>("bench windows").name, std::string("windows"));
     QCOMPARE(parsed<Resume>("resume d").calibration, std::filesystem::path("d"));
+    QCOMPARE(parsed<Verify>("verify d --out maps").calibration, std::filesystem::path("d"));
+    QCOMPARE(parsed<Verify>("verify d --out maps").settings.out, std::filesystem::path("maps"));
   }
 
   void jsonMayStandAnywhere() {

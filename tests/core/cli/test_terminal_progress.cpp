@@ -48,6 +48,33 @@ class TestTerminalProgress : public QObject {
     QVERIFY(barLine("acquisition", 0.999, "", 80).find(" 99 %") != std::string::npos);
   }
 
+  void workToComeIsSaidInRoundFigures() {
+    WorkLeft work{2087, 433, 4312, 4154, 170.0, 490'000'000, 2'140'000'000};
+    QCOMPARE(workSentence(work),
+             std::string("About 2100 patterns to photograph (430 to 4300), 4200 photographs: about 3 min, "
+                         "490 MB on disk, 2.1 GB of memory"));
+    QCOMPARE(workSentence({}),
+             std::string("About 0 patterns to photograph (0 to 0), 0 photographs: about 10 s, "
+                         "1 MB on disk, 1 MB of memory"));
+  }
+
+  /// Said once; the time left follows what is expected, and measures for itself when that has passed.
+  void workToComeIsSaidOnce() {
+    FakeTerminal fake;
+    TerminalProgress progress(fake.terminal());
+    progress.progressed(0.1, "acquisition");
+    progress.expected({100, 50, 200, 200, 600.0, 0, 0});
+    progress.expected({90, 50, 200, 200, 500.0, 0, 0});
+    QCOMPARE(fake.text().count("About 100 patterns"), 1);
+    QCOMPARE(fake.text().count("patterns to photograph"), 1);
+    fake.now += 20.0;
+    progress.progressed(0.3, "level 2");
+    QVERIFY2(fake.text().contains("level 2, about 8 min left"), fake.text().constData());
+    fake.now += 600.0;
+    progress.progressed(0.5, "level 3");
+    QVERIFY2(!fake.text().contains("level 3, about 8 min left"), fake.text().constData());
+  }
+
   void atMostTenDrawingsASecond() {
     FakeTerminal fake;
     fake.width = 80;

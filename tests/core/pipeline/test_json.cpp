@@ -22,6 +22,28 @@ class TestJson : public QObject {
                     R"("findings":["a"]})"));
   }
 
+  void verifyDocument() {
+    VerifyResult result;
+    result.judgement = {Verdict::remeasure, "why"};
+    result.found.error = 0.25;
+    result.found.errorOf = {0.5, 0.25, 0.125, 0.0};
+    result.found.adapted = 0.125;
+    result.found.changedShare = 0.5;
+    result.found.lamp = 0.75;
+    result.found.ambient = -0.5;
+    result.found.patterns = 9;
+    result.found.exposures = 18;
+    result.errorThen = 0.0625;
+    result.seconds = 2.0;
+    result.files = {"out/changed-1.exr"};
+    QCOMPARE(
+        toJson(result).dump(),
+        std::string(R"({"verdict":"remeasure","sentence":"why","error":0.25,"error_then":0.0625,)"
+                    R"("error_by_block":{"1":0.5,"2":0.25,"4":0.125,"8":0.0},"error_without_lamp":0.125,)"
+                    R"("changed_share":0.5,"lamp":0.75,"ambient":-0.5,"patterns":9,"exposures":18,)"
+                    R"("seconds":2.0,"files":["out/changed-1.exr"]})"));
+  }
+
   void evaluateDocument() {
     EvaluateResult result{"corner", {256, 192}, {160, 120}, 0.9, {0.1, 0.2, 0.3, 0.4, 0.5}, {}};
     result.images = {{"hills", 0.8, {{"none", 14.0, 13.0, 0.4, 18.0, 0.001}}}};

@@ -107,6 +107,46 @@ class TestPipeline : public QObject {
     QVERIFY(before == transportBytes(root() / "plain"));
   }
 
+  /// An unchanged venue is still good; brighter room light is found, and told apart from a broken T.
+  void verifiesAgain_data() {
+    QTest::addColumn<double>("ambient");
+    QTest::addColumn<quint64>("seed");
+    QTest::addColumn<int>("verdict");
+    DeviceModelSettings usual;
+    QTest::newRow("unchanged") << usual.ambient << quint64{1} << static_cast<int>(Verdict::stillGood);
+    QTest::newRow("other noise") << usual.ambient << quint64{9} << static_cast<int>(Verdict::stillGood);
+    QTest::newRow("room light") << usual.ambient + 0.02 << quint64{1} << static_cast<int>(Verdict::remeasure);
+  }
+  void verifiesAgain() {
+    QFETCH(double, ambient);
+    QFETCH(quint64, seed);
+    QFETCH(int, verdict);
+    VenueSettings venue = std::get<VenueSettings>(smallVenue("plain", seed).rig);
+    venue.devices.ambient = ambient;
+    VerifySettings settings;
+    settings.rig = venue;
+    settings.out = root() / "verified";
+    Progress silent;
+    VerifyResult result = verifyCalibration(root() / "plain", settings, cache(), silent);
+    QVERIFY2(static_cast<int>(result.judgement.verdict) == verdict, result.judgement.sentence.c_str());
+    QVERIFY(result.errorThen > 0.0 && result.found.exposures >= result.found.patterns);
+    QCOMPARE(result.files.size(), std::size_t{5});
+    for (const fs::path& file : result.files) QVERIFY((readRgbExr(file).size() == Size{28, 21}));
+  }
+
+  void verifyRefusesOtherDevices() {
+    VenueSettings venue = std::get<VenueSettings>(smallVenue("plain").rig);
+    venue.camera = {30, 21};
+    VerifySettings settings;
+    settings.rig = venue;
+    Progress silent;
+    std::string sentence = errorOf([&] { verifyCalibration(root() / "plain", settings, cache(), silent); });
+    QVERIFY2(QString::fromStdString(sentence).contains("other sizes"), sentence.c_str());
+    venue.camera = {2, 2};
+    settings.rig = venue;
+    QVERIFY(!problems(settings).empty());
+  }
+
   void evaluatesEveryMethodInOrder() {
     EvaluateSettings settings;
     Progress silent;

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "acquisition/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "acquisition/children.h"
+#include "transport/node_layout.h"
+
+namespace relucent {
+namespace {
+
+constexpr PatternRange usualColours{3.0, 30.0, 100.0};
+// A finer level's footprints are more compact than the last one's: fewer conflicts, at worst some more.
+constexpr PatternRange nextColours{0.2, 0.7, 1.5};
+// A level of which more blocks than this have a colour of their own says nothing about the next.
+constexpr double limitedByBlocks = 0.5;
+constexpr int enoughShots = 40;
+
+constexpr double leavesPerPixel = 120.0;
+constexpr double bytesPerLeaf = 22.0;
+// The level under way: some 40 active pairs a camera pixel, each with 4 children of 36 bytes.
+constexpr double childrenBytes = 40.0 * 4.0 * 36.0;
+constexpr double programBytes = 60e6;
+constexpr double framesInMemory = 8.0;  // radiance, variance, validity of merged brackets, and raw ones
+
+double blocksOf(const NodeLayout& layout, int level) {
+  double blocks = 0.0;
+  for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector)
+    if (level < layout.levels(projector))
+      blocks += static_cast<double>(layout.gridSize(projector, level).count());
+  return blocks;
+}
+
+/// Shots of black and the reference picture during that many patterns: a pair before every `interval` but the
+/// first, as Watch does.
+double checksWithin(double patterns, int interval) {
+  return 2.0 * std::max(0.0, std::floor((patterns - 1.0) / std::max(1, interval)));
+}
+
+}  // namespace
+
+std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t lights,
+                                        std::span<const int> known) {
+  NodeLayout layout(projectors);
+  double each = quadrants * static_cast<double>(lights);
+  PatternRange colours = usualColours;
+  std::vector<PatternRange> patterns;
+  for (int level = layout.levels() - 1; level > 0; --level) {
+    double blocks = blocksOf(layout, level);
+    if (patterns.size() < known.size()) {
+      double count = known[patterns.size()], used = count / each;
+      patterns.push_back({count, count, count});
+      if (used < limitedByBlocks * blocks)
+        colours = {nextColours.least * used, nextColours.likely * used, nextColours.most * used};
+      continue;
+    }
+    auto atMost = [&](double wanted) { return each * std::clamp(wanted, 1.0, blocks); };
+    patterns.push_back({each, atMost(colours.likely), atMost(colours.most)});
+    if (colours.least > 1.0) patterns.back().least = atMost(colours.least);
+  }
+  return patterns;
+}
+
+WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t exposures,
+                  double meanExposure, const AcquisitionSettings& settings, const ShotTimes& benchmark,
+                  const AcquisitionState& state) {
+  auto devices = static_cast<double>(projectors.devices());
+  std::size_t lights = settings.colours == LitColours::white ? 1 : 3;
+  std::vector<PatternRange> levels = levelPatterns(projectors, lights, state.levels);
+
+  // Everything that is not the tree: references, the first look, the test patterns.
+  double references = settings.references * (1.0 + 3.0 * devices) + devices + 2.0;
+  double testing =
+      settings.verificationPatterns + checksWithin(settings.verificationPatterns, settings.checkInterval);
+  constexpr double pair = 2.0;
+  auto total = [&](auto member) {
+    // One check before every level but the first, one before the test patterns and one after them.
+    double all = references + testing + pair;
+    for (const PatternRange& level : levels)
+      if (level.*member > 0.0)
+        all += pair + level.*member + checksWithin(level.*member, settings.checkInterval);
+    return all;
+  };
+  auto left = [&](double all) { return static_cast<int>(std::max(0.0, std::round(all) - state.shots)); };
+
+  WorkLeft work;
+  work.shots = left(total(&PatternRange::likely));
+  work.leastShots = left(total(&PatternRange::least));
+  work.mostShots = left(total(&PatternRange::most));
+
+  bool enough = state.times.shots >= enoughShots;
+  const ShotTimes& times = enough || benchmark.shots == 0 ? state.times : benchmark;
+  bool all = settings.scheme == AcquisitionScheme::sen || settings.singleExposure;
+  double usual = settings.singleExposure ? 1.0 : std::min<double>(2.0, static_cast<double>(exposures));
+  double perShot = all ? (settings.singleExposure ? 1.0 : static_cast<double>(exposures)) : usual;
+  double seconds = meanExposure;
+  if (enough) {
+    perShot = static_cast<double>(state.times.exposures) / state.times.shots /
+              static_cast<double>(cameras.devices());
+    seconds = state.times.asked / state.times.exposures;
+  }
+  auto photographs = perShot * static_cast<double>(cameras.devices()) * work.shots;
+  work.exposures = static_cast<int>(std::round(perShot * work.shots));
+  work.seconds = work.shots * times.shotSeconds() + photographs * times.exposureSeconds(seconds);
+
+  double pixels = static_cast<double>(cameras.count());
+  double bytes = times.exposures > 0 ? static_cast<double>(times.bytes) / times.exposures
+                                     : 6.0 * pixels / static_cast<double>(cameras.devices());
+  double leaves = leavesPerPixel * bytesPerLeaf * pixels;
+  work.diskBytes = static_cast<std::uint64_t>(photographs * bytes + leaves);
+  work.memoryBytes = static_cast<std::uint64_t>(programBytes + 2.0 * leaves + childrenBytes * pixels +
+                                                framesInMemory * 27.0 * pixels +
+                                                60.0 * static_cast<double>(projectors.count()));
+  return work;
+}
+
+WorkLeft forecast(const Rig& rig, const Linearization& linearization, const AcquisitionSettings& settings,
+                  const ShotTimes& benchmark, const AcquisitionState& state) {
+  const std::vector<double>& exposures = linearization.exposures;
+  double mean = exposures.empty() ? 0.0
+                                  : std::accumulate(exposures.begin(), exposures.end(), 0.0) /
+                                        static_cast<double>(exposures.size());
+  if (settings.singleExposure && !exposures.empty()) mean = exposures.back();
+  return forecast(rig.cameraRasters(), rig.projectorRasters(), exposures.size(), mean, settings, benchmark,
+                  state);
+}
+
+}  // namespace relucent

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "acquisition/settings.h"
+#include "base/progress.h"
+#include "linearization/linearization.h"
+#include "rig/shot.h"
+
+namespace relucent {
+
+/// Patterns of one level, or what may be expected of it.
+struct PatternRange {
+  double least = 0.0, likely = 0.0, most = 0.0;
+};
+
+/// How many patterns each level of the tree will need, coarsest first. Levels that have begun are known; the
+/// others follow from the colours of the last that is not limited by its few blocks, or, before there is one,
+/// from what simulated venues needed: a plain wall 3 colours a level, a corner 30, a wine glass 64; others
+/// may need 100.
+///   patterns = 4 * lights * min(blocks, colours)
+std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t lights,
+                                        std::span<const int> known);
+
+/// Where an acquisition stands.
+struct AcquisitionState {
+  std::vector<int> levels{};  // patterns of the levels that have begun, coarsest first
+  int shots = 0;              // taken or read so far
+  ShotTimes times{};          // of the shots that it took
+};
+
+/// What an acquisition has still to do. Exact are the references, the checks between a known number of
+/// patterns, and the verification; the tree's patterns are as levelPatterns() says; what is measured again
+/// after an alarm or for flagged pixels comes on top. Before it begins: with a state of nothing.
+///   seconds = shots * (show + keep + compute) + exposures * (overhead + slope * exposure time),
+/// all five measured from this acquisition's shots once there are enough, before that from `benchmark`: the
+/// shots of the linearization, which are real photographs by the same devices.
+///   disk   = exposures * bytes of one + T;      memory = T twice, the level under way, what the program has
+/// T is taken to hold 120 leaves of 22 bytes a camera pixel; simulated venues have 65 to 180.
+/// Pure arithmetic, no devices: for a page that asks before anything is measured as well.
+WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t exposures,
+                  double meanExposure, const AcquisitionSettings& settings, const ShotTimes& benchmark,
+                  const AcquisitionState& state);
+WorkLeft forecast(const Rig& rig, const Linearization& linearization, const AcquisitionSettings& settings,
+                  const ShotTimes& benchmark, const AcquisitionState& state);
+
+}  // namespace relucent

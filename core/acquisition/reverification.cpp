@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "acquisition/reverification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "acquisition/photographer.h"
+#include "acquisition/verification.h"
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+// Of the lamp: less is a covered lens or a projector that is off.
+constexpr double leastLight = 0.1;
+// The sentinels' limits (README): what would have paused the measurement is worth measuring again.
+constexpr double lampLimit = 0.1;
+constexpr double ambientLimit = 0.004;
+// The share of wrong pixels that is worth a sentence when T is measured.
+constexpr double changedLimit = 0.02;
+constexpr double mostlyChanged = 0.5;
+// A good T's error is threshold and noise; neither doubles from one day to the next. What is beyond that is
+// a change too small for any single pixel.
+constexpr double errorLimit = 2.0;
+constexpr double errorFloor = 0.01;
+
+double meanOf(const Stack& stack) {
+  double sum = std::accumulate(stack.begin(), stack.end(), 0.0);
+  return stack.empty() ? 0.0 : sum / static_cast<double>(stack.size());
+}
+
+/// What noise may hide in a frame: as much as while T was measured, a share of the flood image of each pixel,
+/// or of the mean where that is dark.
+std::vector<float> tolerableNoise(const Stack& flood, const AcquisitionSettings& settings) {
+  std::vector<float> tolerable(flood.size() / 3);
+  auto dimmest = static_cast<float>(settings.dimShare * meanOf(flood));
+  auto share = static_cast<float>(settings.relativeThreshold / settings.noiseSigmas);
+  for (std::size_t row = 0; row < tolerable.size(); ++row)
+    tolerable[row] = share * std::max({dimmest, flood[3 * row], flood[3 * row + 1], flood[3 * row + 2]});
+  return tolerable;
+}
+
+HdrFrame less(HdrFrame frame, const HdrFrame& black) {
+  for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
+    frame.radiance[i] -= black.radiance[i];
+    frame.variance[i] += black.variance[i];
+    frame.valid[i] = frame.valid[i] != 0 && black.valid[i] != 0 ? 1 : 0;
+  }
+  return frame;
+}
+
+Residual sumOf(const std::array<Residual, verificationSizes>& bySize) {
+  Residual sum;
+  for (const Residual& residual : bySize) sum.add(residual);
+  return sum;
+}
+
+void findChanged(Reverification& found, const Verification& verification,
+                 const std::vector<std::uint8_t>& counted, const AcquisitionSettings& settings) {
+  std::size_t changed = 0, all = 0;
+  found.changed.assign(counted.size(), 0);
+  for (std::size_t row = 0; row < counted.size(); ++row) {
+    if (!counted[row]) continue;
+    Residual residual = verification.rows[row];
+    residual.squared = residual.squaredAt(found.lamp);
+    found.changed[row] = isWrong(residual, settings) ? 1 : 0;
+    changed += found.changed[row];
+    ++all;
+  }
+  found.changedShare = all > 0 ? static_cast<double>(changed) / static_cast<double>(all) : 0.0;
+}
+
+}  // namespace
+
+Reverification verifyAgain(ShotTaker& shots, const Linearization& linearization,
+                           const Acquisition& acquisition, const AcquisitionSettings& settings,
+                           Progress& progress) {
+  Photographer photographer(shots, linearization);
+  const TransportMatrix& transport = acquisition.transport;
+  require(photographer.cameras().count() == transport.cameras().count() &&
+              photographer.projectors().count() == transport.projectors().count(),
+          "{} camera and {} projector pixels for a T of {} and {}", photographer.cameras().count(),
+          photographer.projectors().count(), transport.cameras().count(), transport.projectors().count());
+
+  HdrFrame black = photographer.takeAll(Stack(3 * transport.projectors().count(), 0.0f), progress);
+  std::vector<std::uint8_t> counted(acquisition.flagged.size());
+  for (std::size_t row = 0; row < counted.size(); ++row) counted[row] = acquisition.flagged[row] == 0 ? 1 : 0;
+  std::vector<float> tolerable = tolerableNoise(acquisition.flood, settings);
+  auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) {
+    return less(photographer.take(pattern, demands, progress), black);
+  };
+  AcquisitionSettings patterns = settings;
+  patterns.verificationPatterns = std::max(verificationSizes, settings.verificationPatterns);
+  Verification verification =
+      verify({transport, black.radiance, tolerable}, light, patterns, counted, 0, progress);
+
+  Reverification found;
+  Residual all = sumOf(verification.bySize);
+  found.error = all.relative();
+  for (std::size_t size = 0; size < verificationSizes; ++size)
+    found.errorOf[size] = verification.bySize[size].relative();
+  found.lamp = all.predicted > 0.0 ? std::max(0.0, all.cross() / all.predicted) : 0.0;
+  found.adapted = all.light > 0.0 ? std::sqrt(all.squaredAt(found.lamp) / all.light) : 0.0;
+  double flood = meanOf(acquisition.flood);
+  found.ambient = flood > 0.0 ? (meanOf(black.radiance) - meanOf(acquisition.black)) / flood : 0.0;
+  findChanged(found, verification, counted, settings);
+  found.residual = std::move(verification.residual);
+  found.patterns = shots.shots();
+  found.exposures = shots.exposures();
+  progress.report(1.0);
+  return found;
+}
+
+std::string_view toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stillGood:
+      return "still_good";
+    case Verdict::remeasure:
+      return "remeasure";
+    case Verdict::startAgain:
+      return "start_again";
+  }
+  return "";
+}
+
+Judgement judge(const Reverification& found, double errorThen) {
+  double changed = 100.0 * found.changedShare;
+  if (!(found.lamp > leastLight))
+    return {
+        Verdict::startAgain,
+        "Start again: next to nothing of the projector's light is seen; look whether the lens is covered, "
+        "the projector off or another screen chosen, and verify once more before you measure everything "
+        "again."};
+  if (found.changedShare > mostlyChanged)
+    return {Verdict::startAgain,
+            fmt::format("Start again: {:.0f} % of the camera's pixels see something else than predicted, as "
+                        "when the camera, the projector or its zoom has moved; put them back and verify once "
+                        "more, or measure everything again.",
+                        changed)};
+  if (std::abs(found.ambient) > ambientLimit)
+    return {Verdict::remeasure,
+            fmt::format("Re-measure: the room is {} by {:.1f} % of the projector's full light than it was; "
+                        "restore the light and verify once more, or measure the light transport again.",
+                        found.ambient > 0.0 ? "brighter" : "darker", 100.0 * std::abs(found.ambient))};
+  if (found.changedShare > changedLimit)
+    return {Verdict::remeasure,
+            fmt::format("Re-measure: {:.1f} % of the camera's pixels see something else than predicted; the "
+                        "map of changes shows where something was moved. Put it back and verify once more, "
+                        "or measure the light transport again.",
+                        changed)};
+  if (std::abs(found.lamp - 1.0) > lampLimit)
+    return {Verdict::remeasure,
+            fmt::format("Re-measure: the projector gives {:.0f} % of the light that it gave; let it warm up, "
+                        "restore its settings and verify once more, or measure the light transport again.",
+                        100.0 * found.lamp)};
+  if (found.adapted > errorLimit * errorThen + errorFloor)
+    return {Verdict::remeasure,
+            fmt::format("Re-measure: T predicts photographs to {:.1f} % where it was {:.1f} %, though no "
+                        "place stands out; the focus or the picture settings may have changed. Measure the "
+                        "light transport again.",
+                        100.0 * found.adapted, 100.0 * errorThen)};
+  return {
+      Verdict::stillGood,
+      fmt::format("Still good: T predicts photographs that it was not made from to {:.1f} %, {:.1f} % when "
+                  "it was measured; {:.1f} % of the camera's pixels changed.",
+                  100.0 * found.error, 100.0 * errorThen, changed)};
+}
+
+}  // namespace relucent

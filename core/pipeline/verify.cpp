@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "base/error.h"
+#include "base/file.h"
+#include "base/stopwatch.h"
+#include "calibration/results.h"
+#include "image/exr.h"
+#include "pipeline/devices.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+void writeMap(const fs::path& folder, const std::string& name, const Stack& stack, const Rasters& cameras,
+              const std::string& units, std::vector<fs::path>& files) {
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    files.push_back(folder / fmt::format("{}-{}.exr", name, camera + 1));
+    writeExr(files.back(), imageFromStack(stack, cameras, camera), ExrType::floatType,
+             {{exr_attribute::units, units}});
+  }
+}
+
+std::vector<fs::path> writeMaps(const fs::path& folder, const Reverification& found, const Rasters& cameras) {
+  createFolder(folder);
+  std::vector<fs::path> files;
+  for (std::size_t size = 0; size < found.residual.size(); ++size)
+    writeMap(folder, fmt::format("residual-{}", 1 << size), found.residual[size], cameras,
+             "camera signal per second", files);
+  Stack changed(3 * found.changed.size());
+  for (std::size_t i = 0; i < changed.size(); ++i) changed[i] = found.changed[i / 3] != 0 ? 1.0f : 0.0f;
+  writeMap(folder, "changed", changed, cameras, "1 where a pixel sees something else than predicted", files);
+  return files;
+}
+
+void requireSizes(const Rig& rig, const TransportMatrix& transport, const fs::path& path) {
+  if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
+    throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
+                "set projector and camera as they were, or calibrate anew", path.string());
+}
+
+}  // namespace
+
+VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, const fs::path& cache,
+                               Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  CalibrateSettings calibrated = settingsOf(folder);
+  auto linearized = folder.find(stage::linearization, linearizationFingerprint(folder));
+  auto acquired = folder.find(stage::acquisition, acquisitionFingerprint(folder));
+  if (!linearized || !acquired)
+    throw Error(ErrorKind::input, "the calibration is not finished",
+                fmt::format("finish it first: relucent-cli resume {}", path.string()), path.string());
+  Linearization linearization = loadLinearization(*linearized);
+  Acquisition acquisition = loadAcquisition(*acquired);
+  progress.report(0.2);
+
+  Progress opening = progress.part(0.2, "Preparing the devices");
+  OpenedRig devices = openRig(settings.rig.value_or(calibrated.rig), cache, opening);
+  requireSizes(devices.rig, acquisition.transport, path);
+
+  Progress verifying = progress.part(0.6, "Photographing test patterns");
+  Stopwatch watch;
+  NoShotLog log;
+  ShotTaker shots(devices.rig, log, "verify");
+  VerifyResult result;
+  result.errorThen = acquisition.verificationError;
+  result.found = verifyAgain(shots, linearization, acquisition, calibrated.acquisition, verifying);
+  result.judgement = judge(result.found, result.errorThen);
+  result.seconds = watch.seconds();
+  if (!settings.out.empty())
+    result.files = writeMaps(settings.out, result.found, acquisition.transport.cameras());
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

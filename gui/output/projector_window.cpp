@@ -68,7 +68,7 @@ void ProjectorWindow::screenGone(QScreen* screen) {
   if (screen != on_) return;
   on_ = nullptr;
   hide();
-  emit displayLost();
+  Q_EMIT displayLost();
 }
 
 void ProjectorWindow::screenCame() {
@@ -76,7 +76,7 @@ void ProjectorWindow::screenCame() {
   QScreen* screen = findScreen(display_);
   if (screen == nullptr) return;
   goTo(screen);
-  emit displayFound();
+  Q_EMIT displayFound();
 }
 
 void ProjectorWindow::initializeGL() {
@@ -135,7 +135,7 @@ void ProjectorWindow::paintGL() {
 }
 
 void ProjectorWindow::keyPressEvent(QKeyEvent* event) {
-  emit keyPressed(event->key(), event->modifiers());
+  Q_EMIT keyPressed(event->key(), event->modifiers());
 }
 
 }  // namespace relucent

@@ -37,7 +37,7 @@ class ProjectorWindow : public QOpenGLWindow {
   /// Black, until the next picture.
   void blacken();
 
- signals:
+ Q_SIGNALS:
   /// The display was unplugged or switched off: nothing of this window is visible anywhere.
   void displayLost();
   /// The display is back and the window on it.

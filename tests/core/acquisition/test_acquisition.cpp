@@ -4,6 +4,7 @@
 #include <QtTest>
 
 #include "acquisition_run.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 using namespace relucent::test;
@@ -107,9 +108,7 @@ class TestAcquisition : public QObject {
     venue.noise = 1e-3;
     Acquisition whole = Run(venue)();
 
-    struct Silent : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
+    SilentSink sink;
     StopRequest stop;
     MemoryLog log;
     Venue killed = venue;

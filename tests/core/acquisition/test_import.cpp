@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "support/scripted_rig.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 using namespace relucent::test;
@@ -307,16 +308,11 @@ class TestImport : public QObject {
   }
 
   void stopsWhenAsked() {
-    class Silent : public ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
-    StopRequest stop;
-    stop.ask(StopRequest::Kind::cancel);
-    Progress progress(sink, stop);
+    Stopped stopped;
     std::vector<Image> patterns = planned(isGrayCode);
     PictureSequence sequence = sequenceOf(patterns);
     QVERIFY_EXCEPTION_THROWN(
-        importTransport(sequence, sequenceOf(photographsOf(Scene(), patterns)), {}, progress), Cancelled);
+        importTransport(sequence, sequenceOf(photographsOf(Scene(), patterns)), {}, stopped), Cancelled);
   }
 };
 

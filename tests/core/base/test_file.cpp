@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;
@@ -16,18 +17,7 @@ namespace {
 
 template <typename Action>
 std::string diskSentenceOf(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.kind() == ErrorKind::disk ? error.what() : "wrong kind";
-  }
-  return {};
-}
-
-bool mentions(const std::string& sentence, const std::string& part) {
-  if (sentence.find(part) != std::string::npos) return true;
-  qWarning("'%s' is not in '%s'", part.c_str(), sentence.c_str());
-  return false;
+  return sentenceOf(action, ErrorKind::disk);
 }
 
 std::size_t entriesOf(const fs::path& folder) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 using namespace relucent::synthetic;
@@ -176,12 +177,7 @@ class TestDirectLight : public QObject {
   }
 
   void stopsWhenAskedAndChecksSettings() {
-    struct Sink : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
-    StopRequest cancel;
-    cancel.ask(StopRequest::Kind::cancel);
-    Progress cancelled(sink, cancel);
+    Stopped cancelled;
     QVERIFY_EXCEPTION_THROWN(directPart(makeScene({}).transport, {}, cancelled), Cancelled);
     QVERIFY(problems(DirectLightSettings{}).empty());
     QCOMPARE(problems(DirectLightSettings{0.0}).size(), std::size_t{1});

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/inverse/synthetic_transport.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 using namespace relucent::synthetic;
@@ -76,14 +77,9 @@ class TestRidgeChoice : public QObject {
   }
 
   void cancels() {
-    struct Sink : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
-    StopRequest stop;
-    stop.ask(StopRequest::Kind::cancel);
-    Progress progress(sink, stop);
+    Stopped stopped;
     Scene scene = makeScene({});
-    QVERIFY_EXCEPTION_THROWN(chooseRidge(venueOf(scene), {}, progress), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(chooseRidge(venueOf(scene), {}, stopped), Cancelled);
   }
 };
 

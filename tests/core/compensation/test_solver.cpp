@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "core/compensation/scipy_reference.h"
 #include "core/inverse/synthetic_transport.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 using namespace relucent::reference;
@@ -326,21 +327,14 @@ class TestSolver : public QObject {
   void stopsWhenAsked_data() { nothingToSolveHasAResult_data(); }
   void stopsWhenAsked() {
     QFETCH(int, algorithm);
-    struct Sink : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
     Case c = smallCase(8);
     Stack start(12, 0.5f);
     SolverSettings settings = defaultsOf(static_cast<Algorithm>(algorithm));
-    StopRequest keep;
-    keep.ask(StopRequest::Kind::keep);
-    Progress kept(sink, keep);
+    Stopped kept(StopRequest::Kind::keep);
     SolveResult early = solveConstrained(c.problem(), start, settings, kept);
     QCOMPARE(early.iterations, 0);
     QCOMPARE(early.x[3], 0.5f);
-    StopRequest cancel;
-    cancel.ask(StopRequest::Kind::cancel);
-    Progress cancelled(sink, cancel);
+    Stopped cancelled;
     QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), start, settings, cancelled), Cancelled);
   }
 

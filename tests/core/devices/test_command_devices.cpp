@@ -12,6 +12,7 @@
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "rig/shot.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 using namespace std::chrono_literals;
@@ -28,21 +29,8 @@ Image codes(Size size, int bits, std::uint64_t seed) {
 }
 
 template <typename Action>
-std::string sentenceOf(const Action& action, ErrorKind kind = ErrorKind::device) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (error.kind() != kind)
-      return "wrong kind: " + std::string(toString(error.kind())) + ": " + error.what();
-    return error.what();
-  }
-  return {};
-}
-
-bool mentions(const std::string& sentence, const std::string& part) {
-  if (sentence.find(part) != std::string::npos) return true;
-  qWarning("'%s' is not in '%s'", part.c_str(), sentence.c_str());
-  return false;
+std::string deviceSentenceOf(const Action& action) {
+  return sentenceOf(action, ErrorKind::device);
 }
 
 }  // namespace
@@ -97,7 +85,7 @@ class TestCommandDevices : public QObject {
     settings.size = {2, 2};
     settings.name = "left projector";
     CommandProjector projector(settings);
-    const std::string sentence = sentenceOf([&] { projector.show(Image({2, 2}, 3)); });
+    const std::string sentence = deviceSentenceOf([&] { projector.show(Image({2, 2}, 3)); });
     QVERIFY(mentions(sentence, "left projector: the command failed with status 2, saying \"lamp is off\"; "));
     QVERIFY(mentions(sentence, "broken.sh"));
   }
@@ -176,7 +164,7 @@ class TestCommandDevices : public QObject {
                                         file("scene.exr").string() + " \"$2\"; touch " +
                                         file("once").string()));
     camera.capture(request());
-    const std::string sentence = sentenceOf([&] { camera.capture(request()); });
+    const std::string sentence = deviceSentenceOf([&] { camera.capture(request()); });
     QVERIFY(mentions(sentence, "the command ended well but wrote nothing, not photograph.exr; let it write"));
   }
 
@@ -210,7 +198,7 @@ class TestCommandDevices : public QObject {
     settings.timeout = 100ms;
     CommandCamera camera(settings);
     // The exposure time comes on top of the time allowed.
-    const std::string sentence = sentenceOf([&] { camera.capture({{"x", 0}, 0, 0.1}); });
+    const std::string sentence = deviceSentenceOf([&] { camera.capture({{"x", 0}, 0, 0.1}); });
     QVERIFY(mentions(sentence, "took longer than 0.2 s"));
   }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "devices/shell_command.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 using namespace std::chrono_literals;
@@ -17,18 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string sentenceOf(const std::string& command, std::chrono::milliseconds timeout = 20s) {
-  try {
-    runShellCommand(command, timeout, "camera");
-  } catch (const Error& error) {
-    return error.kind() == ErrorKind::device ? error.what() : "wrong kind";
-  }
-  return {};
-}
-
-bool mentions(const std::string& sentence, const std::string& part) {
-  if (sentence.find(part) != std::string::npos) return true;
-  qWarning("'%s' is not in '%s'", part.c_str(), sentence.c_str());
-  return false;
+  return relucent::sentenceOf([&] { runShellCommand(command, timeout, "camera"); }, ErrorKind::device);
 }
 
 }  // namespace

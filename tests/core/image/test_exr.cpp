@@ -16,6 +16,7 @@
 #include "base/random.h"
 #include "image/exr.h"
 #include "shared_data.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;
@@ -35,24 +36,6 @@ Image noise(Size size, int channels, std::uint64_t seed) {
 bool sameBits(const Image& a, const Image& b) {
   return a.size() == b.size() && a.channels() == b.channels() &&
          std::memcmp(a.data().data(), b.data().data(), a.data().size() * sizeof(float)) == 0;
-}
-
-/// The sentence of the Error that `action` throws; empty if it throws none.
-template <typename Action>
-std::string sentenceOf(const Action& action, ErrorKind kind) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (error.kind() != kind) return "wrong kind: " + std::string(toString(error.kind()));
-    return error.what();
-  }
-  return {};
-}
-
-bool mentions(const std::string& sentence, const std::string& part) {
-  if (sentence.find(part) != std::string::npos) return true;
-  qWarning("'%s' is not in '%s'", part.c_str(), sentence.c_str());
-  return false;
 }
 
 /// Without waiting for the disk, as there are hundreds.

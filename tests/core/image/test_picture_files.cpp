@@ -12,6 +12,7 @@
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "shared_data.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;
@@ -26,23 +27,6 @@ Image codes(Size size, int channels, int bits, std::uint64_t seed) {
   for (float& value : image.data())
     value = static_cast<float>(static_cast<double>(random.below(1u << bits)) / top);
   return image;
-}
-
-template <typename Action>
-std::string sentenceOf(const Action& action, ErrorKind kind) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (error.kind() != kind) return "wrong kind: " + std::string(toString(error.kind()));
-    return error.what();
-  }
-  return {};
-}
-
-bool mentions(const std::string& sentence, const std::string& part) {
-  if (sentence.find(part) != std::string::npos) return true;
-  qWarning("'%s' is not in '%s'", part.c_str(), sentence.c_str());
-  return false;
 }
 
 void appendNumber(std::string& bytes, std::uint32_t value, int count, bool bigEndian) {

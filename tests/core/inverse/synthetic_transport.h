@@ -219,4 +219,22 @@ inline Image makeContent(Content kind, Size size, std::uint64_t seed) {
   return image;
 }
 
+/// `count` values between 0 and 1.
+inline Stack randomStack(std::size_t count, std::uint64_t seed) {
+  Random random({seed});
+  Stack stack(count);
+  for (float& value : stack) value = random.uniformFloat();
+  return stack;
+}
+
+/// |a - truth| / |truth|
+inline double relativeError(const Stack& a, const Stack& truth) {
+  double error = 0, norm = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    error += std::pow(a[i] - truth[i], 2);
+    norm += std::pow(truth[i], 2);
+  }
+  return std::sqrt(error / norm);
+}
+
 }  // namespace relucent::synthetic

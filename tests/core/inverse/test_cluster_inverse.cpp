@@ -23,22 +23,6 @@ Progress quiet;
 // errors add up.
 constexpr float fixedPoint = 3e-3f;
 
-Stack randomStack(std::size_t count, std::uint64_t seed) {
-  Random random({seed});
-  Stack stack(count);
-  for (float& value : stack) value = random.uniformFloat();
-  return stack;
-}
-
-double relativeError(const Stack& a, const Stack& truth) {
-  double error = 0, norm = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    error += std::pow(a[i] - truth[i], 2);
-    norm += std::pow(truth[i], 2);
-  }
-  return std::sqrt(error / norm);
-}
-
 Scene defocused(double softest, std::uint64_t seed = 1) {
   SceneSettings settings;
   settings.softest = softest;

@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
+#include "core/transport/expanded.h"
 #include "inverse/near_field.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 using namespace relucent::synthetic;
@@ -25,22 +27,6 @@ Progress quiet;
 
 WindowInverse windowsOf(const Scene& scene, const WindowSettings& settings = {}) {
   return computeWindows(scene.transport, scene.usable, settings, quiet);
-}
-
-Stack randomStack(std::size_t count, std::uint64_t seed) {
-  Random random({seed});
-  Stack stack(count);
-  for (float& value : stack) value = random.uniformFloat();
-  return stack;
-}
-
-double relativeError(const Stack& a, const Stack& truth) {
-  double error = 0, norm = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    error += std::pow(a[i] - truth[i], 2);
-    norm += std::pow(truth[i], 2);
-  }
-  return std::sqrt(error / norm);
 }
 
 /// A camera that sees every projector pixel by its own, with crosstalk and reflectance of its own.
@@ -58,24 +44,15 @@ Scene oneToOne(Size size) {
 }
 
 /// T expanded to pixels, one colour channel after unmixing: what a window's G should be made of.
-Eigen::MatrixXd expanded(const TransportMatrix& transport, const std::vector<ColourBlock>& unmix,
-                         int channel) {
-  const NodeLayout& layout = transport.layout();
-  Size size = transport.projectors().size(0);
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(transport.cameras().count()),
-                                                static_cast<Eigen::Index>(size.count()));
-  const BlockSparse& leaves = transport.leaves();
-  for (std::size_t row = 0; row < leaves.rows(); ++row) {
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      Block block = layout.block(layout.node(leaves.column(entry)));
-      float value = unmix[row].row(channel).dot(leaves.block(row, entry).col(channel));
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x)
-          dense(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(indexOf(size, {x, y}))) +=
-              static_cast<double>(value) / block.count();
-    }
-  }
-  return dense;
+Eigen::MatrixXd unmixedChannel(const TransportMatrix& transport, const std::vector<ColourBlock>& unmix,
+                               Eigen::Index channel) {
+  Eigen::MatrixXd t = expanded(transport);
+  Eigen::MatrixXd result(t.rows() / 3, t.cols() / 3);
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    for (Eigen::Index j = 0; j < result.cols(); ++j)
+      result(i, j) = unmix[static_cast<std::size_t>(i)].row(channel).cast<double>().dot(
+          t.block<3, 3>(3 * i, 3 * j).col(channel));
+  return result;
 }
 
 }  // namespace
@@ -187,7 +164,7 @@ class TestWindows : public QObject {
                 {},
                 std::vector<std::uint8_t>(camera.count(), 1)};
     NearField near = nearFieldOf(scene.transport, scene.usable);
-    Eigen::MatrixXd t = expanded(scene.transport, near.unmix, 1);
+    Eigen::MatrixXd t = unmixedChannel(scene.transport, near.unmix, 1);
     WindowSettings settings;
     settings.rows = 96;
     Eigen::MatrixXd g = t * t.transpose();
@@ -274,14 +251,9 @@ class TestWindows : public QObject {
   }
 
   void cancels() {
-    struct Sink : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
-    StopRequest stop;
-    stop.ask(StopRequest::Kind::cancel);
-    Progress progress(sink, stop);
+    Stopped stopped;
     Scene scene = oneToOne({8, 8});
-    QVERIFY_EXCEPTION_THROWN(computeWindows(scene.transport, scene.usable, {}, progress), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(computeWindows(scene.transport, scene.usable, {}, stopped), Cancelled);
   }
 
   void checksSettings_data() {

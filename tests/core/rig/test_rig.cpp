@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "rig/rig.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 
@@ -22,12 +23,7 @@ class StillProjector : public Projector {
 };
 
 std::string sentenceOf(const RawFrame& frame, Size size) {
-  try {
-    checkFrame(frame, size, "camera 2");
-  } catch (const Error& error) {
-    return error.kind() == ErrorKind::input ? error.what() : "wrong kind";
-  }
-  return {};
+  return relucent::sentenceOf([&] { checkFrame(frame, size, "camera 2"); }, ErrorKind::input);
 }
 
 }  // namespace

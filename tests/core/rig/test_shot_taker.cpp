@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "rig/shot.h"
+#include "support/stopped.h"
 
 using namespace relucent;
 
@@ -199,9 +200,7 @@ class TestShotTaker : public QObject {
   }
 
   void cancellingStopsBeforeTheNextExposure() {
-    struct Silent : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
+    SilentSink sink;
     StopRequest stop;
     Progress progress(sink, stop);
     MemoryLog log;

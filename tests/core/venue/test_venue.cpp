@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "support/stopped.h"
 #include "venue/venue.h"
 
 using namespace relucent;
@@ -230,13 +231,8 @@ class TestVenue : public QObject {
   }
 
   void tracingCanBeCancelled() {
-    struct Silent : ProgressSink {
-      void progressed(double, std::string_view) override {}
-    } sink;
-    StopRequest stop;
-    stop.ask(StopRequest::Kind::cancel);
-    Progress progress(sink, stop);
-    QVERIFY_THROWS_EXCEPTION(Cancelled, SimulatedVenue(smallVenue("corner"), {}, progress));
+    Stopped stopped;
+    QVERIFY_THROWS_EXCEPTION(Cancelled, SimulatedVenue(smallVenue("corner"), {}, stopped));
   }
 };
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QtTest>
+#include <vector>
+
+#include "base/random.h"
+#include "clustering/clustering.h"
+#include "core/inverse/synthetic_transport.h"
+
+namespace relucent {
+
+inline Progress quiet;
+
+/// Single floats, sums of some hundred terms, and 16-bit values: of a row's norm.
+inline constexpr double rounding = 3e-4;
+
+inline TransportMatrix pixelTransport(Rasters cameras, Rasters projectors, double density, std::uint64_t seed,
+                                      bool ties) {
+  NodeLayout layout(projectors);
+  Random random{seed, 3};
+  BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 4.0f));
+  for (std::size_t row = 0; row < cameras.count(); ++row)
+    for (std::size_t pixel = 0; pixel < projectors.count(); ++pixel) {
+      if (random.uniform() >= density) continue;
+      // Few different values: ties within rows and columns are what transcriptions get wrong.
+      float value = ties ? 1.0f + static_cast<float>(random.below(3)) : 0.1f + 3.0f * random.uniformFloat();
+      ColourBlock block = ColourBlock::Constant(value);
+      if (!ties)
+        for (int i = 0; i < 9; ++i) block.data()[i] *= random.uniformFloat();
+      builder.add(row, pixel, block);
+    }
+  return {cameras, projectors, builder.build()};
+}
+
+inline std::vector<std::uint8_t> all(const TransportMatrix& transport) {
+  return std::vector<std::uint8_t>(transport.cameras().count(), 1);
+}
+
+inline ConnectionGraph everything(const TransportMatrix& transport) {
+  return ConnectionGraph(transport, all(transport), {0.0, 30}, quiet);
+}
+
+inline ClusteringSettings asPrinted(double radius, double cut) {
+  ClusteringSettings settings;
+  settings.patchRadius = radius;
+  settings.patchCut = cut;
+  settings.cap = SizeCap::never;
+  return settings;
+}
+
+/// The laws that every clustering obeys.
+inline void verifyPartition(const Clustering& clustering) {
+  std::vector<ClusterSize> counted(clustering.sizes.size());
+  for (std::uint32_t cluster : clustering.projectorCluster)
+    if (cluster != noCluster) ++counted.at(cluster).unknowns;
+  for (std::uint32_t cluster : clustering.cameraCluster)
+    if (cluster != noCluster) ++counted.at(cluster).rows;
+  const BlockSparse& leaves = clustering.transport.leaves();
+  for (std::size_t i = 0; i < leaves.rows(); ++i)
+    for (std::size_t e = leaves.rowBegin(i); e < leaves.rowBegin(i + 1); ++e) {
+      QCOMPARE(clustering.projectorCluster.at(leaves.column(e)), clustering.cameraCluster[i]);
+      ++counted.at(clustering.cameraCluster[i]).connections;
+    }
+  QVERIFY(counted == clustering.sizes);
+}
+
+inline synthetic::Scene scene(double softest, std::uint64_t seed = 1) {
+  synthetic::SceneSettings settings;
+  settings.seed = seed;
+  settings.softest = softest;
+  return synthetic::makeScene(settings);
+}
+
+}  // namespace relucent

@@ -53,19 +53,31 @@ QImage encodedFrom(const QImage& image) {
   return picture.convertToFormat(encodedFormat);
 }
 
-/// sRGB codes to light and back, 4096 steps of the square root of light between which codes are told apart.
-struct Tables {
-  static constexpr int steps = 4096;
-  std::array<float, 256> light{};
-  std::array<std::uint8_t, steps + 1> code{};
+/// sRGB codes to light, and back to the nearest code: a table over the square root of light is at most one
+/// code too low, which the light half-way to the next one tells.
+class Tables {
+ public:
   Tables() {
-    for (std::size_t i = 0; i < light.size(); ++i)
-      light[i] = static_cast<float>(srgbDecode(static_cast<double>(i) / 255.0));
-    for (std::size_t i = 0; i < code.size(); ++i) {
+    for (std::size_t i = 0; i < light_.size(); ++i) {
+      light_[i] = static_cast<float>(srgbDecode(static_cast<double>(i) / 255.0));
+      halfWay_[i] = static_cast<float>(srgbDecode((static_cast<double>(i) + 0.5) / 255.0));
+    }
+    for (std::size_t i = 0; i < code_.size(); ++i) {
       double root = static_cast<double>(i) / steps;
-      code[i] = static_cast<std::uint8_t>(std::lround(255.0 * srgbEncode(root * root)));
+      code_[i] = static_cast<std::uint8_t>(std::lround(255.0 * srgbEncode(root * root)));
     }
   }
+  float light(std::uint8_t code) const { return light_[code]; }
+  /// Of light between 0 and 1.
+  std::uint8_t code(float light) const {
+    std::uint8_t low = code_[static_cast<std::size_t>(std::sqrt(light) * steps)];
+    return low < 255 && light >= halfWay_[low] ? static_cast<std::uint8_t>(low + 1) : low;
+  }
+
+ private:
+  static constexpr int steps = 4096;
+  std::array<float, 256> light_{}, halfWay_{};
+  std::array<std::uint8_t, steps + 1> code_{};
 };
 const Tables& tables() {
   static const Tables made;
@@ -79,7 +91,7 @@ void readLine(const QImage& picture, int y, std::vector<float>& line) {
     for (std::size_t c = 0; c < 3; ++c)
       line[3 * x + c] = picture.format() == linearFormat
                             ? reinterpret_cast<const float*>(picture.constScanLine(y))[4 * x + c]
-                            : tables().light[picture.constScanLine(y)[4 * x + c]];
+                            : tables().light(picture.constScanLine(y)[4 * x + c]);
 }
 
 }  // namespace
@@ -133,8 +145,7 @@ QImage crossFaded(const QImage& from, const QImage& to, double share) {
     for (std::size_t x = 0; x < a.size() / 3; ++x) {
       for (std::size_t c = 0; c < 3; ++c) {
         float light = std::clamp((1.0f - late) * a[3 * x + c] + late * b[3 * x + c], 0.0f, 1.0f);
-        line[4 * x + c] = tables().code[static_cast<std::size_t>(
-            std::lround(std::sqrt(light) * static_cast<float>(Tables::steps)))];
+        line[4 * x + c] = tables().code(light);
       }
       line[4 * x + 3] = 255;
     }

@@ -2,7 +2,6 @@
 #include "content/playlist.h"
 
 #include <QFileInfo>
-#include <QtConcurrentRun>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -60,7 +59,7 @@ void Playlist::openNext(qsizetype after) {
     index = 0;
   }
   openingIndex_ = index;
-  opening_ = QtConcurrent::run([item = settings_.items[index], canvas = canvas_] {
+  opening_ = startedElsewhere([item = settings_.items[index], canvas = canvas_] {
     return std::shared_ptr<ContentSource>(openContent(item, canvas));
   });
 }
@@ -69,7 +68,7 @@ bool Playlist::nextIsReady(ContentTime now) {
   if (next_.source) return true;
   if (ended_ || !opening_.isFinished()) return false;
   try {
-    next_ = {openingIndex_, opening_.result(), now};
+    next_ = {openingIndex_, resultOf(opening_), now};
     return true;
   } catch (const Error& error) {
     QString sentence = error.what();

@@ -10,6 +10,7 @@
 
 #include "content/canvas.h"
 #include "content/content_source.h"
+#include "content/outcome.h"
 
 namespace relucent {
 
@@ -76,7 +77,7 @@ class Playlist : public ContentSource {
   PlaylistSettings settings_;
   Canvas canvas_;
   Playing current_, next_;
-  QFuture<std::shared_ptr<ContentSource>> opening_;
+  QFuture<Outcome<std::shared_ptr<ContentSource>>> opening_;
   qsizetype openingIndex_ = -1;
   bool ended_ = false;
   ContentTime last_{0};

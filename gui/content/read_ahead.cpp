@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "content/read_ahead.h"
 
-#include <QtConcurrentRun>
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -21,7 +20,7 @@ ReadAhead::~ReadAhead() {
 
 void ReadAhead::prepare(qsizetype index) {
   if (reading_.contains(index)) return;
-  reading_.emplace(index, QtConcurrent::run([file = files_[index], canvas = canvas_] {
+  reading_.emplace(index, startedElsewhere([file = files_[index], canvas = canvas_] {
                      return onCanvas(readContent(file), canvas);
                    }));
 }
@@ -45,10 +44,9 @@ QImage ReadAhead::picture(qsizetype index) {
     return !wanted.contains(entry.first) && entry.second.isFinished();
   });
   for (qsizetype next : wanted) prepare(next);
-  QFuture<QImage> future = reading_.at(index);
   try {
-    return future.result();
-  } catch (...) {
+    return resultOf(reading_.at(index));
+  } catch (const Error&) {
     reading_.erase(index);  // the file may be there the next time
     throw;
   }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "content/canvas.h"
+#include "content/outcome.h"
 
 namespace relucent {
 
@@ -34,7 +35,7 @@ class ReadAhead {
   Canvas canvas_;
   qsizetype ahead_;
   bool loop_;
-  std::map<qsizetype, QFuture<QImage>> reading_;
+  std::map<qsizetype, QFuture<Outcome<QImage>>> reading_;
 };
 
 }  // namespace relucent

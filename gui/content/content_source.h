@@ -12,7 +12,7 @@ namespace relucent {
 using ContentTime = std::chrono::microseconds;
 
 /// A picture of content.
-struct ContentFrame {
+struct ContentPicture {
   QImage image;              // upright, opaque; sRGB in Format_RGBX8888, or linear in Format_RGBX32FPx4
   std::uint64_t number = 0;  // another number, another picture
 };
@@ -24,7 +24,7 @@ class ContentSource {
  public:
   virtual ~ContentSource() = default;
   /// The picture at `time` after the source's beginning; the last one beyond its end.
-  virtual ContentFrame at(ContentTime time) = 0;
+  virtual ContentPicture at(ContentTime time) = 0;
   /// None: a picture that stands still for as long as somebody wants it.
   virtual std::optional<ContentTime> length() const = 0;
 };

@@ -33,7 +33,7 @@ ImageSequence::ImageSequence(const QStringList& files, double picturesPerSecond,
     : files_(checkedFiles(files), canvas, picturesAhead, true),
       picturesPerSecond_(checkedRate(picturesPerSecond)) {}
 
-ContentFrame ImageSequence::at(ContentTime time) {
+ContentPicture ImageSequence::at(ContentTime time) {
   // A picture's time is rounded to whole microseconds; half of one keeps it from falling before its start.
   double pictures = (static_cast<double>(time.count()) + 0.5) * 1e-6 * picturesPerSecond_;
   qsizetype index =

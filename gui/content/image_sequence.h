@@ -12,14 +12,14 @@ class ImageSequence : public ContentSource {
   /// Throws: Error{input} if there are no files or the rate is not above 0 and at most 240.
   ImageSequence(const QStringList& files, double picturesPerSecond, const Canvas& canvas);
 
-  ContentFrame at(ContentTime time) override;
+  ContentPicture at(ContentTime time) override;
   std::optional<ContentTime> length() const override;
 
  private:
   ReadAhead files_;
   double picturesPerSecond_;
   qsizetype index_ = -1;
-  ContentFrame frame_;
+  ContentPicture frame_;
 };
 
 /// The pictures of a folder in the order of their names, numbers in them counted: 9 before 10.

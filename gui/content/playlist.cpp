@@ -97,14 +97,14 @@ void Playlist::begin(ContentTime now) {
   tryAgain_ = now + betweenTries;
 }
 
-ContentFrame Playlist::frameOf(const Playing& item, ContentTime time) {
+ContentPicture Playlist::frameOf(const Playing& item, ContentTime time) {
   ContentTime own = time - item.begin;
   // A list of one film plays it again.
   if (settings_.loop && settings_.items.size() == 1 && item.source->length()) own %= lengthOf(item);
   return item.source->at(std::max(own, ContentTime{0}));
 }
 
-ContentFrame Playlist::at(ContentTime time) {
+ContentPicture Playlist::at(ContentTime time) {
   if (!current_.source || time < last_) begin(time);
   last_ = time;
   if (!current_.source) return {};

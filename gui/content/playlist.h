@@ -52,7 +52,7 @@ class Playlist : public ContentSource {
   ~Playlist() override;
 
   /// An empty image while nothing of the list can be read.
-  ContentFrame at(ContentTime time) override;
+  ContentPicture at(ContentTime time) override;
   std::optional<ContentTime> length() const override { return std::nullopt; }
 
   /// Which item is playing; -1 before the first.
@@ -72,7 +72,7 @@ class Playlist : public ContentSource {
   void begin(ContentTime now);
   void openNext(qsizetype after);
   bool nextIsReady(ContentTime now);
-  ContentFrame frameOf(const Playing& item, ContentTime time);
+  ContentPicture frameOf(const Playing& item, ContentTime time);
 
   PlaylistSettings settings_;
   Canvas canvas_;

@@ -14,11 +14,11 @@ class StillImage : public ContentSource {
   /// A picture that is there already.
   StillImage(const QImage& picture, const Canvas& canvas);
 
-  ContentFrame at(ContentTime) override { return frame_; }
+  ContentPicture at(ContentTime) override { return frame_; }
   std::optional<ContentTime> length() const override { return std::nullopt; }
 
  private:
-  ContentFrame frame_;
+  ContentPicture frame_;
 };
 
 /// A number that no other frame of this run has.

@@ -30,7 +30,7 @@ class TestImageSequence : public QObject {
     }
     return folder_.filePath(name);
   }
-  static int numberIn(const ContentFrame& frame) { return qRed(frame.image.pixel(3, 3)); }
+  static int numberIn(const ContentPicture& frame) { return qRed(frame.image.pixel(3, 3)); }
 
  private slots:
   void numbersInNamesCount() {
@@ -51,7 +51,7 @@ class TestImageSequence : public QObject {
       // At its start, and a little before the next one.
       auto begin = ContentTime(std::llround(1e6 * i / rate)),
            end = ContentTime(std::llround(1e6 * (i + 1) / rate - 1));
-      ContentFrame first = film.at(begin), again = film.at(end);
+      ContentPicture first = film.at(begin), again = film.at(end);
       QCOMPARE(numberIn(first), i);
       QCOMPARE(again.number, first.number);
       QVERIFY(first.number != last);

@@ -17,12 +17,12 @@ namespace {
 
 const Canvas small{{8, 6}, Fit::fill};
 
-int grey(const ContentFrame& frame) {
+int grey(const ContentPicture& frame) {
   return frame.image.isNull() ? -1 : qRed(frame.image.pixel(3, 3));
 }
 
 /// As the wall sees it: everything that is being read has been read.
-ContentFrame settledAt(Playlist& list, ContentTime time) {
+ContentPicture settledAt(Playlist& list, ContentTime time) {
   QThreadPool::globalInstance()->waitForDone();
   return list.at(time);
 }

@@ -1,55 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Runs on two screens that can be unplugged, see tests/support/with-two-screens.
-#include <QProcess>
-#include <QRandomGenerator>
 #include <QSignalSpy>
 #include <QtTest>
 
+#include "gui/output/two_screens.h"
 #include "output/projector_window.h"
 
 using namespace relucent;
 
 namespace {
-
-QScreen* screenOn(const QString& connector) {
-  for (QScreen* screen : QGuiApplication::screens())
-    if (screen->name() == connector) return screen;
-  return nullptr;
-}
-
-void xrandr(const QStringList& arguments) {
-  QCOMPARE(QProcess::execute("xrandr", arguments), 0);
-}
-void unplug() {
-  xrandr({"--output", "DUMMY1", "--off"});
-  QTRY_VERIFY(screenOn("DUMMY1") == nullptr);
-}
-void plug() {
-  xrandr({"--output", "DUMMY1", "--mode", "1024x768", "--right-of", "DUMMY0"});
-  QTRY_VERIFY(screenOn("DUMMY1") != nullptr);
-}
-
-QImage noise(QSize size, quint32 seed) {
-  QImage image(size, QImage::Format_RGB32);
-  QRandomGenerator random(seed);
-  for (int y = 0; y < size.height(); ++y)
-    for (int x = 0; x < size.width(); ++x) image.setPixel(x, y, random.generate() | 0xff000000u);
-  return image;
-}
-
-/// What stands on a screen now.
-QImage seenOn(const QString& connector) {
-  QScreen* screen = screenOn(connector);
-  if (screen == nullptr) return {};
-  return screen->grabWindow(0).toImage().convertToFormat(QImage::Format_RGB32);
-}
-
-bool allBlack(const QImage& image) {
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      if ((image.pixel(x, y) & 0xffffffu) != 0) return false;
-  return !image.isNull();
-}
 
 const ScreenIdentity projector{"DUMMY1", "", "", ""};
 

@@ -57,7 +57,7 @@ bool growTree(Tree& tree, Watch& watch, const References& references, const Sche
     bool goOn = !rootsOnly && !kept && !progress.stopAndKeep();
     if (goOn && divided(tree, level, watch, references, scheme, progress)) continue;
     kept = kept || goOn;
-    stopDividing(tree);
+    stopDividing(tree, references);
   }
   return kept;
 }

@@ -12,11 +12,39 @@ namespace {
 
 using Code = BlockSparseWriter::Code;
 
-BlockSparse noPairs(const NodeLayout& layout, const References& references) {
-  BlockSparseWriter writer(layout.count(), references.fullScale, 0);
-  for (std::size_t row = 0; row < references.fullScale.size(); ++row) writer.endRow();
+BlockSparse noPairs(std::size_t nodes, const Stack& fullScale) {
+  BlockSparseWriter writer(nodes, fullScale, 0);
+  for (std::size_t row = 0; row < fullScale.size(); ++row) writer.endRow();
   return writer.build();
 }
+
+/// One level of the tree as it is written, row after row.
+class LevelWriter {
+ public:
+  LevelWriter(const NodeLayout& layout, const References& references, std::size_t leaves, std::size_t actives)
+      : leaves_(layout.count(), references.fullScale, leaves),
+        active_(layout.count(), references.fullScale, actives),
+        spread_(layout.count(), references.fullScale, actives) {}
+
+  void leaf(std::size_t node, const Code& value) { leaves_.add(node, value); }
+  void divided(std::size_t node, const Code& value, const Code& spread) {
+    active_.add(node, value);
+    spread_.add(node, spread);
+  }
+  void endRow() {
+    leaves_.endRow();
+    active_.endRow();
+    spread_.endRow();
+  }
+  void store(Tree& tree) {
+    tree.leaves.push_back(leaves_.build());
+    tree.active = active_.build();
+    tree.spread = spread_.build();
+  }
+
+ private:
+  BlockSparseWriter leaves_, active_, spread_;
+};
 
 }  // namespace
 
@@ -29,8 +57,8 @@ Code spreadCode(const ColourBlock& variance, float scale) {
 Tree emptyTree(const NodeLayout& layout, const References& references) {
   return {layout,
           {},
-          noPairs(layout, references),
-          noPairs(layout, references),
+          noPairs(layout.count(), references.fullScale),
+          noPairs(layout.count(), references.fullScale),
           std::vector<ColourBlock>(references.fullScale.size(), ColourBlock::Zero()),
           std::vector<LeafNoise>(references.fullScale.size()),
           references.usable,
@@ -44,36 +72,28 @@ void plantRoots(Tree& tree, int level, const References& references, const Schem
   if (ending.empty()) return;
 
   std::size_t rows = references.fullScale.size();
-  BlockSparseWriter leaves(tree.layout.count(), references.fullScale, rows);
-  BlockSparseWriter active(tree.layout.count(), references.fullScale, tree.active.blocks() + rows);
-  BlockSparseWriter spread(tree.layout.count(), references.fullScale, tree.active.blocks() + rows);
+  LevelWriter writer(tree.layout, references, rows, tree.active.blocks() + rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t pair = tree.active.rowBegin(row); pair < tree.active.rowBegin(row + 1); ++pair) {
-      active.add(tree.active.column(pair), tree.active.code(pair));
-      spread.add(tree.spread.column(pair), tree.spread.code(pair));
-    }
+    for (std::size_t pair = tree.active.rowBegin(row); pair < tree.active.rowBegin(row + 1); ++pair)
+      writer.divided(tree.active.column(pair), tree.active.code(pair), tree.spread.code(pair));
     for (std::size_t projector : ending) {
       if (!tree.wanted[row]) continue;
       const ColourBlock& value = references.root[projector][row];
-      bool divided = level > 0 && scheme.follows(row, value, references.rootVariance[projector][row]);
+      const ColourBlock& variance = references.rootVariance[projector][row];
       std::size_t node = tree.layout.index({static_cast<int>(projector), level, 0, 0});
       float scale = tree.active.scale(row);
-      (divided ? active : leaves).add(node, codeOf(value, scale));
-      if (divided) spread.add(node, spreadCode(references.rootVariance[projector][row], scale));
+      if (level > 0 && scheme.follows(row, value, variance))
+        writer.divided(node, codeOf(value, scale), spreadCode(variance, scale));
+      else
+        writer.leaf(node, codeOf(value, scale));
     }
-    leaves.endRow();
-    active.endRow();
-    spread.endRow();
+    writer.endRow();
   }
-  tree.leaves.push_back(leaves.build());
-  tree.active = active.build();
-  tree.spread = spread.build();
+  writer.store(tree);
 }
 
 void adopt(Tree& tree, const Children& children, const References& references) {
-  BlockSparseWriter leaves(tree.layout.count(), references.fullScale, children.leaves());
-  BlockSparseWriter active(tree.layout.count(), references.fullScale, children.actives());
-  BlockSparseWriter spread(tree.layout.count(), references.fullScale, children.actives());
+  LevelWriter writer(tree.layout, references, children.leaves(), children.actives());
   for (std::size_t row = 0; row < tree.active.rows(); ++row) {
     for (std::size_t pair = tree.active.rowBegin(row); pair < tree.active.rowBegin(row + 1); ++pair) {
       Node parent = tree.layout.node(tree.active.column(pair));
@@ -81,24 +101,22 @@ void adopt(Tree& tree, const Children& children, const References& references) {
         Node child;
         if (!childOf(tree.layout, parent, quadrant, child)) continue;
         std::size_t node = tree.layout.index(child);
-        bool divided = children.active(pair, quadrant);
-        (divided ? active : leaves).add(node, children.code(pair, quadrant));
-        if (divided) spread.add(node, children.spread(pair, quadrant));
+        if (children.active(pair, quadrant))
+          writer.divided(node, children.code(pair, quadrant), children.spread(pair, quadrant));
+        else
+          writer.leaf(node, children.code(pair, quadrant));
       }
-      leaves.add(tree.active.column(pair), children.rest(pair));
+      writer.leaf(tree.active.column(pair), children.rest(pair));
     }
-    leaves.endRow();
-    active.endRow();
-    spread.endRow();
+    writer.endRow();
   }
-  tree.leaves.push_back(leaves.build());
-  tree.active = active.build();
-  tree.spread = spread.build();
+  writer.store(tree);
 }
 
-void stopDividing(Tree& tree) {
-  tree.spread = tree.active.filtered([](std::size_t, std::size_t) { return false; });
-  tree.leaves.push_back(std::exchange(tree.active, tree.spread));
+void stopDividing(Tree& tree, const References& references) {
+  BlockSparse none = noPairs(tree.layout.count(), references.fullScale);
+  tree.leaves.push_back(std::exchange(tree.active, none));
+  tree.spread = std::move(none);
 }
 
 BlockSparse harvest(Tree& tree, const References& references) {

@@ -48,7 +48,7 @@ BlockSparseWriter::Code spreadCode(const ColourBlock& variance, float scale);
 void adopt(Tree& tree, const Children& children, const References& references);
 
 /// Turns what is active into leaves, at the level where it stands.
-void stopDividing(Tree& tree);
+void stopDividing(Tree& tree, const References& references);
 
 /// All leaves in one matrix; empties the tree.
 BlockSparse harvest(Tree& tree, const References& references);

@@ -1,39 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <numeric>
-
-#include "base/parallel.h"
 #include "compensation/solver.h"
+#include "compensation/stacks.h"
 
 /// What the solvers of solver.h share; nobody else includes this.
 namespace relucent::detail {
-
-/// Sum of term(i), the same bits for every number of threads.
-template <typename Term>
-double sumOf(std::size_t count, const Term& term) {
-  constexpr std::size_t chunks = 64;
-  std::array<double, chunks> partial{};
-  parallelChunks(0, count, chunks, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t i = begin; i < end; ++i) sum += term(i);
-    partial[chunk] = sum;
-  });
-  return std::accumulate(partial.begin(), partial.end(), 0.0);
-}
-
-template <typename Value>
-Stack stackOf(std::size_t count, const Value& value) {
-  Stack stack(count);
-  parallelFor(0, count, 4096, [&](std::size_t i) { stack[i] = value(i); });
-  return stack;
-}
-
-inline float clamp01(float value) {
-  return std::clamp(value, 0.0f, 1.0f);
-}
 
 /// grad f from T x, 0 on pixels that are not free.
 Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit);

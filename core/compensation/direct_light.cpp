@@ -115,8 +115,7 @@ TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSe
   std::vector<std::uint8_t> direct(leaves.blocks(), 0);
   eachRow(leaves.rows(), progress,
           [&](std::size_t row) { rule.eachDirect(row, [&](std::size_t entry) { direct[entry] = 1; }); });
-  BlockSparse kept = leaves.filtered([&](std::size_t, std::size_t entry) { return direct[entry] != 0; });
-  return TransportMatrix(transport.cameras(), transport.projectors(), std::move(kept));
+  return TransportMatrix(transport.cameras(), transport.projectors(), leaves.filtered(direct));
 }
 
 std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
@@ -126,6 +125,12 @@ std::vector<DirectLook> directLooks(const TransportMatrix& transport, const Dire
   std::vector<DirectLook> looks(transport.leaves().rows());
   eachRow(looks.size(), progress, [&](std::size_t row) { looks[row] = rule.lookOf(row); });
   return looks;
+}
+
+std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks, double leastShare) {
+  std::vector<std::uint8_t> lit(looks.size());
+  for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = static_cast<double>(looks[i].share) >= leastShare;
+  return lit;
 }
 
 TransportMatrix defocusOnly(const TransportMatrix& transport, const DirectLightSettings& settings,

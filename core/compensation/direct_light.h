@@ -25,6 +25,10 @@ struct DirectLook {
   float share = 0.0f;                // of the flood image, how much of the pixel's light is direct
 };
 
+/// Of its light a camera pixel needs this share direct to count as one that sees the projection itself: even
+/// light from everywhere puts 0.5 % of itself so near.
+inline constexpr double leastDirectShare = 0.1;
+
 /// The direct part of T: of every camera pixel the leaves near the projector pixel that lights it most.
 ///  1. Per camera pixel and projector the leaf that is brightest per projector pixel of its block (sum over
 ///     the channels); the middle of its block is where the camera pixel looks to in that projector. Of
@@ -41,6 +45,10 @@ TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSe
 /// Of every camera pixel what directPart() is decided by, without making it.
 std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
                                     Progress& progress);
+
+/// Per look: enough of its light is direct.
+std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks,
+                                      double leastShare = leastDirectShare);
 
 /// What somebody would measure who knows of defocus, but of no indirect light: the direct part, every row
 /// scaled so that all light of the flood image comes through it.

@@ -7,18 +7,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "compensation/stacks.h"
+#include "transport/statistics.h"
 
 namespace relucent {
 namespace {
 
-float clamp01(float value) {
-  return std::clamp(value, 0.0f, 1.0f);
-}
-
 Stack difference(const Stack& a, const Stack& b) {
-  Stack result(a.size());
-  parallelFor(0, a.size(), 4096, [&](std::size_t i) { result[i] = a[i] - b[i]; });
-  return result;
+  return stackOf(a.size(), [&](std::size_t i) { return a[i] - b[i]; });
 }
 
 /// Per projector pixel: its brightest camera pixel lies within the content.
@@ -70,10 +66,7 @@ std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transpo
   const Rasters& projectors = transport.projectors();
   std::vector<std::int32_t> brightest(projectors.count(), -1);
   std::vector<float> light(projectors.count(), 0.0f);
-  std::vector<float> pixelsOf(layout.count());
-  parallelFor(0, pixelsOf.size(), 1024, [&](std::size_t node) {
-    pixelsOf[node] = static_cast<float>(layout.block(layout.node(node)).count());
-  });
+  NodeTable nodes(layout);
 
   std::vector<float> ofEntry;
   for (std::size_t row = 0; row < leaves.rows(); ++row) {
@@ -81,7 +74,7 @@ std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transpo
     ofEntry.clear();
     float most = 0.0f;
     for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      ofEntry.push_back(leaves.block(row, entry).sum() / pixelsOf[leaves.column(entry)]);
+      ofEntry.push_back(leaves.block(row, entry).sum() / nodes.pixels[leaves.column(entry)]);
       most = std::max(most, ofEntry.back());
     }
     for (std::size_t i = 0; i < ofEntry.size(); ++i) {
@@ -185,10 +178,8 @@ Compensation Compensator::byInverse(const std::function<Stack(const Stack&)>& in
                                     const std::vector<std::uint8_t>& free, const Stack& preconditioner,
                                     const Progress& progress) const {
   // What no projection can reach would be asked of its neighbours too: wanted as nearly as it can be had.
-  Stack wantedLessBlack(target.wanted.size());
-  parallelFor(0, wantedLessBlack.size(), 4096, [&](std::size_t i) {
-    wantedLessBlack[i] =
-        std::clamp(target.wanted[i] - venue_.black[i], 0.0f, std::max(0.0f, venue_.flood[i]));
+  Stack wantedLessBlack = stackOf(target.wanted.size(), [&](std::size_t i) {
+    return std::clamp(target.wanted[i] - venue_.black[i], 0.0f, std::max(0.0f, venue_.flood[i]));
   });
   Compensation result;
   result.projector = inverse(wantedLessBlack);

@@ -22,9 +22,7 @@ constexpr Size pictureSize{320, 240};
 std::vector<Target> trialTargets(const MeasuredVenue& venue) {
   std::vector<Target> targets;
   Size view = venue.transport.cameras().size(0);
-  std::vector<std::uint8_t> usable(venue.usable.begin(),
-                                   venue.usable.begin() + static_cast<std::ptrdiff_t>(view.count()));
-  if (!largestUpright(usable, view, static_cast<double>(pictureSize.width) / pictureSize.height))
+  if (!largestUpright(placeable(venue), view, static_cast<double>(pictureSize.width) / pictureSize.height))
     return targets;
   for (std::uint64_t seed : {1, 2}) targets.push_back(fitTarget(deadLeaves(pictureSize, seed), venue, {}));
   return targets;

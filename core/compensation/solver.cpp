@@ -73,13 +73,13 @@ SolverSettings defaultsOf(SolverSettings::Algorithm algorithm) {
 
 Stack diagonalPreconditioner(const ConstrainedProblem& problem) {
   checkShapes(problem);
-  Stack lit = problem.transport.apply(detail::stackOf(
-      3 * problem.free.size(), [&](std::size_t j) { return problem.free[j / 3] ? 1.0f : 0.0f; }));
-  Stack row = detail::stackOf(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; });
+  Stack lit = problem.transport.apply(
+      stackOf(3 * problem.free.size(), [&](std::size_t j) { return problem.free[j / 3] ? 1.0f : 0.0f; }));
+  Stack row = stackOf(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; });
   Stack bound = problem.transport.applyTransposed(row);
   float largest = bound.empty() ? 0.0f : *std::max_element(bound.begin(), bound.end());
   // What sees next to nothing would take steps of any length on rounding errors.
-  return detail::stackOf(bound.size(), [&](std::size_t j) {
+  return stackOf(bound.size(), [&](std::size_t j) {
     return problem.free[j / 3] && bound[j] > 1e-7f * largest ? 1.0f / bound[j] : 0.0f;
   });
 }

@@ -16,10 +16,10 @@ Size firstCamera(const MeasuredVenue& venue) {
 
 void checkShapes(const Image& content, const MeasuredVenue& venue) {
   std::size_t pixels = venue.transport.cameras().count();
-  require(
-      venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels && venue.usable.size() == pixels,
-      "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(), venue.flood.size(),
-      venue.usable.size(), pixels);
+  require(venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels &&
+              venue.usable.size() == pixels && (venue.direct.empty() || venue.direct.size() == pixels),
+          "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(),
+          venue.flood.size(), venue.usable.size(), pixels);
   require(!content.empty() && content.channels() == 3, "content of {} channels; three are needed",
           content.channels());
 }
@@ -27,10 +27,8 @@ void checkShapes(const Image& content, const MeasuredVenue& venue) {
 /// Where the content goes when nobody says.
 Corners chosenCorners(const Image& content, const MeasuredVenue& venue) {
   Size view = firstCamera(venue);
-  std::vector<std::uint8_t> usable(venue.usable.begin(),
-                                   venue.usable.begin() + static_cast<std::ptrdiff_t>(view.count()));
   double aspect = static_cast<double>(content.width()) / content.height();
-  std::optional<Corners> found = largestUpright(usable, view, aspect);
+  std::optional<Corners> found = largestUpright(placeable(venue), view, aspect);
   if (!found)
     throw Error(ErrorKind::input, "no part of the camera's view is lit well enough to hold a picture",
                 "aim the camera at the projection or set the corners of the content by hand");
@@ -108,6 +106,13 @@ std::vector<std::string> problems(const TargetSettings& settings) {
   if (!(settings.unreachableWeight >= 0.0 && settings.unreachableWeight <= 1.0))
     found.push_back("the weight of unreachable pixels must lie between 0 and 1");
   return found;
+}
+
+std::vector<std::uint8_t> placeable(const MeasuredVenue& venue) {
+  std::vector<std::uint8_t> pixels(firstCamera(venue).count());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = venue.usable[i] && (venue.direct.empty() || venue.direct[i]);
+  return pixels;
 }
 
 ColourBlock meanColourMixing(const MeasuredVenue& venue) {

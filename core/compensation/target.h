@@ -19,10 +19,15 @@ struct MeasuredVenue {
   Stack black;                       // e
   Stack flood;                       // T 1 as photographed, less e
   std::vector<std::uint8_t> usable;  // per camera pixel: lit by the projector and not flagged
+  /// Per camera pixel: sees the projection itself, not only its glow (directlyLit()). Empty: all of them.
+  std::vector<std::uint8_t> direct{};
 };
 
+/// The first camera's pixels that content may cover when nobody says where: usable, and directly lit.
+std::vector<std::uint8_t> placeable(const MeasuredVenue& venue);
+
 struct TargetSettings {
-  /// Corners of the content in the first camera's view; none: largestUpright() over the usable pixels.
+  /// Corners of the content in the first camera's view; none: largestUpright() over placeable().
   std::optional<Corners> corners;
   Fit fit = Fit::fill;                // where content and corners differ in shape
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white

@@ -89,9 +89,8 @@ std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Ta
 
   Progress looking = progress.part(0.6, "Looking for shadows");
   std::vector<DirectLook> looks = directLooks(venue.transport, settings.direct, looking);
-  std::vector<std::uint8_t> lit(pixels, 0), twice(pixels, 0);
-  for (std::size_t i = 0; i < pixels; ++i)
-    lit[i] = venue.usable[i] && static_cast<double>(looks[i].share) >= settings.leastDirectShare;
+  std::vector<std::uint8_t> lit = directlyLit(looks, settings.leastDirectShare), twice(pixels, 0);
+  for (std::size_t i = 0; i < pixels; ++i) lit[i] = lit[i] && venue.usable[i];
   SecondViews views(venue, looks, lit, settings);
   for (std::size_t camera = 0; camera < venue.transport.cameras().devices(); ++camera) {
     progress.checkpoint();

@@ -31,9 +31,7 @@ std::string_view toString(Uncorrectable reason);
 
 struct UncorrectableSettings {
   DirectLightSettings direct;
-  /// Shadowed: the direct share of the flood image lies below this. Even light from the whole projector puts
-  /// 0.5 % of itself within the reach of direct light, the brightest corner more than half.
-  double leastDirectShare = 0.1;
+  double leastDirectShare = relucent::leastDirectShare;  // shadowed: less of the flood image is direct
   /// Seen twice: the two places are this far apart, as a share of the camera's larger side, at least three
   /// pixels: further than defocus and the camera's pixels spread one projector pixel (direct.reach).
   double apart = 1.0 / 32.0;

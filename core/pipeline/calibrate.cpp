@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <sys/resource.h>
-
-#include <chrono>
-
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "calibration/results.h"
 #include "calibration/shot_journal.h"
 #include "pipeline/devices.h"
@@ -15,18 +12,6 @@
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-std::uint64_t peakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
 
 /// The stages of a calibration, each taken from the folder where it is done already.
 class Calibrating {
@@ -52,14 +37,14 @@ class Calibrating {
     inverted(measured.venue, inverting);
     progress.report(1.0);
     CalibrateResult result = summaryOf(folder_, measured);
-    result.peakMemoryBytes = peakMemory();
+    result.peakMemoryBytes = peakMemoryBytes();
     return result;
   }
 
  private:
   /// What a stage's run cost, kept with its result.
-  Json cost(Clock::time_point begin, const ShotTaker* shots) const {
-    Json values{{"seconds", secondsSince(begin)}};
+  Json cost(const Stopwatch& watch, const ShotTaker* shots) const {
+    Json values{{"seconds", watch.seconds()}};
     values["patterns"] = shots != nullptr ? shots->shots() : 0;
     values["exposures"] = shots != nullptr ? shots->exposures() : 0;
     return values;
@@ -68,20 +53,20 @@ class Calibrating {
   Linearization linearized(Progress& progress) {
     std::string inputs = linearizationFingerprint(folder_);
     if (auto done = folder_.find(stage::linearization, inputs)) return loadLinearization(*done);
-    auto begin = Clock::now();
+    Stopwatch watch;
     ShotTaker shots(devices_.rig, journal_, stage::linearization);
     Linearization linearization = linearize(shots, settings_.linearization, progress);
-    storeLinearization(folder_, inputs, linearization, cost(begin, &shots));
+    storeLinearization(folder_, inputs, linearization, cost(watch, &shots));
     return linearization;
   }
 
   Acquisition acquired(const Linearization& linearization, Progress& progress) {
     std::string inputs = acquisitionFingerprint(folder_);
     if (auto done = folder_.find(stage::acquisition, inputs)) return loadAcquisition(*done);
-    auto begin = Clock::now();
+    Stopwatch watch;
     ShotTaker shots(devices_.rig, journal_, stage::acquisition);
     Acquisition acquisition = acquire(shots, linearization, settings_.acquisition, handler_, progress);
-    storeAcquisition(folder_, inputs, acquisition, cost(begin, &shots));
+    storeAcquisition(folder_, inputs, acquisition, cost(watch, &shots));
     return acquisition;
   }
 
@@ -90,7 +75,7 @@ class Calibrating {
   void inverted(const MeasuredVenue& venue, Progress& progress) {
     std::string inputs = inverseFingerprint(folder_);
     if (folder_.isCurrent(stage::inverse, inputs)) return;
-    auto begin = Clock::now();
+    Stopwatch watch;
     RidgeChoice choice = invert(venue, settings_, progress);
     Json curve = Json::array();
     for (const RidgeTrial& trial : choice.curve)
@@ -99,7 +84,7 @@ class Calibrating {
                   Json{{"ridge", choice.ridge},
                        {"curve", curve},
                        {"bytes", choice.inverse.bytes()},
-                       {"cost", cost(begin, nullptr)}});
+                       {"cost", cost(watch, nullptr)}});
   }
 
   CalibrationFolder& folder_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/stopwatch.h"
 #include "compensation/methods.h"
 #include "compensation/prediction.h"
 #include "compensation/uncorrectable.h"
@@ -111,12 +111,12 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   compensatorSettings.optimum = defaultsOf(algorithmFromName(settings.solver).value());
   Compensator compensator(venue, measured.inverse, compensatorSettings);
   Progress solving = progress.part(0.5, "Compensating");
-  auto begin = std::chrono::steady_clock::now();
+  Stopwatch watch;
   Compensation compensation = compensator.solve(method, target, solving);
 
   CompensateResult result;
   result.method = settings.method;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.seconds = watch.seconds();
 
   Prediction prediction = predict(venue, target, compensation);
   if (prediction.reachable == 0.0)

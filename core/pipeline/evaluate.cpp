@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/stopwatch.h"
 #include "image/color.h"
 #include "image/metrics.h"
 #include "image/picture_files.h"
@@ -17,8 +17,6 @@
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// |T p - R p| / |R p|
 double relightError(const TransportMatrix& transport, const TransportMatrix& reference,
@@ -157,9 +155,9 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
     pictures.inside.resize(pixels);
     for (Method method : methods) {
       Progress solving = judging.part(share, fmt::format("{}: {}", image.name, toString(method)));
-      auto begin = Clock::now();
+      Stopwatch watch;
       Compensation compensation = compensator.solve(method, target, solving);
-      double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      double seconds = watch.seconds();
       Image seen = judge.seen(compensation);
       score.methods.push_back(judge.score(method, seen, target, reachable));
       score.methods.back().seconds = seconds;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "acquisition/import.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
 #include <set>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/fingerprint.h"
+#include "base/stopwatch.h"
 #include "calibration/results.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
@@ -21,12 +19,6 @@
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 bool isPictureName(const fs::path& path) {
   static const std::set<std::string> endings{".png", ".tif",  ".tiff", ".jpg", ".jpeg",
@@ -87,12 +79,6 @@ void checkFolderIsFree(const fs::path& folder) {
   if (!fs::is_directory(folder, code) || fs::directory_iterator(folder, code) != fs::directory_iterator())
     throw Error(ErrorKind::input, "there is something of this name already",
                 "choose a new or an empty folder for the calibration", folder.string());
-}
-
-std::uint64_t peakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 struct Pictures {
@@ -167,7 +153,7 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
   checkFolderIsFree(path);
-  auto begin = Clock::now();
+  Stopwatch watch;
   ImportResult result;
   Import import;
   CalibrateSettings stages;
@@ -191,15 +177,15 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
                          import.acquisition.findings.end());
 
   // What was estimated is safe before it is inverted.
-  store(path, stages, import, secondsSince(begin));
-  auto inverted = Clock::now();
+  store(path, stages, import, watch.seconds());
+  Stopwatch invertingWatch;
   Progress inverting = progress.part(0.2, "Inverting the light transport");
   MeasuredVenue venue = takeMeasuredVenue(import.acquisition, stages.threshold);
   RidgeChoice choice = invert(venue, stages, inverting);
-  storeInverse(path, choice, secondsSince(inverted));
+  storeInverse(path, choice, invertingWatch.seconds());
   progress.report(1.0);
-  result.seconds = secondsSince(begin);
-  result.peakMemoryBytes = peakMemory();
+  result.seconds = watch.seconds();
+  result.peakMemoryBytes = peakMemoryBytes();
   return result;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/inverse_bench.h"
 
-#include <chrono>
-
+#include "base/stopwatch.h"
 #include "compensation/methods.h"
 #include "devices/temporary_folder.h"
 #include "inverse/cluster_inverse.h"
@@ -14,9 +13,9 @@ namespace {
 
 template <typename Work>
 double secondsOf(const Work& work) {
-  auto begin = std::chrono::steady_clock::now();
+  Stopwatch watch;
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return watch.seconds();
 }
 
 /// Everything that is timed works on T as it was measured.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "calibration/results.h"
+#include "compensation/direct_light.h"
 #include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
 
@@ -67,6 +68,8 @@ MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSetting
   venue.transport = thresholded(std::exchange(acquisition.transport, {}), threshold, acquisition.flood);
   venue.black = acquisition.black;
   venue.flood = acquisition.flood;
+  Progress quiet;
+  venue.direct = directlyLit(directLooks(venue.transport, {}, quiet));
   return venue;
 }
 

@@ -153,13 +153,23 @@ BlockSparse BlockSparse::withRowsScaled(const Stack& factor) const {
 }
 
 BlockSparse BlockSparse::filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const {
+  std::vector<std::uint8_t> kept(blocks());
+  parallelFor(0, rows(), 256, [&](std::size_t row) {
+    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry)
+      kept[entry] = keep(row, entry) ? 1 : 0;
+  });
+  return filtered(kept);
+}
+
+BlockSparse BlockSparse::filtered(const std::vector<std::uint8_t>& keep) const {
+  require(keep.size() == blocks(), "{} marks for {} blocks", keep.size(), blocks());
   BlockSparse result;
   result.columns_ = columns_;
   result.scale_ = scale_;
   result.rowStart_.assign(rows() + 1, 0);
   parallelFor(0, rows(), 256, [&](std::size_t row) {
     for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry)
-      result.rowStart_[row + 1] += keep(row, entry) ? 1 : 0;
+      result.rowStart_[row + 1] += keep[entry] != 0 ? 1 : 0;
   });
   for (std::size_t row = 0; row < rows(); ++row) result.rowStart_[row + 1] += result.rowStart_[row];
 
@@ -168,7 +178,7 @@ BlockSparse BlockSparse::filtered(const std::function<bool(std::size_t row, std:
   parallelFor(0, rows(), 256, [&](std::size_t row) {
     std::size_t next = result.rowStart_[row];
     for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
-      if (!keep(row, entry)) continue;
+      if (keep[entry] == 0) continue;
       result.column_[next] = column_[entry];
       result.code_[next++] = code_[entry];
     }

@@ -57,7 +57,10 @@ class BlockSparse {
   BlockSparse transposed() const;
   /// Row r times the factor of each camera channel: block(r) <- diag(factor[3r..3r+2]) block(r).
   BlockSparse withRowsScaled(const Stack& factor) const;
-  /// Only the entries for which keep(row, entry) is true; it is asked twice for each, on all cores.
+  /// Only the entries that are marked.  Shape: blocks().
+  /// Throws: std::logic_error if the shape differs.
+  BlockSparse filtered(const std::vector<std::uint8_t>& keep) const;
+  /// Only the entries for which keep(row, entry) is true; it is asked once for each, on all cores.
   BlockSparse filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const;
 
   bool operator==(const BlockSparse&) const = default;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "transport/statistics.h"
 
 namespace relucent {
 namespace {
@@ -18,18 +19,18 @@ struct NodeDensity {
 };
 
 /// Adds `sign` times a row's leaves, as densities per projector pixel.
-void addRow(const TransportMatrix& transport, std::size_t row, double sign, std::vector<NodeDensity>& into) {
+void addRow(const TransportMatrix& transport, const NodeTable& nodes, std::size_t row, double sign,
+            std::vector<NodeDensity>& into) {
   const BlockSparse& leaves = transport.leaves();
-  const NodeLayout& layout = transport.layout();
   for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
     std::uint32_t node = leaves.column(entry);
-    double pixels = layout.block(layout.node(node)).count();
+    auto pixels = static_cast<double>(nodes.pixels[node]);
     into.push_back({node, leaves.block(row, entry).cast<double>() * (sign / pixels)});
   }
 }
 
 /// The squared norm over all projector pixels; `row` may name a node more than once.
-double squaredNorm(const NodeLayout& layout, std::vector<NodeDensity>& row) {
+double squaredNorm(const NodeTable& nodes, std::vector<NodeDensity>& row) {
   std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   std::size_t count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -42,18 +43,15 @@ double squaredNorm(const NodeLayout& layout, std::vector<NodeDensity>& row) {
 
   double sum = 0.0;
   for (const NodeDensity& entry : row) {
-    Node node = layout.node(entry.node);
-    double pixels = layout.block(node).count();
     Densities above = Densities::Zero();
-    int levels = layout.levels(static_cast<std::size_t>(node.projector));
-    for (Node ancestor = node; ancestor.level + 1 < levels;) {
-      ancestor = layout.parent(ancestor);
-      auto index = static_cast<std::uint32_t>(layout.index(ancestor));
+    for (std::uint32_t node = entry.node; nodes.parent[node] != node;) {
+      node = nodes.parent[node];
       auto found = std::lower_bound(
-          row.begin(), row.end(), index,
+          row.begin(), row.end(), node,
           [](const NodeDensity& candidate, std::uint32_t wanted) { return candidate.node < wanted; });
-      if (found != row.end() && found->node == index) above += found->density;
+      if (found != row.end() && found->node == node) above += found->density;
     }
+    auto pixels = static_cast<double>(nodes.pixels[entry.node]);
     sum += pixels * (entry.density.squaredNorm() + 2.0 * entry.density.cwiseProduct(above).sum());
   }
   return sum;
@@ -65,14 +63,14 @@ TransportDifference difference(const TransportMatrix& transport, const Transport
   require(transport.cameras() == reference.cameras() && transport.projectors() == reference.projectors(),
           "only transport between the same devices can be compared");
   std::size_t rows = transport.leaves().rows();
-  std::vector<double> apart(rows);
-  std::vector<double> whole(rows);
+  NodeTable nodes(reference.layout());
+  std::vector<double> apart(rows), whole(rows);
   parallelFor(0, rows, 64, [&](std::size_t row) {
     std::vector<NodeDensity> entries;
-    addRow(reference, row, 1.0, entries);
-    whole[row] = squaredNorm(reference.layout(), entries);
-    addRow(transport, row, -1.0, entries);
-    apart[row] = squaredNorm(reference.layout(), entries);
+    addRow(reference, nodes, row, 1.0, entries);
+    whole[row] = squaredNorm(nodes, entries);
+    addRow(transport, nodes, row, -1.0, entries);
+    apart[row] = squaredNorm(nodes, entries);
   });
 
   TransportDifference result;

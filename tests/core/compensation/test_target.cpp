@@ -48,6 +48,22 @@ class TestTarget : public QObject {
     double fits = std::min(64.0 / aspect, 48.0);
     QVERIFY2(height >= fits - 1.0 && height <= fits * 1.13 + 1.0, qPrintable(QString::number(height)));
   }
+  /// Around a projection in a dome everything glows, and yet nothing can be shown there.
+  void contentStaysWhereTheProjectionItselfIsSeen() {
+    Scene scene = makeScene({});
+    MeasuredVenue venue = venueOf(scene);
+    Size view = scene.transport.cameras().size(0);
+    std::fill(venue.usable.begin(), venue.usable.end(), std::uint8_t{1});
+    Image content({40, 30}, 3, 0.5f);
+    Corners everywhere = fitTarget(content, venue, {}).corners;
+    QCOMPARE(everywhere[2][0] - everywhere[0][0], static_cast<double>(view.width));
+    venue.direct = maskWith(view, 5, 4, 33, 25);
+    Corners placed = fitTarget(content, venue, {}).corners;
+    // A strip along each side may be a tenth without: 21 rows and not two more.
+    QVERIFY(placed[0][0] >= 4 && placed[0][1] >= 3 && placed[2][0] <= 34 && placed[2][1] <= 26);
+    QVERIFY(placed[2][1] - placed[0][1] >= 20);
+    QVERIFY(placeable(venue) == venue.direct);
+  }
   void nothingLitHoldsNoPicture() {
     QVERIFY(!largestUpright(std::vector<std::uint8_t>(100, 0), {10, 10}, 1.0));
   }

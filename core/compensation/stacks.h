@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/raster.h"
+
+/// Arithmetic on whole stacks, on all cores, the same bits for every number of threads.
+namespace relucent {
+
+inline float clamp01(float value) {
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
+/// value(i) for every i below `count`.
+template <typename Value>
+Stack stackOf(std::size_t count, const Value& value) {
+  Stack stack(count);
+  parallelFor(0, count, 4096, [&](std::size_t i) { stack[i] = value(i); });
+  return stack;
+}
+
+/// The sum of term(i) over every i below `count`.
+template <typename Term>
+double sumOf(std::size_t count, const Term& term) {
+  constexpr std::size_t chunks = 64;
+  std::array<double, chunks> partial{};
+  parallelChunks(0, count, chunks, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    partial[chunk] = sum;
+  });
+  return std::accumulate(partial.begin(), partial.end(), 0.0);
+}
+
+}  // namespace relucent

@@ -104,7 +104,19 @@ ContentPicture Playlist::frameOf(const Playing& item, ContentTime time) {
   return item.source->at(std::max(own, ContentTime{0}));
 }
 
+Playlist::Status Playlist::status() const {
+  QMutexLocker lock(&statusGuard_);
+  return status_;
+}
+
 ContentPicture Playlist::at(ContentTime time) {
+  ContentPicture picture = pictureAt(time);
+  QMutexLocker lock(&statusGuard_);
+  status_ = {current_.index, skipped_};
+  return picture;
+}
+
+ContentPicture Playlist::pictureAt(ContentTime time) {
   if (!current_.source || time < last_) begin(time);
   last_ = time;
   if (!current_.source) return {};

@@ -3,6 +3,7 @@
 
 #include <QFuture>
 #include <QList>
+#include <QMutex>
 #include <QString>
 #include <QStringList>
 #include <memory>
@@ -55,10 +56,12 @@ class Playlist : public ContentSource {
   ContentPicture at(ContentTime time) override;
   std::optional<ContentTime> length() const override { return std::nullopt; }
 
-  /// Which item is playing; -1 before the first.
-  qsizetype playing() const { return current_.index; }
-  /// What was skipped since the list began, one sentence each, the newest last.
-  const QStringList& skipped() const { return skipped_; }
+  struct Status {
+    qsizetype playing = -1;  // which item; -1 before the first
+    QStringList skipped;     // what could not be read so far, one sentence each, the newest last
+  };
+  /// As the last frame left it. May be asked from any thread.
+  Status status() const;
 
  private:
   struct Playing {
@@ -67,6 +70,7 @@ class Playlist : public ContentSource {
     ContentTime begin{0};  // of the next one: not before it was ready
   };
 
+  ContentPicture pictureAt(ContentTime time);
   ContentTime lengthOf(const Playing& item) const;
   ContentTime fadeBetween(const Playing& item, const Playing& next) const;
   void begin(ContentTime now);
@@ -83,6 +87,8 @@ class Playlist : public ContentSource {
   ContentTime last_{0};
   ContentTime tryAgain_{0};  // after nothing could be read
   QStringList skipped_;
+  mutable QMutex statusGuard_;
+  Status status_;
 };
 
 }  // namespace relucent

@@ -12,7 +12,9 @@ namespace relucent {
 
 /// What is asked of a frame beside its content.
 struct RenderRequest {
-  bool compensated = true;  // false: the content in its place, nothing corrected
+  bool compensated = true;      // false: the content in its place, nothing corrected
+  bool thorough = false;        // as well as can be, whatever it takes: for a picture that stands
+  double seconds = 1.0 / 60.0;  // that there are for it otherwise
 
   bool operator==(const RenderRequest&) const = default;
 };

@@ -12,6 +12,7 @@
 namespace relucent {
 namespace {
 
+constexpr ContentTime standsStill{500'000};
 constexpr double windowSeconds = 5.0;     // over which the statistics are taken
 constexpr std::size_t mostRecent = 1500;  // frames in that time, at the quickest displays' rates
 
@@ -80,13 +81,17 @@ void Player::beginFrame() {
   if (!playing_ || working_.isRunning()) return;
   begun_.start();
   ContentTime time = clock_.time();
+  request_.seconds = refreshSeconds(windows_);
   working_.setFuture(startedElsewhere(
       [renderer = renderer_, content = content_, request = request_, time, last = last_]() -> Frame {
         ContentPicture picture = content->at(time);
-        if (picture.number == last.content && request == last.request && !last.rendered.drives.empty())
-          return last;
         if (picture.image.isNull()) return {};
-        return {picture.number, request, renderer->render(picture, request)};
+        bool same = picture.number == last.content && request.compensated == last.request.compensated &&
+                    !last.rendered.drives.empty();
+        if (same && (last.request.thorough || time - last.since < standsStill)) return last;
+        RenderRequest wanted = request;
+        wanted.thorough = same;
+        return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted)};
       }));
 }
 
@@ -98,7 +103,8 @@ void Player::frameReady() {
     last_ = std::move(frame);
     if (fresh) {
       ++frames_;
-      late_ += 1e-9 * static_cast<double>(begun_.nsecsElapsed()) > refreshSeconds(windows_);
+      late_ += !last_.request.thorough &&
+               1e-9 * static_cast<double>(begun_.nsecsElapsed()) > refreshSeconds(windows_);
       recent_.emplace_back(microseconds(running_), last_.rendered.seconds);
       while (recent_.size() > mostRecent) recent_.pop_front();
       present();

@@ -27,7 +27,8 @@ struct PlayerStatistics {
 };
 
 /// Plays content on all projectors under one clock. A frame is computed on another thread while the one
-/// before it is shown; a picture that stands still is computed once.
+/// before it is shown. A picture that stands still is computed once in time, once more as well as can be, and
+/// then no more.
 class Player : public QObject {
   Q_OBJECT
 
@@ -69,6 +70,7 @@ class Player : public QObject {
  private:
   struct Frame {
     std::uint64_t content = 0;
+    ContentTime since{0};  // that the content stands
     RenderRequest request;
     RenderedFrame rendered;
   };

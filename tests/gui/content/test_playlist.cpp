@@ -56,7 +56,7 @@ class TestPlaylist : public QObject {
         for (int quarter = 0; quarter < 4; ++quarter) {
           ContentTime time = (6s * round) + (2s * i) + (500ms * quarter);
           QCOMPARE(grey(settledAt(playlist, time)), 10 * (i + 1));
-          QCOMPARE(playlist.playing(), static_cast<qsizetype>(i));
+          QCOMPARE(playlist.status().playing, static_cast<qsizetype>(i));
         }
   }
 
@@ -102,8 +102,8 @@ class TestPlaylist : public QObject {
     QCOMPARE(grey(settledAt(playlist, 0s)), 10);
     settledAt(playlist, 500ms);  // the missing one is found out
     QCOMPARE(grey(settledAt(playlist, 1s)), 30);
-    QCOMPARE(playlist.skipped().size(), 1);
-    QVERIFY(playlist.skipped().first().contains("gone.png"));
+    QCOMPARE(playlist.status().skipped.size(), 1);
+    QVERIFY(playlist.status().skipped.first().contains("gone.png"));
     // It is there in the next round.
     QImage late(8, 6, QImage::Format_RGB32);
     late.fill(qRgb(77, 77, 77));

@@ -4,35 +4,15 @@
 
 #include <QSignalSpy>
 #include <QtTest>
-#include <atomic>
 
-#include "base/error.h"
 #include "content/still_image.h"
+#include "gui/output/scripted_renderer.h"
 #include "gui/output/two_screens.h"
 
 using namespace relucent;
 using namespace std::chrono_literals;
 
 namespace {
-
-const ScreenIdentity projector{"DUMMY1", "", "", ""};
-constexpr QSize size{1024, 768};
-
-/// The content as it is, or its negative where it is not to be compensated.
-class Scripted : public FrameRenderer {
- public:
-  std::vector<QSize> projectors() const override { return {size}; }
-  QString name() const override { return "scripted"; }
-  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
-    ++rendered;
-    if (broken) throw Error(ErrorKind::device, "the graphics card is gone", "start again");
-    QImage drive = content.image.copy();
-    if (!request.compensated) drive.invertPixels();
-    return {{drive}, 0.25, 2, 0.001};
-  }
-  std::atomic<int> rendered{0};
-  std::atomic<bool> broken{false};
-};
 
 /// A grey that says what time it is: a tenth of a second a step.
 class Film : public ContentSource {
@@ -68,11 +48,11 @@ class TestPlayer : public QObject {
   Q_OBJECT
 
   std::unique_ptr<ProjectorWindow> window_;
-  Scripted* renderer_ = nullptr;  // the player's
+  ScriptedRenderer* renderer_ = nullptr;  // the player's
   Hand hand_;
 
   std::unique_ptr<Player> playerOf(std::shared_ptr<ContentSource> content) {
-    auto renderer = std::make_unique<Scripted>();
+    auto renderer = std::make_unique<ScriptedRenderer>();
     renderer_ = renderer.get();
     hand_ = {};
     return std::make_unique<Player>(std::move(renderer), std::move(content),
@@ -102,6 +82,14 @@ class TestPlayer : public QObject {
     QCOMPARE(shown.count(), 0);
     QCOMPARE(player->statistics().frames, std::uint64_t{1});
     QCOMPARE(player->statistics().clipped, 0.25);
+    // It stands: once more, with all the time that it takes, and no more.
+    QVERIFY(!renderer_->thorough);
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    hand_.now += 1h;
+    for (int turns = 0; turns < 200; ++turns) QCoreApplication::processEvents();
+    QCOMPARE(renderer_->rendered.load(), 2);
+    QCOMPARE(player->statistics().late, std::uint64_t{0});
   }
 
   void filmFollowsTheClock() {

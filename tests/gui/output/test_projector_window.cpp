@@ -3,16 +3,11 @@
 #include <QSignalSpy>
 #include <QtTest>
 
+#include "gui/output/scripted_renderer.h"
 #include "gui/output/two_screens.h"
 #include "output/projector_window.h"
 
 using namespace relucent;
-
-namespace {
-
-const ScreenIdentity projector{"DUMMY1", "", "", ""};
-
-}  // namespace
 
 class TestProjectorWindow : public QObject {
   Q_OBJECT

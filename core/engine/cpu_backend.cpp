@@ -16,8 +16,10 @@ namespace {
 constexpr std::size_t nodesOfARange = 2048;
 using Clock = std::chrono::steady_clock;
 
+/// In two steps, each of them one instruction without a branch; what is no number becomes 0.
 float clamp01(float value) {
-  return value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+  const float positive = value > 0.0f ? value : 0.0f;
+  return positive < 1.0f ? positive : 1.0f;
 }
 
 }  // namespace
@@ -27,7 +29,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       kernels_(kernels != nullptr ? *kernels : engineKernels().back()),
       name_(fmt::format("CPU, {}", kernels_.instructions)),
       windows_(engine.inverse.view()),
-      scratch_(std::thread::hardware_concurrency() + 1, 4 * engine.transport.mostColumns() + 4) {
+      scratch_(std::thread::hardware_concurrency() + 1, correctColumn * engine.transport.mostColumns()) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
     linearOfSrgb_[code] = static_cast<float>(srgbDecode(static_cast<double>(code) / 255.0));
   std::size_t cameraPixels = engine.venue.usable.size();
@@ -38,6 +40,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
   unmixed_.resize(4 * cameraPixels);
   std::size_t nodes = engine.venue.transport.layout().count();
   nodes_.resize(3 * nodes);
+  free_.resize(3 * engine.brightest.size());
   adjoint_.resize(3 * nodes);
   bound_.resize(3 * nodes);
   const PackedTransport& transport = engine.transport;
@@ -69,6 +72,7 @@ void CpuBackend::setContent(const EngineContent& content) {
   std::fill(weight_.begin(), weight_.end(), 0.0f);
   std::fill(unmixed_.begin(), unmixed_.end(), 0.0f);
   std::fill(nodes_.begin(), nodes_.end(), 0.0f);
+  for (std::size_t i = 0; i < free_.size(); ++i) free_[i] = content.free[i / 3] ? 1.0f : 0.0f;
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
 }
 
@@ -96,17 +100,13 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
 }
 
 unsigned CpuBackend::finish(std::size_t pixel, const float* values) noexcept {
-  // A value beyond by less than half a code of an 8-bit projector is not visibly cut.
-  constexpr float visible = 0.002f;
   float* out = &nodes_[3 * pixel];
-  if (!content_->free[pixel]) {
-    out[0] = out[1] = out[2] = 0.0f;
-    return 0;
-  }
+  const float free = free_[3 * pixel];
   unsigned cut = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    cut += values[c] < -visible || values[c] > 1.0f + visible;
-    out[c] = clamp01(values[c]);
+    const float value = free * values[c];
+    cut += static_cast<unsigned>(value < -visibleCut) | static_cast<unsigned>(value > 1.0f + visibleCut);
+    out[c] = clamp01(value);
   }
   return cut;
 }
@@ -189,25 +189,28 @@ void CpuBackend::passThrough(Pass pass) noexcept {
     const TransportPatch& patch = transport.patches()[index];
     const std::uint32_t* node = transport.nodes().data() + patch.columnBegin;
     const std::size_t columns = patch.columnEnd - patch.columnBegin;
-    ScratchPool::Loan light(scratch_);
+    const std::size_t stride = correct ? correctColumn : stepColumn;
+    ScratchPool::Loan loan(scratch_);
+    float* const scratch = loan.data();
     for (std::size_t column = 0; column < columns; ++column) {
       const float* from = &nodes_[3 * std::size_t{node[column]}];
-      float* to = light.data() + 4 * column;
+      float* to = scratch + stride * column;
       to[0] = from[0];
       to[1] = from[1];
       to[2] = from[2];
-      to[3] = 0.0f;
+      std::memset(to + 3, 0, (stride - 3) * sizeof(float));
     }
-    const std::size_t lanes = correct ? 8 : 4;
-    float* sums = sums_.data() + lanes * patch.columnBegin;
-    std::memset(sums, 0, lanes * columns * sizeof(float));
     const PatchRows rows{patch.rowBegin,
                          patch.rowEnd,
                          transport.pixels().data(),
                          transport.leafStart().data(),
                          transport.leaves().data(),
                          transport.mixing().data()};
-    (correct ? kernels_.correct : kernels_.step)(rows, camera, light.data(), sums);
+    (correct ? kernels_.correct : kernels_.step)(rows, camera, scratch);
+    const std::size_t lanes = correct ? 8 : 4;
+    float* sums = sums_.data() + lanes * patch.columnBegin;
+    for (std::size_t column = 0; column < columns; ++column)
+      std::memcpy(sums + lanes * column, scratch + stride * column + 4, lanes * sizeof(float));
   });
   sumPatches(pass);
   engine_.venue.transport.layout().gatherMeansAdjoint(adjoint_);
@@ -246,25 +249,21 @@ void CpuBackend::makePreconditioner() noexcept {
   });
   // What hardly any weighted pixel sees would take steps of any length on rounding errors.
   const float least = 1e-7f * *std::max_element(largest.begin(), largest.end());
-  parallelFor(0, values, 4096,
-              [&](std::size_t j) { bound_[j] = bound_[j] > least ? 1.0f / bound_[j] : 0.0f; });
+  parallelChunks(0, values, parts, [&](std::size_t, std::size_t begin, std::size_t end) {
+    kernels_.reciprocal(&bound_[begin], &free_[begin], least, end - begin);
+  });
 }
 
 void CpuBackend::refine(float length) noexcept {
   passThrough(Pass::step);
   clipped_ = 0;
-  constexpr std::size_t pixelsOfATask = 4096;
-  const std::size_t pixels = engine_.brightest.size();
-  parallelChunks(0, pixels, (pixels + pixelsOfATask - 1) / pixelsOfATask,
+  constexpr std::size_t valuesOfATask = 12288;
+  const std::size_t values = free_.size();
+  // Where nothing is free, C is 0 and p stays 0.
+  parallelChunks(0, values, (values + valuesOfATask - 1) / valuesOfATask,
                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                   std::size_t cut = 0;
-                   for (std::size_t pixel = begin; pixel < end; ++pixel) {
-                     float p[3];
-                     for (std::size_t c = 0; c < 3; ++c)
-                       p[c] =
-                           nodes_[3 * pixel + c] + length * bound_[3 * pixel + c] * adjoint_[3 * pixel + c];
-                     cut += finish(pixel, p);
-                   }
+                   std::size_t cut =
+                       kernels_.update(&nodes_[begin], &bound_[begin], &adjoint_[begin], length, end - begin);
                    clipped_.fetch_add(cut, std::memory_order_relaxed);
                  });
 }
@@ -276,10 +275,7 @@ void CpuBackend::encode(std::span<std::uint32_t> words) const noexcept {
     const DriveEncoder& encoder = engine_.encoders[device];
     parallelFor(0, static_cast<std::size_t>(size.height), 8, [&](std::size_t y) {
       const std::size_t first = projectors.offset(device) + y * static_cast<std::size_t>(size.width);
-      for (int x = 0; x < size.width; ++x) {
-        const std::size_t pixel = first + static_cast<std::size_t>(x);
-        words[pixel] = encoder.encode(&nodes_[3 * pixel], x, static_cast<int>(y));
-      }
+      encoder.encodeLine(&nodes_[3 * first], size.width, static_cast<int>(y), &words[first]);
     });
   }
 }

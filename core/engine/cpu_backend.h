@@ -48,7 +48,7 @@ class CpuBackend : public EngineBackend {
   void makePreconditioner() noexcept;
   void refine(float length) noexcept;
   void encode(std::span<std::uint32_t> words) const noexcept;
-  /// Clamps one projector pixel's values; returns how many of them were visibly cut off.
+  /// Clamps values of one projector pixel into p; returns how many of them were visibly cut off.
   unsigned finish(std::size_t pixel, const float* values) noexcept;
 
   const EngineVenue& engine_;
@@ -63,6 +63,7 @@ class CpuBackend : public EngineBackend {
   // Node values: p with its means, what comes back of the residual, and C^-1 on its way to C.
   std::vector<float> nodes_, adjoint_, bound_;
   std::vector<float> sums_;  // 8 for every column of every patch
+  std::vector<float> free_;  // per projector value: 1 or 0
   ScratchPool scratch_;
   std::vector<std::uint32_t> rangeStart_;  // pieces of range r: [rangeStart_[r], rangeStart_[r + 1])
   std::vector<Piece> piece_;

@@ -49,21 +49,29 @@ DriveEncoder::DriveEncoder(const ProjectorResponse& response, int bits, Dither d
   if (dither == Dither::blueNoise) threshold_ = blueNoise(side);
 }
 
-std::uint32_t DriveEncoder::level(std::size_t channel, float light, int x, int y) const noexcept {
-  light = light > 0.0f ? std::min(light, 1.0f) : 0.0f;
-  const std::size_t last = levels() - 1;
-  const float* const lights = light_.data() + channel * (last + 2);
-  auto step = static_cast<std::size_t>(std::sqrt(light) * static_cast<float>(steps));
-  std::size_t k = first_[channel * (steps + 1) + step];
-  while (lights[k + 1] <= light) ++k;
-  if (k >= last) return static_cast<std::uint32_t>(last);
-  float next =
-      threshold_.empty()
-          ? middle_[channel * (last + 1) + k]
-          : lights[k] + threshold_[static_cast<std::size_t>(((y + ditherOffsets[channel][1]) % side) * side +
-                                                            (x + ditherOffsets[channel][0]) % side)] *
-                            (lights[k + 1] - lights[k]);
-  return static_cast<std::uint32_t>(k + (light >= next ? 1 : 0));
+void DriveEncoder::encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept {
+  const auto last = static_cast<std::uint32_t>(levels() - 1);
+  std::fill(words, words + width, bits_ == 8 ? 0xff000000u : 0xc0000000u);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint16_t* const first = first_.data() + c * (steps + 1);
+    const float* const lights = light_.data() + c * (last + 2);
+    const float* const middles = middle_.data() + c * (last + 1);
+    const float* const thresholds =
+        threshold_.empty() ? nullptr : threshold_.data() + (y + ditherOffsets[c][1]) % side * side;
+    const auto shift = static_cast<std::uint32_t>(bits_) * static_cast<std::uint32_t>(c);
+    for (int x = 0; x < width; ++x) {
+      float value = light[3 * static_cast<std::size_t>(x) + c];
+      value = value > 0.0f ? value : 0.0f;
+      value = value < 1.0f ? value : 1.0f;
+      std::uint32_t k = first[static_cast<int>(std::sqrt(value) * static_cast<float>(steps))];
+      while (lights[k + 1] <= value) ++k;
+      const float next = thresholds == nullptr ? middles[k]
+                                               : lights[k] + thresholds[(x + ditherOffsets[c][0]) % side] *
+                                                                 (lights[k + 1] - lights[k]);
+      k += static_cast<std::uint32_t>(value >= next) & static_cast<std::uint32_t>(k < last);
+      words[x] |= k << shift;
+    }
+  }
 }
 
 }  // namespace relucent

@@ -41,17 +41,10 @@ class DriveEncoder {
   std::span<const float> thresholds() const { return threshold_; }
   std::size_t levels() const { return std::size_t{1} << bits_; }
 
-  /// The word for pixel (x, y) of linear light; what is no number is black.
-  std::uint32_t encode(const float* light, int x, int y) const noexcept {
-    std::uint32_t word = bits_ == 8 ? 0xff000000u : 0xc0000000u;
-    for (std::size_t c = 0; c < 3; ++c)
-      word |= level(c, light[c], x, y) << (static_cast<std::uint32_t>(bits_) * static_cast<std::uint32_t>(c));
-    return word;
-  }
+  /// The words for line y of linear light, 3 values a pixel; what is no number is black.
+  void encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept;
 
  private:
-  std::uint32_t level(std::size_t channel, float light, int x, int y) const noexcept;
-
   int bits_ = 8;
   std::vector<std::uint16_t> first_;
   std::vector<float> light_, middle_, threshold_;

@@ -80,8 +80,8 @@ RELUCENT_KERNEL void windowOf(const WindowArrays& windows, std::size_t tile, con
 }
 
 template <bool correct>
-RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera, const float* light,
-                              float* sums) {
+RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera, float* columns) {
+  constexpr std::size_t stride = correct ? correctColumn : stepColumn;
   for (std::size_t row = rows.rowBegin; row < rows.rowEnd; ++row) {
     const PackedLeaf* const begin = rows.leaf + rows.leafStart[row];
     const PackedLeaf* const end = rows.leaf + rows.leafStart[row + 1];
@@ -95,10 +95,10 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
     Floats even{}, odd{};
     const PackedLeaf* leaf = begin;
     for (; leaf + 1 < end; leaf += 2) {
-      even += lanesOf(leaf[0]) * load(light + 4 * std::size_t{leaf[0].column});
-      odd += lanesOf(leaf[1]) * load(light + 4 * std::size_t{leaf[1].column});
+      even += lanesOf(leaf[0]) * load(columns + stride * leaf[0].column);
+      odd += lanesOf(leaf[1]) * load(columns + stride * leaf[1].column);
     }
-    if (leaf < end) even += lanesOf(*leaf) * load(light + 4 * std::size_t{leaf->column});
+    if (leaf < end) even += lanesOf(*leaf) * load(columns + stride * leaf->column);
     const Floats seen = lanesToCodes * (even + odd);
 
     const float* m = rows.mixing + 9 * row;
@@ -116,7 +116,7 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
 
     if constexpr (!correct) {
       for (leaf = begin; leaf < end; ++leaf) {
-        float* sum = sums + 4 * std::size_t{leaf->column};
+        float* sum = columns + stride * leaf->column + 4;
         Floats more = load(sum) + lanesOf(*leaf) * down;
         std::memcpy(sum, &more, sizeof more);
       }
@@ -130,7 +130,7 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
       const float weighted[3] = {weight * lit[0], weight * lit[1], weight * lit[2]};
       const Floats bound = back(weighted);
       for (leaf = begin; leaf < end; ++leaf) {
-        float* sum = sums + 8 * std::size_t{leaf->column};
+        float* sum = columns + stride * leaf->column + 4;
         const Floats codes = lanesOf(*leaf);
         Floats first = load(sum) + codes * down, second = load(sum + 4) + codes * bound;
         std::memcpy(sum, &first, sizeof first);
@@ -140,41 +140,92 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
   }
 }
 
-void windowBaseline(const WindowArrays& windows, std::size_t tile, const float* unmixed, float* values) {
-  windowOf(windows, tile, unmixed, values);
-}
-void stepBaseline(const PatchRows& rows, const CameraArrays& camera, const float* light, float* sums) {
-  passOver<false>(rows, camera, light, sums);
-}
-void correctBaseline(const PatchRows& rows, const CameraArrays& camera, const float* light, float* sums) {
-  passOver<true>(rows, camera, light, sums);
+/// Eight values of an update in place; `cut` counts down where a value is visibly cut off.
+RELUCENT_KERNEL void updateEight(float* p, const float* c, const float* back, float length,
+                                 WideIntegers& cut) {
+  constexpr WideFloats zero{}, one = zero + 1.0f;
+  WideFloats value, factor, more;
+  std::memcpy(&value, p, sizeof value);
+  std::memcpy(&factor, c, sizeof factor);
+  std::memcpy(&more, back, sizeof more);
+  value += length * factor * more;
+  cut += (value < -visibleCut) | (value > 1.0f + visibleCut);
+  value = value > zero ? value : zero;
+  value = value < one ? value : one;
+  std::memcpy(p, &value, sizeof value);
 }
 
+RELUCENT_KERNEL std::size_t updateAll(float* p, const float* c, const float* back, float length,
+                                      std::size_t count) {
+  constexpr std::size_t lanes = 8;
+  WideIntegers cut{};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) updateEight(p + i, c + i, back + i, length, cut);
+  if (i < count) {
+    float rest[3][lanes] = {};
+    const std::size_t bytes = (count - i) * sizeof(float);
+    std::memcpy(rest[0], p + i, bytes);
+    std::memcpy(rest[1], c + i, bytes);
+    std::memcpy(rest[2], back + i, bytes);
+    updateEight(rest[0], rest[1], rest[2], length, cut);
+    std::memcpy(p + i, rest[0], bytes);
+  }
+  std::size_t sum = 0;
+  for (std::size_t lane = 0; lane < lanes; ++lane) sum += static_cast<std::size_t>(-cut[lane]);
+  return sum;
+}
+
+RELUCENT_KERNEL void reciprocalOf(float* c, const float* free, float least, std::size_t count) {
+  constexpr std::size_t lanes = 8;
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    WideFloats value, numerator;
+    std::memcpy(&value, c + i, sizeof value);
+    std::memcpy(&numerator, free + i, sizeof numerator);
+    WideFloats quotient = numerator / value;
+    quotient = value > least ? quotient : WideFloats{};
+    std::memcpy(c + i, &quotient, sizeof quotient);
+  }
+  for (; i < count; ++i) c[i] = c[i] > least ? free[i] / c[i] : 0.0f;
+}
+
+// One version of each for an instruction set.
+#define RELUCENT_KERNELS(set, ...)                                                                   \
+  __VA_ARGS__ void window##set(const WindowArrays& windows, std::size_t tile, const float* unmixed,  \
+                               float* values) {                                                      \
+    windowOf(windows, tile, unmixed, values);                                                        \
+  }                                                                                                  \
+  __VA_ARGS__ void step##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {    \
+    passOver<false>(rows, camera, columns);                                                          \
+  }                                                                                                  \
+  __VA_ARGS__ void correct##set(const PatchRows& rows, const CameraArrays& camera, float* columns) { \
+    passOver<true>(rows, camera, columns);                                                           \
+  }                                                                                                  \
+  __VA_ARGS__ std::size_t update##set(float* p, const float* c, const float* back, float length,     \
+                                      std::size_t count) {                                           \
+    return updateAll(p, c, back, length, count);                                                     \
+  }                                                                                                  \
+  __VA_ARGS__ void reciprocal##set(float* c, const float* free, float least, std::size_t count) {    \
+    reciprocalOf(c, free, least, count);                                                             \
+  }
+
+RELUCENT_KERNELS(Baseline)
 #ifdef __x86_64__
-[[gnu::target("avx2,fma")]] void windowAvx2(const WindowArrays& windows, std::size_t tile,
-                                            const float* unmixed, float* values) {
-  windowOf(windows, tile, unmixed, values);
-}
-[[gnu::target("avx2,fma")]] void stepAvx2(const PatchRows& rows, const CameraArrays& camera,
-                                          const float* light, float* sums) {
-  passOver<false>(rows, camera, light, sums);
-}
-[[gnu::target("avx2,fma")]] void correctAvx2(const PatchRows& rows, const CameraArrays& camera,
-                                             const float* light, float* sums) {
-  passOver<true>(rows, camera, light, sums);
-}
+RELUCENT_KERNELS(Avx2, [[gnu::target("avx2,fma")]])
 #endif
 
 }  // namespace
 
 std::span<const EngineKernels> engineKernels() {
 #ifdef __x86_64__
-  static const EngineKernels all[] = {{"baseline", windowBaseline, stepBaseline, correctBaseline},
-                                      {"AVX2, FMA", windowAvx2, stepAvx2, correctAvx2}};
+  static const EngineKernels all[] = {
+      {"baseline", windowBaseline, stepBaseline, correctBaseline, updateBaseline, reciprocalBaseline},
+      {"AVX2, FMA", windowAvx2, stepAvx2, correctAvx2, updateAvx2, reciprocalAvx2}};
   static const bool newer = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return {all, newer ? 2u : 1u};
 #else
-  static const EngineKernels all[] = {{"baseline", windowBaseline, stepBaseline, correctBaseline}};
+  static const EngineKernels all[] = {
+      {"baseline", windowBaseline, stepBaseline, correctBaseline, updateBaseline, reciprocalBaseline}};
   return all;
 #endif
 }

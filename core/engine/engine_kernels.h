@@ -28,17 +28,29 @@ struct PatchRows {
   const float* mixing = nullptr;
 };
 
+/// Floats of a column in a pass over T.
+inline constexpr std::size_t stepColumn = 8, correctColumn = 16;
+
+/// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly cut.
+inline constexpr float visibleCut = 0.002f;
+
 /// The inner loops of the engine, for one instruction set. They differ in roundings only.
 struct EngineKernels {
   const char* instructions;
   /// One tile of the windows: values[c * pixels + i] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
   void (*window)(const WindowArrays& windows, std::size_t tile, const float* unmixed, float* values);
-  /// A step's way through T and back for one patch, in one reading of its leaves. `light`: 4 a column, the
-  /// last 0, projector values; `sums`: 4 a column, added to.
+  /// A step's way through T and back for one patch, in one reading of its leaves:
   ///   r = weight (wanted - T light),   sums += T^T r
-  void (*step)(const PatchRows& rows, const CameraArrays& camera, const float* light, float* sums);
-  /// The same with 8 sums a column, the second four of T^T (weight lit); and `unmixed` is written.
-  void (*correct)(const PatchRows& rows, const CameraArrays& camera, const float* light, float* sums);
+  /// `columns`: 8 floats a column, light there and sums back together, because they are needed together:
+  /// projector value 3, 0; sum 3, 0.
+  void (*step)(const PatchRows& rows, const CameraArrays& camera, float* columns);
+  /// The same with 16 floats a column, the third four for the sums of T^T (weight lit), the fourth unused;
+  /// and `unmixed` is written.
+  void (*correct)(const PatchRows& rows, const CameraArrays& camera, float* columns);
+  /// p <- clamp(p + length c back); returns how many values were visibly cut off.
+  std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
+  /// c <- free / c where c > least, 0 elsewhere.
+  void (*reciprocal)(float* c, const float* free, float least, std::size_t count);
 };
 
 /// What this processor can run, the quickest last; the first runs on every processor of its kind.

@@ -195,7 +195,8 @@ void print(const std::vector<Line>& lines, int threads, double copy, const Engin
 
 }  // namespace
 
-// relucent-engine-benchmark [--one-thread] [--no-eigen] [--patch N] [--projector WxH] [--camera WxH] [--transport FILE]
+// relucent-engine-benchmark [--one-thread] [--no-eigen] [--patch N] [--projector WxH] [--camera WxH]
+// [--transport FILE]
 //   --one-thread  seconds of one core instead of seconds on the wall: for machines that others use too
 int main(int argc, char** argv) {
   SyntheticSettings synthetic;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/engine_renderer.h"
 
-#include <QColorSpace>
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "base/error.h"
@@ -22,8 +20,8 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
   calibration_ = loadCalibration(folder, progress);
   EngineSettings settings;
-  venue_ =
-      prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors, settings);
+  venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
+                              settings));
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
   backend_ = std::make_unique<CpuBackend>(*venue_);
   backend_->setContent(*content_);
@@ -42,11 +40,14 @@ QString EngineRenderer::name() const {
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
 }
 
-int EngineRenderer::stepsFor(const RenderRequest& request) const {
+int EngineRenderer::stepsFor(const RenderRequest& request) {
   int all = static_cast<int>(venue_->settings.compensator.steps.size());
-  if (request.thorough || step_ <= 0.0) return request.thorough ? all : std::min(all, 2);
-  double left = shareOfBudget * request.seconds - rest_;
-  return std::clamp(static_cast<int>(std::floor(left / step_)), 0, all);
+  if (request.thorough) return all;
+  if (!budget_ || budgetSeconds_ != request.seconds) {
+    budgetSeconds_ = request.seconds;
+    budget_.emplace(std::chrono::duration<double>(shareOfBudget * request.seconds), all);
+  }
+  return budget_->steps();
 }
 
 RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request) {
@@ -73,10 +74,7 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
   if (!backend_->render(frame, wanted, words_, report))
     throw Error(ErrorKind::device, "the engine lost its device", "start the show again",
                 std::string(backend_->name()));
-  if (request.compensated) {
-    rest_ = report.seconds.count() - report.stepSeconds.count();
-    if (report.steps > 0) step_ = report.stepSeconds.count() / report.steps;
-  }
+  if (request.compensated && !request.thorough) budget_->add(report);
 
   RenderedFrame rendered;
   rendered.clipped = report.clipped;

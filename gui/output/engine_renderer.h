@@ -9,6 +9,7 @@
 #include "content/canvas.h"
 #include "engine/cpu_backend.h"
 #include "engine/engine_plan.h"
+#include "engine/step_budget.h"
 #include "output/frame_renderer.h"
 #include "pipeline/measured_venue.h"
 
@@ -26,16 +27,15 @@ class EngineRenderer : public FrameRenderer {
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override;
 
  private:
-  int stepsFor(const RenderRequest& request) const;
+  int stepsFor(const RenderRequest& request);
 
   MeasuredCalibration calibration_;
   std::optional<EngineVenue> venue_;
   std::optional<EngineContent> content_;
   std::unique_ptr<EngineBackend> backend_;
   std::vector<std::uint32_t> words_;
-  QImage packed_;      // linear content, three floats a pixel
-  double rest_ = 0.0;  // seconds of a frame without its steps, and of one step, as the last ones took
-  double step_ = 0.0;
+  std::optional<StepBudget> budget_;
+  double budgetSeconds_ = 0.0;  // that the budget is for
 };
 
 }  // namespace relucent

@@ -53,7 +53,7 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
       throw Error(ErrorKind::input,
                   fmt::format("no display beside the operator's has the {}x{} pixels of the projector",
                               projector.width(), projector.height()),
-                  fmt::format("plug it in, set it to that size, or name it with --display; there are: {}",
+                  fmt::format("plug it in, set it to that size, or name it with --screen; there are: {}",
                               allDescribed().toStdString()));
     displays.push_back(identityOf(**found));
     screens.erase(found);

@@ -10,12 +10,12 @@
 namespace relucent {
 
 inline const ScreenIdentity projector{"DUMMY1", "", "", ""};
-inline constexpr QSize size{1024, 768};
+inline constexpr QSize projectorSize{1024, 768};
 
 /// The content as it is, or its negative where it is not to be compensated.
 class ScriptedRenderer : public FrameRenderer {
  public:
-  std::vector<QSize> projectors() const override { return {size}; }
+  std::vector<QSize> projectors() const override { return {projectorSize}; }
   QString name() const override { return "scripted"; }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
     ++rendered;

@@ -23,12 +23,12 @@ class TestShow : public QObject {
 
   QString picture(const char* name, quint32 seed) {
     QString file = folder_->filePath(name);
-    noise(size, seed).save(file);
+    noise(projectorSize, seed).save(file);
     return file;
   }
   ShowSettings settings(const QStringList& files) {
     ShowSettings settings;
-    settings.canvas = {size, Fit::fill};
+    settings.canvas = {projectorSize, Fit::fill};
     settings.folder = folder_->filePath("log");
     settings.content.fadeSeconds = 0.0;
     for (const QString& file : files) settings.content.items.append({file, 86400.0});
@@ -63,7 +63,7 @@ class TestShow : public QObject {
   void playsTellsItsHealthAndEndsBlack() {
     auto show = showOf(settings({picture("a.png", 3)}));
     show->start();
-    QTRY_VERIFY(seenOn("DUMMY1") == noise(size, 3));
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     QCOMPARE(health()["state"].toString(), QString("playing"));
     QCOMPARE(health()["renderer"].toString(), QString("scripted"));
     QCOMPARE(health()["displays"].toArray().size(), 1);
@@ -77,12 +77,12 @@ class TestShow : public QObject {
   void aLostDisplayIsToldAndWaitedFor() {
     auto show = showOf(settings({picture("a.png", 3)}));
     show->start();
-    QTRY_VERIFY(seenOn("DUMMY1") == noise(size, 3));
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     unplug();
     QTRY_VERIFY(!health()["displays"][0]["shining"].toBool());
     QVERIFY(log().contains("display lost: DUMMY1"));
     plug();
-    QTRY_VERIFY(seenOn("DUMMY1") == noise(size, 3));
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     QTRY_VERIFY(health()["displays"][0]["shining"].toBool());
     QVERIFY(log().contains("display back: DUMMY1"));
   }
@@ -97,7 +97,7 @@ class TestShow : public QObject {
     cannotBeMade_ = true;
     QTRY_VERIFY(log().contains("the calibration is gone"));
     broken_ = cannotBeMade_ = false;
-    QTRY_VERIFY_WITH_TIMEOUT(seenOn("DUMMY1") == noise(size, 3), 20'000);
+    QTRY_VERIFY_WITH_TIMEOUT(seenOn("DUMMY1") == noise(projectorSize, 3), 20'000);
     QCOMPARE(health()["state"].toString(), QString("playing"));
   }
 
@@ -105,23 +105,24 @@ class TestShow : public QObject {
     ShowSettings wanted = settings({folder_->filePath("gone.png"), picture("b.png", 4)});
     auto show = showOf(wanted);
     show->start();
-    QTRY_VERIFY(seenOn("DUMMY1") == noise(size, 4));
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 4));
     show->stop();
     QCOMPARE(health()["skipped"].toInt(), 1);
     QVERIFY(log().contains("gone.png"));
   }
 
   void displaysAreChosenBySizeOrName() {
-    QCOMPARE(displaysFor({size}, {}).front().connector, QString("DUMMY1"));
-    QCOMPARE(displaysFor({size}, {"DUMMY0"}).front().connector, QString("DUMMY0"));  // named on purpose
-    QCOMPARE(displaysFor({size}, {"HDMI-7"}).front().connector, QString("HDMI-7"));  // not there yet
+    QCOMPARE(displaysFor({projectorSize}, {}).front().connector, QString("DUMMY1"));
+    QCOMPARE(displaysFor({projectorSize}, {"DUMMY0"}).front().connector,
+             QString("DUMMY0"));  // named on purpose
+    QCOMPARE(displaysFor({projectorSize}, {"HDMI-7"}).front().connector, QString("HDMI-7"));  // not there yet
     auto sentence = [](const std::vector<QSize>& sizes, const QStringList& named) {
       return sentenceOf([&] { displaysFor(sizes, named); }, ErrorKind::input);
     };
     QVERIFY(mentions(sentence({QSize(1920, 1200)}, {}), "1920x1200"));
     QVERIFY(mentions(sentence({QSize(1366, 768)}, {}), "operator's"));  // there, and not to be taken
-    QVERIFY(mentions(sentence({size, size}, {}), "DUMMY1 (1024x768)"));
-    QVERIFY(mentions(sentence({size}, {"A", "B"}), "2 displays are named for 1"));
+    QVERIFY(mentions(sentence({projectorSize, projectorSize}, {}), "DUMMY1 (1024x768)"));
+    QVERIFY(mentions(sentence({projectorSize}, {"A", "B"}), "2 displays are named for 1"));
   }
 };
 

@@ -99,18 +99,6 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
   return true;
 }
 
-unsigned CpuBackend::finish(std::size_t pixel, const float* values) noexcept {
-  float* out = &nodes_[3 * pixel];
-  const float free = free_[3 * pixel];
-  unsigned cut = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const float value = free * values[c];
-    cut += static_cast<unsigned>(value < -visibleCut) | static_cast<unsigned>(value > 1.0f + visibleCut);
-    out[c] = clamp01(value);
-  }
-  return cut;
-}
-
 void CpuBackend::warpOnly() noexcept {
   // The brightness that brings flood * content nearest to what is wanted; summed in fixed parts.
   constexpr std::size_t parts = 64;
@@ -130,53 +118,58 @@ void CpuBackend::warpOnly() noexcept {
     allSeen += seen[part];
   }
   float brightness = allSeen > 0.0 ? static_cast<float>(std::clamp(allWanted / allSeen, 0.0, 1.0)) : 1.0f;
+  // Content lies between 0 and 1, and so does the brightness: nothing is cut off.
   clipped_ = 0;
   parallelFor(0, engine_.brightest.size(), 1024, [&](std::size_t j) {
-    float values[3] = {};
-    if (engine_.brightest[j] >= 0)
-      for (std::size_t c = 0; c < 3; ++c)
-        values[c] = brightness * placed_[3 * static_cast<std::size_t>(engine_.brightest[j]) + c];
-    finish(j, values);
+    const bool shown = engine_.brightest[j] >= 0 && content_->free[j];
+    const std::size_t from = shown ? 3 * static_cast<std::size_t>(engine_.brightest[j]) : 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      nodes_[3 * j + c] = shown ? clamp01(brightness * placed_[from + c]) : 0.0f;
   });
 }
 
 void CpuBackend::invert(bool correction) noexcept {
   const float byInverse = engine_.settings.compensator.correctionByInverse;
-  const float byAdjoint = engine_.settings.compensator.correctionByAdjoint;
   const Rasters& projectors = engine_.venue.transport.projectors();
   const std::size_t side = static_cast<std::size_t>(windows_.tile), pixels = side * side;
-  clipped_ = 0;
   for (std::size_t device = 0; device < projectors.devices(); ++device) {
     const Size size = projectors.size(device), grid = windows_.tiles->size(device);
     const std::size_t firstTile = windows_.tiles->offset(device), firstPixel = projectors.offset(device);
-    constexpr std::size_t tilesOfATask = 64;
-    parallelChunks(
-        0, grid.count(), (grid.count() + tilesOfATask - 1) / tilesOfATask,
-        [&](std::size_t, std::size_t begin, std::size_t end) {
-          float values[3 * 64];  // of a tile of 8x8, the largest
-          std::size_t cut = 0;
-          for (std::size_t tile = begin; tile < end; ++tile) {
-            kernels_.window(windows_, firstTile + tile, unmixed_.data(), values);
-            const Pixel place = pixelAt(grid, tile);
-            const int left = place.x * windows_.tile, top = place.y * windows_.tile;
-            const int width = std::min(windows_.tile, size.width - left);
-            const int height = std::min(windows_.tile, size.height - top);
-            for (int y = 0; y < height; ++y) {
-              for (int x = 0; x < width; ++x) {
-                const std::size_t pixel = firstPixel + indexOf(size, {left + x, top + y});
-                const std::size_t i = static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
-                float p[3] = {values[i], values[pixels + i], values[2 * pixels + i]};
-                if (correction)
-                  for (std::size_t c = 0; c < 3; ++c)
-                    p[c] = nodes_[3 * pixel + c] +
-                           (byInverse * p[c] + byAdjoint * bound_[3 * pixel + c] * adjoint_[3 * pixel + c]);
-                cut += finish(pixel, p);
-              }
-            }
+    parallelFor(0, grid.count(), 64, [&](std::size_t tile) {
+      float values[3 * 64];  // of a tile of 8x8, the largest
+      kernels_.window(windows_, firstTile + tile, unmixed_.data(), !correction, values);
+      const Pixel place = pixelAt(grid, tile);
+      const int left = place.x * windows_.tile, top = place.y * windows_.tile;
+      const int width = std::min(windows_.tile, size.width - left);
+      const int height = std::min(windows_.tile, size.height - top);
+      for (int y = 0; y < height; ++y) {
+        std::size_t pixel = firstPixel + indexOf(size, {left, top + y});
+        std::size_t i = static_cast<std::size_t>(y) * side;
+        for (int x = 0; x < width; ++x, ++pixel, ++i) {
+          float* const p = &nodes_[3 * pixel];
+          const float free = free_[3 * pixel];
+          for (std::size_t c = 0; c < 3; ++c) {
+            const float value = free * values[c * pixels + i];
+            p[c] = correction ? p[c] + byInverse * value : value;
           }
-          clipped_.fetch_add(cut, std::memory_order_relaxed);
-        });
+        }
+      }
+    });
   }
+  if (correction) update(engine_.settings.compensator.correctionByAdjoint);
+}
+
+void CpuBackend::update(float length) noexcept {
+  constexpr std::size_t valuesOfATask = 12288;
+  const std::size_t values = free_.size();
+  clipped_ = 0;
+  // Where nothing is free, C is 0 and p stays 0.
+  parallelChunks(0, values, (values + valuesOfATask - 1) / valuesOfATask,
+                 [&](std::size_t, std::size_t begin, std::size_t end) {
+                   std::size_t cut =
+                       kernels_.update(&nodes_[begin], &bound_[begin], &adjoint_[begin], length, end - begin);
+                   clipped_.fetch_add(cut, std::memory_order_relaxed);
+                 });
 }
 
 void CpuBackend::passThrough(Pass pass) noexcept {
@@ -256,16 +249,7 @@ void CpuBackend::makePreconditioner() noexcept {
 
 void CpuBackend::refine(float length) noexcept {
   passThrough(Pass::step);
-  clipped_ = 0;
-  constexpr std::size_t valuesOfATask = 12288;
-  const std::size_t values = free_.size();
-  // Where nothing is free, C is 0 and p stays 0.
-  parallelChunks(0, values, (values + valuesOfATask - 1) / valuesOfATask,
-                 [&](std::size_t, std::size_t begin, std::size_t end) {
-                   std::size_t cut =
-                       kernels_.update(&nodes_[begin], &bound_[begin], &adjoint_[begin], length, end - begin);
-                   clipped_.fetch_add(cut, std::memory_order_relaxed);
-                 });
+  update(length);
 }
 
 void CpuBackend::encode(std::span<std::uint32_t> words) const noexcept {

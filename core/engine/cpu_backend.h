@@ -40,16 +40,16 @@ class CpuBackend : public EngineBackend {
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
   void warpOnly() noexcept;
-  /// p = clamp(M u), or p = clamp(p + m M u + a C adjoint).
+  /// p = clamp(M u), or p = clamp(p + m M u + a C adjoint) with the settings' shares m and a.
   void invert(bool correction) noexcept;
   /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction C and u = U r.
   void passThrough(Pass pass) noexcept;
   void sumPatches(Pass pass) noexcept;
   void makePreconditioner() noexcept;
   void refine(float length) noexcept;
+  /// p = clamp(p + length C adjoint), and how many values that cut off.
+  void update(float length) noexcept;
   void encode(std::span<std::uint32_t> words) const noexcept;
-  /// Clamps values of one projector pixel into p; returns how many of them were visibly cut off.
-  unsigned finish(std::size_t pixel, const float* values) noexcept;
 
   const EngineVenue& engine_;
   const EngineContent* content_ = nullptr;

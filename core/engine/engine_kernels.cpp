@@ -47,13 +47,21 @@ RELUCENT_KERNEL void addEight(WideFloats& sum, const std::int16_t* from, float f
   sum += factor * __builtin_convertvector(__builtin_convertvector(codes, WideIntegers), WideFloats);
 }
 
-RELUCENT_KERNEL void storeEight(float* to, const WideFloats& sum, float scale) {
+/// In two steps, each of them one instruction; what is no number becomes 0.
+RELUCENT_KERNEL void clampEight(WideFloats& values) {
+  constexpr WideFloats zero{}, one = zero + 1.0f;
+  values = values > zero ? values : zero;
+  values = values < one ? values : one;
+}
+
+RELUCENT_KERNEL void storeEight(float* to, const WideFloats& sum, float scale, bool clamped) {
   WideFloats scaled = scale * sum;
+  if (clamped) clampEight(scaled);
   std::memcpy(to, &scaled, sizeof scaled);
 }
 
 RELUCENT_KERNEL void windowOf(const WindowArrays& windows, std::size_t tile, const float* unmixed,
-                              float* values) {
+                              bool clamped, float* values) {
   constexpr std::size_t lanes = 16;  // pixels at once: six sums, which stay in registers
   const auto pixels = static_cast<std::size_t>(windows.tile * windows.tile);
   const std::size_t begin = windows.start[tile], end = windows.start[tile + 1];
@@ -70,12 +78,12 @@ RELUCENT_KERNEL void windowOf(const WindowArrays& windows, std::size_t tile, con
       addEight(blueLow, code + 2 * pixels, in[2]);
       addEight(blueHigh, code + 2 * pixels + 8, in[2]);
     }
-    storeEight(values + part, redLow, scale[0]);
-    storeEight(values + part + 8, redHigh, scale[0]);
-    storeEight(values + pixels + part, greenLow, scale[1]);
-    storeEight(values + pixels + part + 8, greenHigh, scale[1]);
-    storeEight(values + 2 * pixels + part, blueLow, scale[2]);
-    storeEight(values + 2 * pixels + part + 8, blueHigh, scale[2]);
+    storeEight(values + part, redLow, scale[0], clamped);
+    storeEight(values + part + 8, redHigh, scale[0], clamped);
+    storeEight(values + pixels + part, greenLow, scale[1], clamped);
+    storeEight(values + pixels + part + 8, greenHigh, scale[1], clamped);
+    storeEight(values + 2 * pixels + part, blueLow, scale[2], clamped);
+    storeEight(values + 2 * pixels + part + 8, blueHigh, scale[2], clamped);
   }
 }
 
@@ -143,15 +151,13 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
 /// Eight values of an update in place; `cut` counts down where a value is visibly cut off.
 RELUCENT_KERNEL void updateEight(float* p, const float* c, const float* back, float length,
                                  WideIntegers& cut) {
-  constexpr WideFloats zero{}, one = zero + 1.0f;
   WideFloats value, factor, more;
   std::memcpy(&value, p, sizeof value);
   std::memcpy(&factor, c, sizeof factor);
   std::memcpy(&more, back, sizeof more);
   value += length * factor * more;
   cut += (value < -visibleCut) | (value > 1.0f + visibleCut);
-  value = value > zero ? value : zero;
-  value = value < one ? value : one;
+  clampEight(value);
   std::memcpy(p, &value, sizeof value);
 }
 
@@ -192,8 +198,8 @@ RELUCENT_KERNEL void reciprocalOf(float* c, const float* free, float least, std:
 // One version of each for an instruction set.
 #define RELUCENT_KERNELS(set, ...)                                                                   \
   __VA_ARGS__ void window##set(const WindowArrays& windows, std::size_t tile, const float* unmixed,  \
-                               float* values) {                                                      \
-    windowOf(windows, tile, unmixed, values);                                                        \
+                               bool clamped, float* values) {                                        \
+    windowOf(windows, tile, unmixed, clamped, values);                                               \
   }                                                                                                  \
   __VA_ARGS__ void step##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {    \
     passOver<false>(rows, camera, columns);                                                          \

@@ -38,7 +38,9 @@ inline constexpr float visibleCut = 0.002f;
 struct EngineKernels {
   const char* instructions;
   /// One tile of the windows: values[c * pixels + i] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
-  void (*window)(const WindowArrays& windows, std::size_t tile, const float* unmixed, float* values);
+  /// `clamped`: to 0 and 1.
+  void (*window)(const WindowArrays& windows, std::size_t tile, const float* unmixed, bool clamped,
+                 float* values);
   /// A step's way through T and back for one patch, in one reading of its leaves:
   ///   r = weight (wanted - T light),   sums += T^T r
   /// `columns`: 8 floats a column, light there and sums back together, because they are needed together:

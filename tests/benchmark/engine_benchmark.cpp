@@ -45,7 +45,7 @@ Timing timed(const std::function<void()>& run) {
   run();
   std::vector<double> seconds;
   double sum = 0.0;
-  while (seconds.size() < 5 || (sum < 2.0 && seconds.size() < 60)) {
+  while (seconds.size() < 5 || (sum < 0.5 && seconds.size() < 60)) {
     double begin = now();
     run();
     seconds.push_back(now() - begin);
@@ -116,6 +116,12 @@ Plane transportPlane(const EngineVenue& engine, std::size_t channel) {
   return plane;
 }
 
+void add(std::vector<Line>& lines, Line line) {
+  fmt::print(stderr, "{:<40} {:8.2f} ms, best {:8.2f} ms\n", line.name, 1e3 * line.timing.median,
+             1e3 * line.timing.best);
+  lines.push_back(std::move(line));
+}
+
 void timeBackend(CpuBackend& backend, const EngineVenue& engine, std::vector<Line>& lines) {
   const Size size{1920, 1080};
   std::vector<std::uint8_t> pixels(4 * size.count());
@@ -131,13 +137,13 @@ void timeBackend(CpuBackend& backend, const EngineVenue& engine, std::vector<Lin
   auto windows = static_cast<double>(engine.inverse.bytes());
   auto transport = static_cast<double>(engine.transport.bytes());
   backend.render(frame, {}, words, report);
-  lines.push_back({name + ": M", timed([&] { backend.applyWindows(); }), windows});
-  lines.push_back({name + ": step", timed([&] { backend.takeStep(1.2f); }), transport});
+  add(lines, {name + ": M", timed([&] { backend.applyWindows(); }), windows});
+  add(lines, {name + ": step", timed([&] { backend.takeStep(1.2f); }), transport});
   for (int steps : {0, 1, 2})
-    lines.push_back({fmt::format("{}: frame, K = {}", name, steps), timed([&] {
-                       backend.render(frame, {true, steps, 1.0f, 0.0f}, words, report);
-                     }),
-                     2 * windows + (1 + steps) * transport});
+    add(lines, {fmt::format("{}: frame, K = {}", name, steps), timed([&] {
+                  backend.render(frame, {true, steps, 1.0f, 0.0f}, words, report);
+                }),
+                2 * windows + (1 + steps) * transport});
 }
 
 void timeEigen(const EngineVenue& engine, std::vector<Line>& lines) {
@@ -146,9 +152,9 @@ void timeEigen(const EngineVenue& engine, std::vector<Line>& lines) {
     Plane plane = windowsPlane(engine, 0);
     Eigen::VectorXf in = Eigen::VectorXf::Random(plane.cols()), out(plane.rows());
     Timing timing = timed([&] { out.noalias() = plane * in; });
-    lines.push_back({"Eigen CSR: M",
-                     {3 * timing.median, 3 * timing.best},
-                     3.0 * 8.0 * static_cast<double>(plane.nonZeros())});
+    add(lines, {"Eigen CSR: M",
+                {3 * timing.median, 3 * timing.best},
+                3.0 * 8.0 * static_cast<double>(plane.nonZeros())});
   }
   Plane plane = transportPlane(engine, 0);
   Eigen::VectorXf in = Eigen::VectorXf::Random(plane.cols()), out(plane.rows()), back(plane.cols());
@@ -156,9 +162,9 @@ void timeEigen(const EngineVenue& engine, std::vector<Line>& lines) {
     out.noalias() = plane * in;
     back.noalias() = plane.transpose() * out;
   });
-  lines.push_back({"Eigen CSR: T p and adjoint",
-                   {3 * timing.median, 3 * timing.best},
-                   6.0 * 8.0 * static_cast<double>(plane.nonZeros())});
+  add(lines, {"Eigen CSR: T p and adjoint",
+              {3 * timing.median, 3 * timing.best},
+              6.0 * 8.0 * static_cast<double>(plane.nonZeros())});
 }
 
 Size sizeOf(const std::string& text) {
@@ -226,17 +232,17 @@ int main(int argc, char** argv) {
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   double copy = copied();
   std::vector<Line> lines;
-  for (const EngineKernels& kernels : engineKernels()) {
-    CpuBackend backend(engine, &kernels);
+  for (std::size_t i = engineKernels().size(); i-- > 0;) {
+    CpuBackend backend(engine, &engineKernels()[i]);
     timeBackend(backend, engine, lines);
   }
   Stack projector = randomStack(venue.transport.projectors().count(), 1);
   Stack camera = randomStack(venue.transport.cameras().count(), 2);
   lines.push_back(
       {"WindowInverse::apply", timed([&] { inverse.apply(camera); }), static_cast<double>(inverse.bytes())});
-  lines.push_back({"TransportMatrix: T p and adjoint",
-                   timed([&] { venue.transport.applyTransposed(venue.transport.apply(projector)); }),
-                   2.0 * static_cast<double>(venue.transport.leaves().bytes())});
+  add(lines, {"TransportMatrix: T p and adjoint",
+              timed([&] { venue.transport.applyTransposed(venue.transport.apply(projector)); }),
+              2.0 * static_cast<double>(venue.transport.leaves().bytes())});
   if (eigen) timeEigen(engine, lines);
   print(lines, threads, copy, engine);
 }

@@ -10,7 +10,8 @@ fail() {
   exit 1
 }
 
-# The requirements of some sections of packaging/dependencies, one a line, alternatives between "|".
+# The requirements of some sections of packaging/dependencies, one a line, alternatives between "|", a "?"
+# behind what not every release has.
 requirements() {
   local section wanted=" $* " line
   while read -r line; do
@@ -37,6 +38,10 @@ missingPackages() {
   while read -r requirement; do
     read -ra alternatives <<<"${requirement//|/ }"
     choice=
+    if [[ ${alternatives[-1]} == "?" ]]; then
+      isOffered "${alternatives[0]}" || continue
+      unset 'alternatives[-1]'
+    fi
     for package in "${alternatives[@]}"; do
       if isInstalled "$package"; then continue 2; fi
     done

@@ -25,19 +25,24 @@ function(relucent_core_library name)
 endfunction()
 
 # relucent_test(core/image/test_color.cpp USES image ...): one Qt Test program, one ctest entry.
+#   ON_TWO_SCREENS  on an X server with an operator's and a projector's screen; skipped where none starts
 function(relucent_test source)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "ON_TWO_SCREENS" "TIMEOUT" "USES;LIBRARIES" ${ARGN})
   get_filename_component(name ${source} NAME_WE)
   add_executable(${name} ${source})
   set_target_properties(${name} PROPERTIES AUTOMOC ON)
   list(TRANSFORM ARG_USES PREPEND relucent_)
   target_link_libraries(${name} PRIVATE relucent_options Qt6::Test ${ARG_USES} ${ARG_LIBRARIES})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name})
+  set(command ${name})
+  if(ARG_ON_TWO_SCREENS)
+    set(command ${CMAKE_SOURCE_DIR}/tests/support/with-two-screens $<TARGET_FILE:${name}>)
+  endif()
+  add_test(NAME ${name} COMMAND ${command})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
   # Qt Test has a limit of its own, 300 s for each function, whatever ctest allows.
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
     ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${CMAKE_SOURCE_DIR}/../shared/data")
 endfunction()

@@ -22,6 +22,10 @@ std::size_t WindowInverse::bytes() const {
          scale_.size() * sizeof(float);
 }
 
+WindowArrays WindowInverse::view() const {
+  return {&tiles_, tile_, unmix_.data(), tileStart_.data(), row_.data(), weight_.data(), scale_.data()};
+}
+
 Stack WindowInverse::apply(const Stack& cameraResidual) const {
   Stack light = unmixed(unmix_, cameraResidual);
   Stack projector(3 * projectors_.count());

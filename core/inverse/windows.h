@@ -17,6 +17,18 @@ struct WindowSettings {
 };
 std::vector<std::string> problems(const WindowSettings& settings);
 
+/// The arrays of a WindowInverse, without owning them: for programs that apply it with loops of their own.
+/// Valid as long as the WindowInverse.
+struct WindowArrays {
+  const Rasters* tiles = nullptr;        // their grid on each projector
+  int tile = 0;                          // side of a tile in pixels
+  const float* unmix = nullptr;          // 3x3 a camera pixel, row-major
+  const std::size_t* start = nullptr;    // window rows of tile t: [start[t], start[t + 1])
+  const std::uint32_t* row = nullptr;    // camera pixel of a window row
+  const std::int16_t* weight = nullptr;  // [window row][channel][pixel of the tile]
+  const float* scale = nullptr;          // [tile][channel]: weight = scale * code
+};
+
 /// The default inverse operator: for every tile of projector pixels a small regularised inverse over the
 /// camera pixels that see it strongest; the windows of neighbouring tiles overlap.
 ///   p_tile = M_tile U r,   M_tile = T_J^T (G + lambda N)^-1,   G = T_W T_W^T
@@ -36,6 +48,8 @@ class WindowInverse {
   /// Shapes: 3 * cameras().count() -> 3 * projectors().count().
   /// Units: camera signal per second -> linear drive. Projector pixels that no camera pixel sees stay 0.
   Stack apply(const Stack& cameraResidual) const;
+
+  WindowArrays view() const;
 
   /// The whole operator for other programs, unmixing included: rows = projector pixels, columns = camera
   /// pixels.

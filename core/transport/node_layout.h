@@ -60,6 +60,12 @@ class NodeLayout {
   /// The adjoint A^T: spreads every node's value evenly over its pixels, in the memory that it is given.
   Stack meansAdjoint(Stack nodeValues) const;
 
+  /// The same in place, for loops that must not allocate: the pixels' values, which come first, make those
+  /// of all coarser nodes; or all nodes' values gather in the pixels', and the coarser ones are spent.
+  /// Contract: 3 * count() values.
+  void fillMeans(std::span<float> nodeValues) const;
+  void gatherMeansAdjoint(std::span<float> nodeValues) const;
+
  private:
   struct Grid {
     Size size;

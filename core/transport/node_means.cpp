@@ -89,6 +89,11 @@ Stack NodeLayout::means(const Stack& pattern) const {
   values.reserve(3 * count_);
   values.assign(pattern.begin(), pattern.end());
   values.resize(3 * count_);
+  fillMeans(values);
+  return values;
+}
+
+void NodeLayout::fillMeans(std::span<float> values) const {
   for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
     Size pixels = projectors_.size(projector);
     for (int level = 1; level < levels(projector); ++level) {
@@ -106,11 +111,16 @@ Stack NodeLayout::means(const Stack& pattern) const {
       });
     }
   }
-  return values;
 }
 
 Stack NodeLayout::meansAdjoint(Stack nodeValues) const {
   require(nodeValues.size() == 3 * count_, "{} values for {} nodes", nodeValues.size(), count_);
+  gatherMeansAdjoint(nodeValues);
+  nodeValues.resize(3 * projectors_.count());
+  return nodeValues;
+}
+
+void NodeLayout::gatherMeansAdjoint(std::span<float> nodeValues) const {
   for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
     Size pixels = projectors_.size(projector);
     for (int level = levels(projector) - 1; level > 0; --level) {
@@ -126,8 +136,6 @@ Stack NodeLayout::meansAdjoint(Stack nodeValues) const {
       });
     }
   }
-  nodeValues.resize(3 * projectors_.count());
-  return nodeValues;
 }
 
 }  // namespace relucent

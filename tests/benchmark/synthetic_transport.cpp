@@ -32,7 +32,8 @@ BlockSparse syntheticLeaves(const SyntheticSettings& settings, const NodeLayout&
         builder.add(row, layout.index({0, 0, x, y}), randomBlock(random, 1.0f));
 
     for (int i = 0; i < settings.coarseNodes; ++i) {
-      Node node = layout.nodeOver(random.below(projector.count()), 3 + i % 4);
+      Node node =
+          layout.nodeOver(random.below(projector.count()), settings.finestCoarse + i % settings.coarseLevels);
       builder.add(row, layout.index(node), randomBlock(random, 0.05f));
     }
   }

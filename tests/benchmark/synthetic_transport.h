@@ -11,7 +11,9 @@ struct SyntheticSettings {
   Size projector{1024, 768};
   Size camera{640, 480};
   int footprint = 4;     // the direct light: a square of this many projector pixels a side
-  int coarseNodes = 24;  // interreflections: nodes of 8x8 pixels and coarser
+  int coarseNodes = 24;  // interreflections, at random places
+  int finestCoarse = 3;  // they are nodes of this level (8x8 pixels) ...
+  int coarseLevels = 4;  // ... and the next coarser ones, so many levels in all
 };
 
 /// Leaves as an acquisition finds them: each camera pixel sees the neighbouring projector pixels at its

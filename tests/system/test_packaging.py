@@ -88,6 +88,16 @@ class Install(Scripted):
         self.assertEqual(self.install("build").returncode, 0)
         self.assertRegex(self.calls()[-1], r" new-name$")
 
+    def test_what_a_release_may_lack_is_installed_only_where_it_is_offered(self):
+        (self.folder / "packaging/dependencies").write_text("[build]\nalpha\nsplit-off ?\n")
+        for offered, calls in [("alpha", 0), ("alpha split-off", 3)]:
+            self.says(installed="alpha", offered=offered, sudo="", calls="")
+            done = self.install("build")
+            self.assertEqual((done.returncode, len(self.calls())), (0, calls), done.stderr)
+        self.assertRegex(self.calls()[-1], r" split-off$")
+        self.says(installed="alpha split-off", calls="")
+        self.assertEqual((self.install("build").stdout, self.calls()), ("", []))
+
     def test_without_root_and_sudo_one_sentence_names_packages_and_command(self):
         done = self.install("build")
         self.assertEqual((done.returncode, done.stdout, self.calls()), (1, "", []))
@@ -157,7 +167,7 @@ class TheList(unittest.TestCase):
         package = r"[a-z0-9][a-z0-9.+-]+"
         for line in (SOURCE / "packaging/dependencies").read_text().splitlines():
             text = line.split("#")[0].strip()
-            self.assertRegex(text, rf"^(|\[(build|run|tests)\]|{package}( \| {package})*)$", line)
+            self.assertRegex(text, rf"^(|\[(build|run|tests)\]|{package}( \?|( \| {package})*))$", line)
 
     def test_the_scripts_parse(self):
         for script in (SOURCE / "packaging").iterdir():

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "engine/content_frame.h"
+#include "engine/engine_plan.h"
+
+namespace relucent {
+
+/// What is asked of one frame.
+struct FrameRequest {
+  bool compensated = true;  // false: the content warped into place only, under its best brightness
+  int steps = 2;            // K: how many of the refinement steps
+  float brightness = 1.0f;  // of the content's white, relative to the target's
+  float blackLift = 0.0f;   // share of white added to black
+};
+
+/// What a frame took and came to.
+struct FrameReport {
+  int steps = 0;
+  double clipped = 0.0;  // share of the content's projector values that the projector's limits cut off
+  std::chrono::duration<double> seconds{};      // the whole frame
+  std::chrono::duration<double> stepSeconds{};  // all its refinement steps
+};
+
+/// Something that turns content into projector pictures, frame by frame.
+class EngineBackend {
+ public:
+  virtual ~EngineBackend() = default;
+
+  /// What it runs on, for people: "CPU, AVX2, FMA".
+  virtual std::string_view name() const = 0;
+  /// Takes over content of another size. May allocate. `content` must outlive its use.
+  /// Throws: Error{device} if the device is out of memory or gone.
+  virtual void setContent(const EngineContent& content) = 0;
+  /// One frame. `frame.size` must be what setContent() was given. `words`: one 32-bit word for each pixel of
+  /// all projectors in turn, see DriveEncoder. False: the device was lost, `words` hold nothing of use.
+  virtual bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
+                      FrameReport& report) noexcept = 0;
+};
+
+}  // namespace relucent

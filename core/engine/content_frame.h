@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "base/raster.h"
+
+namespace relucent {
+
+/// A picture in somebody else's memory, top row first.
+struct ContentFrame {
+  enum class Format {
+    rgb8,         // sRGB-encoded, 3 bytes a pixel
+    rgba8,        // sRGB-encoded, 4 bytes a pixel, the fourth is not looked at
+    bgra8,        // the same with blue first
+    linearFloat,  // linear light, 3 floats a pixel; cut off at 0 and 1, what is no number is 0
+  };
+
+  const void* data = nullptr;
+  Size size;
+  std::size_t bytesPerLine = 0;  // for linearFloat a multiple of 4
+  Format format = Format::rgb8;
+};
+
+constexpr std::size_t bytesPerPixel(ContentFrame::Format format) {
+  switch (format) {
+    case ContentFrame::Format::rgb8:
+      return 3;
+    case ContentFrame::Format::rgba8:
+    case ContentFrame::Format::bgra8:
+      return 4;
+    case ContentFrame::Format::linearFloat:
+      break;
+  }
+  return 12;
+}
+
+}  // namespace relucent

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "engine/engine_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+void checkFinite(const Stack& values, const char* what) {
+  for (float value : values)
+    if (!std::isfinite(value))
+      throw Error(ErrorKind::numerics, fmt::format("{} holds values that are not finite", what),
+                  "measure the venue again");
+}
+
+Placement placementOf(const EngineVenue& engine, Size content, const Corners& chosen) {
+  const TargetSettings& target = engine.settings.target;
+  if (!target.corners) return {chosen, {}};
+  return fitted(*target.corners, static_cast<double>(content.width) / content.height, target.fit);
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const EngineSettings& settings) {
+  std::vector<std::string> found = problems(settings.target);
+  for (const std::string& problem : problems(settings.compensator)) found.push_back(problem);
+  if (settings.bits != 8 && settings.bits != 10) found.push_back("a projector takes 8 or 10 bits");
+  if (settings.patchSide < 8 || settings.patchSide > 256)
+    found.push_back("the patches of the light transport must be 8 to 256 camera pixels wide");
+  return found;
+}
+
+EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& inverse,
+                         const std::vector<ProjectorResponse>& responses, const EngineSettings& settings) {
+  auto wrong = problems(settings);
+  require(wrong.empty(), "engine settings: {}", fmt::join(wrong, "; "));
+  const TransportMatrix& transport = venue.transport;
+  require(inverse.cameras() == transport.cameras() && inverse.projectors() == transport.projectors(),
+          "the inverse belongs to another venue");
+  require(responses.size() == transport.projectors().devices(), "{} responses for {} projectors",
+          responses.size(), transport.projectors().devices());
+  std::size_t pixels = transport.cameras().count();
+  require(
+      venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels && venue.usable.size() == pixels,
+      "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(), venue.flood.size(),
+      venue.usable.size(), pixels);
+  checkFinite(venue.black, "the black level");
+  checkFinite(venue.flood, "the flood image");
+  for (std::size_t row = 0; row < transport.leaves().rows(); ++row)
+    if (!std::isfinite(transport.leaves().scale(row)))
+      throw Error(ErrorKind::numerics, "the light transport holds values that are not finite",
+                  "measure the venue again");
+
+  std::vector<DriveEncoder> encoders;
+  for (const ProjectorResponse& response : responses)
+    encoders.emplace_back(response, settings.bits, settings.dither);
+  return {venue,
+          inverse,
+          settings,
+          PackedTransport(transport, settings.patchSide),
+          brightestCorrespondence(transport, venue.usable),
+          meanColourMixing(venue),
+          std::move(encoders)};
+}
+
+EngineContent prepareContent(const EngineVenue& engine, Size content) {
+  require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
+  const MeasuredVenue& venue = engine.venue;
+  // Where content goes and how bright its white is does not depend on what it shows.
+  Target target = fitTarget(Image(content, 3), venue, engine.settings.target);
+  EngineContent result;
+  result.corners = target.corners;
+  result.white = target.white[0];
+  result.warp =
+      ContentWarp(content, placementOf(engine, content, target.corners), venue.transport.cameras().size(0));
+
+  result.free.assign(engine.brightest.size(), 0);
+  Stack lit(3 * result.free.size(), 0.0f);
+  for (std::size_t j = 0; j < result.free.size(); ++j) {
+    if (engine.brightest[j] < 0 || !target.inside[static_cast<std::size_t>(engine.brightest[j])]) continue;
+    result.free[j] = 1;
+    for (std::size_t c = 0; c < 3; ++c) lit[3 * j + c] = 1.0f;
+  }
+  result.lit = venue.transport.apply(lit);
+  return result;
+}
+
+}  // namespace relucent

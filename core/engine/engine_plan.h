@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compensation/methods.h"
+#include "compensation/target.h"
+#include "engine/content_warp.h"
+#include "engine/drive_encoder.h"
+#include "engine/packed_transport.h"
+#include "inverse/windows.h"
+
+namespace relucent {
+
+struct EngineSettings {
+  TargetSettings target;  // where the content goes and how bright it is
+  int bits = 8;           // of the projectors' input: 8 or 10
+  Dither dither = Dither::blueNoise;
+  CompensatorSettings compensator;  // the correction of the windows, and the steps behind it
+  int patchSide = 64;               // of T's patches, in camera pixels: what they touch fits the cache
+};
+std::vector<std::string> problems(const EngineSettings& settings);
+
+/// What frames need to know of a venue, made once. Back ends copy what they want elsewhere.
+struct EngineVenue {
+  const MeasuredVenue& venue;
+  const WindowInverse& inverse;
+  EngineSettings settings;
+  PackedTransport transport;
+  std::vector<std::int32_t> brightest;  // i*(j), see brightestCorrespondence()
+  ColourBlock mixing;                   // K, see meanColourMixing()
+  std::vector<DriveEncoder> encoders;   // one a projector
+};
+
+/// Prepares a venue. `responses`: one for each projector. `venue` and `inverse` must outlive the result.
+/// Throws: Error{numerics} if what was measured holds values that are not finite; std::logic_error if the
+/// inverse belongs to another venue or settings are wrong.
+EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& inverse,
+                         const std::vector<ProjectorResponse>& responses, const EngineSettings& settings);
+
+/// What frames need to know of content of one size: where it goes and what that means for the projectors.
+struct EngineContent {
+  ContentWarp warp;                // into the first camera's view
+  Corners corners{};               // where the content was placed
+  float white = 0.0f;              // wanted signal of the content's white
+  std::vector<std::uint8_t> free;  // per projector pixel: it belongs to the content; the others are black
+  Stack lit;                       // camera stack: what is seen while everything free is fully lit
+};
+
+/// Prepares content of a size, placed as fitTarget() places it.
+/// Throws: as fitTarget().
+EngineContent prepareContent(const EngineVenue& engine, Size content);
+
+}  // namespace relucent

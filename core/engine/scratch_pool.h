@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace relucent {
+
+/// Buffers for the bodies of parallel loops, all made beforehand: a body borrows one and hands it back.
+/// Should there ever be more threads than buffers, a body waits for one.
+class ScratchPool {
+ public:
+  ScratchPool(std::size_t buffers, std::size_t floats)
+      : buffers_(buffers, std::vector<float>(floats)), taken_(new std::atomic_flag[buffers]{}) {}
+
+  /// A buffer on loan.
+  class Loan {
+   public:
+    explicit Loan(ScratchPool& pool) noexcept : pool_(pool), index_(pool.take()) {}
+    ~Loan() { pool_.taken_[index_].clear(std::memory_order_release); }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    float* data() const noexcept { return pool_.buffers_[index_].data(); }
+
+   private:
+    ScratchPool& pool_;
+    std::size_t index_;
+  };
+
+ private:
+  std::size_t take() noexcept {
+    for (std::size_t i = 0;; i = (i + 1) % buffers_.size()) {
+      if (!taken_[i].test_and_set(std::memory_order_acquire)) return i;
+      if (i + 1 == buffers_.size()) std::this_thread::yield();
+    }
+  }
+
+  std::vector<std::vector<float>> buffers_;
+  std::unique_ptr<std::atomic_flag[]> taken_;
+};
+
+}  // namespace relucent

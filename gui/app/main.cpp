@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include <QGuiApplication>
+
+#include "app/show_command.h"
+
+int main(int argc, char** argv) {
+  QGuiApplication application(argc, argv);
+  QGuiApplication::setApplicationName("relucent");
+  QGuiApplication::setApplicationVersion(RELUCENT_VERSION);
+  QGuiApplication::setQuitOnLastWindowClosed(false);
+  return relucent::runShowCommand(QGuiApplication::arguments());
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QImage>
+#include <QString>
+
+#include "compensation/placement.h"
+
+namespace relucent {
+
+/// What all content is brought to before it is compensated.
+struct Canvas {
+  QSize size{1920, 1080};
+  Fit fit = Fit::fit;
+};
+
+/// A picture of a file: upright; sRGB in Format_RGBX8888, transparent parts on black, a colour profile in the
+/// file taken for true; of files with float samples linear in Format_RGBX32FPx4.
+/// Throws: Error{disk} if unreadable, Error{format} if no picture; Error{input} for NaN and infinities.
+QImage readContent(const QString& file);
+
+/// The picture scaled to the canvas; bars are black. Its format stays.
+/// Contract: neither is empty.
+QImage onCanvas(const QImage& picture, const Canvas& canvas);
+
+/// (1 - share) from + share to, in linear light, as what projectors add is light.
+/// Contract: both of one size.  Format_RGBX8888.
+QImage crossFaded(const QImage& from, const QImage& to, double share);
+
+}  // namespace relucent

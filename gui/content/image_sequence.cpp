@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "content/image_sequence.h"
+
+#include <QCollator>
+#include <QDir>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "content/still_image.h"
+
+namespace relucent {
+namespace {
+
+/// A quarter of a second at usual rates: longer than a disk takes to wake up between two of its caches.
+constexpr qsizetype picturesAhead = 8;
+
+double checkedRate(double rate) {
+  if (rate > 0.0 && rate <= 240.0) return rate;
+  throw Error(ErrorKind::input, fmt::format("{} pictures a second cannot be played", rate),
+              "choose a rate above 0 and at most 240");
+}
+
+const QStringList& checkedFiles(const QStringList& files) {
+  if (!files.isEmpty()) return files;
+  throw Error(ErrorKind::input, "the sequence has no pictures",
+              "choose a folder with PNG, JPEG, TIFF or EXR files");
+}
+
+}  // namespace
+
+ImageSequence::ImageSequence(const QStringList& files, double picturesPerSecond, const Canvas& canvas)
+    : files_(checkedFiles(files), canvas, picturesAhead, true),
+      picturesPerSecond_(checkedRate(picturesPerSecond)) {}
+
+ContentPicture ImageSequence::at(ContentTime time) {
+  // A picture's time is rounded to whole microseconds; half of one keeps it from falling before its start.
+  double pictures = (static_cast<double>(time.count()) + 0.5) * 1e-6 * picturesPerSecond_;
+  qsizetype index =
+      std::clamp<qsizetype>(static_cast<qsizetype>(std::floor(pictures)), 0, files_.count() - 1);
+  if (index == index_) return frame_;
+  index_ = index;
+  try {
+    frame_ = {files_.picture(index), nextFrameNumber()};
+  } catch (const Error&) {
+    // One bad picture in a film is not worth a black wall.
+    if (frame_.image.isNull()) throw;
+  }
+  return frame_;
+}
+
+std::optional<ContentTime> ImageSequence::length() const {
+  return ContentTime(std::llround(1e6 * static_cast<double>(files_.count()) / picturesPerSecond_));
+}
+
+QStringList picturesIn(const QString& folder) {
+  QDir directory(folder);
+  QStringList names = directory.entryList(
+      {"*.png", "*.jpg", "*.jpeg", "*.tif", "*.tiff", "*.exr", "*.bmp", "*.webp"}, QDir::Files);
+  if (names.isEmpty())
+    throw Error(ErrorKind::input, "no pictures in this folder",
+                "choose a folder with PNG, JPEG, TIFF or EXR files", folder.toStdString());
+  QCollator byNumber(QLocale(QLocale::English));
+  byNumber.setNumericMode(true);
+  std::sort(names.begin(), names.end(), byNumber);
+  QStringList files;
+  for (const QString& name : names) files.append(directory.filePath(name));
+  return files;
+}
+
+}  // namespace relucent

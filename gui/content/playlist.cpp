@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "content/playlist.h"
+
+#include <QFileInfo>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "content/image_sequence.h"
+#include "content/still_image.h"
+
+namespace relucent {
+namespace {
+
+constexpr int mostSentences = 100;
+constexpr ContentTime betweenTries{1'000'000};
+
+ContentTime fromSeconds(double seconds) {
+  return ContentTime(std::llround(1e6 * seconds));
+}
+
+}  // namespace
+
+std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas) {
+  if (QFileInfo(item.path).isDir())
+    return std::make_unique<ImageSequence>(picturesIn(item.path), item.picturesPerSecond, canvas);
+  return std::make_unique<StillImage>(item.path, canvas);
+}
+
+Playlist::Playlist(PlaylistSettings settings, Canvas canvas)
+    : settings_(std::move(settings)), canvas_(canvas) {
+  if (QStringList wrong = problems(settings_); !wrong.isEmpty())
+    throw Error(ErrorKind::input, wrong.first().toStdString(), "change the playlist");
+  openNext(-1);
+}
+
+Playlist::~Playlist() {
+  opening_.waitForFinished();
+}
+
+ContentTime Playlist::lengthOf(const Playing& item) const {
+  return item.source->length().value_or(fromSeconds(settings_.items[item.index].seconds));
+}
+
+ContentTime Playlist::fadeBetween(const Playing& item, const Playing& next) const {
+  return std::min({fromSeconds(settings_.fadeSeconds), lengthOf(item) / 2, lengthOf(next) / 2});
+}
+
+void Playlist::openNext(qsizetype after) {
+  next_ = {};
+  qsizetype index = after + 1;
+  if (index >= settings_.items.size()) {
+    // A list of one picture needs no next one: it would fade into itself.
+    if (!settings_.loop || settings_.items.size() == 1) {
+      ended_ = true;
+      return;
+    }
+    index = 0;
+  }
+  openingIndex_ = index;
+  opening_ = startedElsewhere([item = settings_.items[index], canvas = canvas_] {
+    return std::shared_ptr<ContentSource>(openContent(item, canvas));
+  });
+}
+
+bool Playlist::nextIsReady(ContentTime now) {
+  if (next_.source) return true;
+  if (ended_ || !opening_.isFinished()) return false;
+  try {
+    next_ = {openingIndex_, resultOf(opening_), now};
+    return true;
+  } catch (const Error& error) {
+    QString sentence = error.what();
+    if (!skipped_.contains(sentence) && skipped_.size() < mostSentences) skipped_.append(sentence);
+  }
+  openNext(openingIndex_);
+  return false;
+}
+
+void Playlist::begin(ContentTime now) {
+  bool rewound = now < last_;
+  if (!rewound && now < tryAgain_) return;
+  opening_.waitForFinished();
+  current_ = {};
+  ended_ = false;
+  openNext(-1);
+  // The first picture is worth waiting for.
+  for (qsizetype tried = 0; tried < settings_.items.size() && !ended_; ++tried) {
+    opening_.waitForFinished();
+    if (!nextIsReady({})) continue;
+    current_ = std::exchange(next_, {});
+    current_.begin = rewound ? ContentTime{0} : now;
+    openNext(current_.index);
+    return;
+  }
+  tryAgain_ = now + betweenTries;
+}
+
+ContentPicture Playlist::frameOf(const Playing& item, ContentTime time) {
+  ContentTime own = time - item.begin;
+  // A list of one film plays it again.
+  if (settings_.loop && settings_.items.size() == 1 && item.source->length()) own %= lengthOf(item);
+  return item.source->at(std::max(own, ContentTime{0}));
+}
+
+Playlist::Status Playlist::status() const {
+  QMutexLocker lock(&statusGuard_);
+  return status_;
+}
+
+ContentPicture Playlist::at(ContentTime time) {
+  ContentPicture picture = pictureAt(time);
+  QMutexLocker lock(&statusGuard_);
+  status_ = {current_.index, skipped_};
+  return picture;
+}
+
+ContentPicture Playlist::pictureAt(ContentTime time) {
+  if (!current_.source || time < last_) begin(time);
+  last_ = time;
+  if (!current_.source) return {};
+
+  while (nextIsReady(time)) {
+    ContentTime fade = fadeBetween(current_, next_);
+    ContentTime fadeBegin = std::max(current_.begin + lengthOf(current_) - fade, next_.begin);
+    if (time < fadeBegin) break;
+    next_.begin = fadeBegin;
+    ContentTime into = time - fadeBegin;
+    if (into < fade)
+      return {crossFaded(frameOf(current_, time).image, frameOf(next_, time).image,
+                         static_cast<double>(into.count()) / static_cast<double>(fade.count())),
+              nextFrameNumber()};
+    current_ = std::exchange(next_, {});
+    openNext(current_.index);
+  }
+  return frameOf(current_, time);
+}
+
+}  // namespace relucent

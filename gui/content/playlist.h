@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QFuture>
+#include <QList>
+#include <QMutex>
+#include <QString>
+#include <QStringList>
+#include <memory>
+#include <vector>
+
+#include "content/canvas.h"
+#include "content/content_source.h"
+#include "content/outcome.h"
+
+namespace relucent {
+
+/// One thing to play.
+struct PlaylistItem {
+  QString path;                     // a picture, or a folder of numbered pictures
+  double seconds = 10.0;            // how long a still picture stands
+  double picturesPerSecond = 25.0;  // of a folder
+
+  bool operator==(const PlaylistItem&) const = default;
+};
+
+struct PlaylistSettings {
+  QList<PlaylistItem> items;
+  double fadeSeconds = 1.0;  // of the cross-fade from one to the next; at most half of the shorter one
+  bool loop = true;
+
+  bool operator==(const PlaylistSettings&) const = default;
+};
+/// Sentences about what cannot be.
+QStringList problems(const PlaylistSettings& settings);
+
+/// A playlist's file, JSON; paths in it are relative to its folder.
+/// Throws: Error{disk}; Error{format} naming what is wrong in it, or that a newer version wrote it.
+PlaylistSettings readPlaylist(const QString& file);
+/// Atomic. Throws: Error{disk}.
+void savePlaylist(const QString& file, const PlaylistSettings& settings);
+
+/// Opens what an item names. Throws: Error as the sources do.
+std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas);
+
+/// Items one after the other, with cross-fades, round and round. The next one is opened on another thread as
+/// soon as one begins; if it is not ready in time, the present one stands a little longer. What cannot be
+/// read is named, skipped, and tried again in the next round.
+class Playlist : public ContentSource {
+ public:
+  /// Throws: Error{input} for wrong settings.
+  Playlist(PlaylistSettings settings, Canvas canvas);
+  ~Playlist() override;
+
+  /// An empty image while nothing of the list can be read.
+  ContentPicture at(ContentTime time) override;
+  std::optional<ContentTime> length() const override { return std::nullopt; }
+
+  struct Status {
+    qsizetype playing = -1;  // which item; -1 before the first
+    QStringList skipped;     // what could not be read so far, one sentence each, the newest last
+  };
+  /// As the last frame left it. May be asked from any thread.
+  Status status() const;
+
+ private:
+  struct Playing {
+    qsizetype index = -1;
+    std::shared_ptr<ContentSource> source;
+    ContentTime begin{0};  // of the next one: not before it was ready
+  };
+
+  ContentPicture pictureAt(ContentTime time);
+  ContentTime lengthOf(const Playing& item) const;
+  ContentTime fadeBetween(const Playing& item, const Playing& next) const;
+  void begin(ContentTime now);
+  void openNext(qsizetype after);
+  bool nextIsReady(ContentTime now);
+  ContentPicture frameOf(const Playing& item, ContentTime time);
+
+  PlaylistSettings settings_;
+  Canvas canvas_;
+  Playing current_, next_;
+  QFuture<Outcome<std::shared_ptr<ContentSource>>> opening_;
+  qsizetype openingIndex_ = -1;
+  bool ended_ = false;
+  ContentTime last_{0};
+  ContentTime tryAgain_{0};  // after nothing could be read
+  QStringList skipped_;
+  mutable QMutex statusGuard_;
+  Status status_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include <QDir>
+#include <QFileInfo>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "content/playlist.h"
+
+namespace relucent {
+namespace {
+
+constexpr int version = 1;
+
+[[noreturn]] void refuse(const QString& file, const std::string& what) {
+  throw Error(ErrorKind::format, what, "open it with the program that wrote it, or make a new playlist",
+              file.toStdString());
+}
+
+}  // namespace
+
+QStringList problems(const PlaylistSettings& settings) {
+  QStringList found;
+  if (settings.items.isEmpty()) found.append("the playlist is empty");
+  if (!(settings.fadeSeconds >= 0.0 && settings.fadeSeconds <= 60.0))
+    found.append("a cross-fade takes 0 to 60 seconds");
+  for (const PlaylistItem& item : settings.items) {
+    if (item.path.isEmpty()) found.append("an item of the playlist names no file");
+    if (!(item.seconds > 0.0 && item.seconds <= 86400.0))
+      found.append(QString("%1: a picture stands more than 0 seconds and at most a day").arg(item.path));
+    if (!(item.picturesPerSecond > 0.0 && item.picturesPerSecond <= 240.0))
+      found.append(QString("%1: a film has more than 0 and at most 240 pictures a second").arg(item.path));
+  }
+  return found;
+}
+
+PlaylistSettings readPlaylist(const QString& file) {
+  std::string text = readFile(file.toStdString());
+  QJsonParseError error;
+  QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(text), &error);
+  if (!document.isObject() || !document.object()["items"].isArray())
+    refuse(file, error.error == QJsonParseError::NoError
+                     ? "this is no playlist"
+                     : fmt::format("this is no playlist ({})", error.errorString().toStdString()));
+  QJsonObject object = document.object();
+  if (int written = object["version"].toInt(version); written > version)
+    refuse(file, fmt::format("a newer version of the program wrote this playlist (format {})", written));
+
+  QDir folder = QFileInfo(file).absoluteDir();
+  PlaylistSettings settings;
+  settings.loop = object["loop"].toBool(settings.loop);
+  settings.fadeSeconds = object["fade_seconds"].toDouble(settings.fadeSeconds);
+  for (const QJsonValue& value : object["items"].toArray()) {
+    QJsonObject entry = value.toObject();
+    PlaylistItem item;
+    if (QString path = entry["path"].toString(); !path.isEmpty())
+      item.path = QDir::cleanPath(folder.absoluteFilePath(path));
+    item.seconds = entry["seconds"].toDouble(item.seconds);
+    item.picturesPerSecond = entry["pictures_per_second"].toDouble(item.picturesPerSecond);
+    settings.items.append(item);
+  }
+  if (QStringList wrong = problems(settings); !wrong.isEmpty()) refuse(file, wrong.first().toStdString());
+  return settings;
+}
+
+void savePlaylist(const QString& file, const PlaylistSettings& settings) {
+  QDir folder = QFileInfo(file).absoluteDir();
+  QJsonArray items;
+  for (const PlaylistItem& item : settings.items)
+    items.append(QJsonObject{{"path", folder.relativeFilePath(item.path)},
+                             {"seconds", item.seconds},
+                             {"pictures_per_second", item.picturesPerSecond}});
+  QJsonObject object{{"version", version},
+                     {"loop", settings.loop},
+                     {"fade_seconds", settings.fadeSeconds},
+                     {"items", items}};
+  writeFileAtomically(file.toStdString(), QJsonDocument(object).toJson().toStdString());
+}
+
+}  // namespace relucent

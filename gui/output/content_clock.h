@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "content/content_source.h"
+
+namespace relucent {
+
+/// Content time, one for all projectors: runs with the computer's steady clock and stands still while paused.
+class ContentClock {
+ public:
+  using Now = std::function<std::chrono::steady_clock::time_point()>;
+  explicit ContentClock(Now now = std::chrono::steady_clock::now);
+
+  ContentTime time() const;
+  bool isPaused() const { return paused_; }
+  void pause();
+  void resume();
+
+ private:
+  Now now_;
+  std::chrono::steady_clock::time_point since_;
+  ContentTime before_{0};  // that had passed then
+  bool paused_ = false;
+};
+
+}  // namespace relucent

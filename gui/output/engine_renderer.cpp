@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "output/engine_renderer.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.h"
+#include "calibration/calibration_folder.h"
+
+namespace relucent {
+namespace {
+
+/// Of a frame's time, what computing may take: the rest is for upload, swap and whatever else runs.
+constexpr double shareOfBudget = 0.7;
+
+}  // namespace
+
+EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
+                               Progress& progress) {
+  CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
+  calibration_ = loadCalibration(folder, progress);
+  EngineSettings settings;
+  venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
+                              settings));
+  content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
+  backend_ = std::make_unique<CpuBackend>(*venue_);
+  backend_->setContent(*content_);
+  words_.resize(calibration_.venue.transport.projectors().count());
+}
+
+std::vector<QSize> EngineRenderer::projectors() const {
+  std::vector<QSize> sizes;
+  for (const Size& size : calibration_.venue.transport.projectors().sizes())
+    sizes.emplace_back(size.width, size.height);
+  return sizes;
+}
+
+QString EngineRenderer::name() const {
+  std::string_view name = backend_->name();
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+}
+
+int EngineRenderer::stepsFor(const RenderRequest& request) {
+  int all = static_cast<int>(venue_->settings.compensator.steps.size());
+  if (request.thorough) return all;
+  if (!budget_ || budgetSeconds_ != request.seconds) {
+    budgetSeconds_ = request.seconds;
+    budget_.emplace(std::chrono::duration<double>(shareOfBudget * request.seconds), all);
+  }
+  return budget_->steps();
+}
+
+RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request) {
+  Size size{content.image.width(), content.image.height()};
+  require(size == content_->warp.content(), "content of {}x{} on a canvas of {}x{}", size.width, size.height,
+          content_->warp.content().width, content_->warp.content().height);
+  std::vector<float> linear;
+  ContentFrame frame{content.image.constBits(), size, static_cast<std::size_t>(content.image.bytesPerLine()),
+                     ContentFrame::Format::rgba8};
+  if (content.image.format() == QImage::Format_RGBX32FPx4) {
+    linear.resize(3 * size.count());
+    for (int y = 0; y < size.height; ++y) {
+      auto* line = reinterpret_cast<const float*>(content.image.constScanLine(y));
+      for (int x = 0; x < size.width; ++x) std::copy_n(line + 4 * x, 3, &linear[3 * indexOf(size, {x, y})]);
+    }
+    frame = {linear.data(), size, 12 * static_cast<std::size_t>(size.width),
+             ContentFrame::Format::linearFloat};
+  }
+
+  FrameRequest wanted;
+  wanted.compensated = request.compensated;
+  wanted.steps = stepsFor(request);
+  FrameReport report;
+  if (!backend_->render(frame, wanted, words_, report))
+    throw Error(ErrorKind::device, "the engine lost its device", "start the show again",
+                std::string(backend_->name()));
+  if (request.compensated && !request.thorough) budget_->add(report);
+
+  RenderedFrame rendered;
+  rendered.clipped = report.clipped;
+  rendered.steps = report.steps;
+  rendered.seconds = report.seconds.count();
+  const Rasters& projectors = calibration_.venue.transport.projectors();
+  for (std::size_t i = 0; i < projectors.devices(); ++i) {
+    Size drive = projectors.size(i);
+    QImage image(drive.width, drive.height, QImage::Format_RGBX8888);
+    for (int y = 0; y < drive.height; ++y)
+      std::memcpy(image.scanLine(y), &words_[projectors.offset(i) + indexOf(drive, {0, y})],
+                  4 * static_cast<std::size_t>(drive.width));
+    rendered.drives.push_back(std::move(image));
+  }
+  return rendered;
+}
+
+}  // namespace relucent

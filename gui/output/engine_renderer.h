@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/progress.h"
+#include "content/canvas.h"
+#include "engine/cpu_backend.h"
+#include "engine/engine_plan.h"
+#include "engine/step_budget.h"
+#include "output/frame_renderer.h"
+#include "pipeline/measured_venue.h"
+
+namespace relucent {
+
+/// The real-time engine over a calibration.
+class EngineRenderer : public FrameRenderer {
+ public:
+  /// Reads a finished calibration and prepares everything; takes seconds.
+  /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
+  EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, Progress& progress);
+
+  std::vector<QSize> projectors() const override;
+  QString name() const override;
+  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override;
+
+ private:
+  int stepsFor(const RenderRequest& request);
+
+  MeasuredCalibration calibration_;
+  std::optional<EngineVenue> venue_;
+  std::optional<EngineContent> content_;
+  std::unique_ptr<EngineBackend> backend_;
+  std::vector<std::uint32_t> words_;
+  std::optional<StepBudget> budget_;
+  double budgetSeconds_ = 0.0;  // that the budget is for
+};
+
+}  // namespace relucent

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "output/player.h"
+
+#include <QPainter>
+#include <QScreen>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+constexpr ContentTime standsStill{500'000};
+constexpr double windowSeconds = 5.0;     // over which the statistics are taken
+constexpr std::size_t mostRecent = 1500;  // frames in that time, at the quickest displays' rates
+
+ContentTime microseconds(const QElapsedTimer& timer) {
+  return std::chrono::duration_cast<ContentTime>(std::chrono::nanoseconds(timer.nsecsElapsed()));
+}
+
+/// The shortest time between two pictures that any of the displays shows.
+double refreshSeconds(const std::vector<ProjectorWindow*>& windows) {
+  double rate = 60.0;
+  for (const ProjectorWindow* window : windows)
+    if (window->isShining() && window->screen()->refreshRate() > 1.0)
+      rate = std::max(rate, window->screen()->refreshRate());
+  return 1.0 / rate;
+}
+
+}  // namespace
+
+Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentSource> content,
+               std::vector<ProjectorWindow*> windows, ContentClock clock, QObject* parent)
+    : QObject(parent),
+      renderer_(std::move(renderer)),
+      content_(std::move(content)),
+      windows_(std::move(windows)),
+      clock_(std::move(clock)) {
+  require(windows_.size() == renderer_->projectors().size(), "{} windows for {} projectors", windows_.size(),
+          renderer_->projectors().size());
+  pace_.setTimerType(Qt::PreciseTimer);
+  pace_.setSingleShot(true);
+  connect(&pace_, &QTimer::timeout, this, &Player::beginFrame);
+  connect(&working_, &QFutureWatcherBase::finished, this, &Player::frameReady);
+  for (ProjectorWindow* window : windows_) {
+    connect(window, &ProjectorWindow::keyPressed, this, [this](int key) { handleKey(key); });
+    connect(window, &ProjectorWindow::displayFound, this, &Player::present);
+  }
+}
+
+Player::~Player() {
+  working_.disconnect(this);
+  working_.waitForFinished();
+}
+
+void Player::start() {
+  if (playing_) return;
+  playing_ = true;
+  clock_.resume();
+  running_.start();
+  beginFrame();
+}
+
+void Player::stop() {
+  playing_ = false;
+  pace_.stop();
+  clock_.pause();
+  last_ = {};
+  present();
+}
+
+void Player::next() {
+  // Begun one refresh after the frame before it, whatever that took: the display's own wait is in its swap.
+  double left = refreshSeconds(windows_) - 1e-9 * static_cast<double>(begun_.nsecsElapsed());
+  pace_.start(std::max(0, static_cast<int>(std::floor(1e3 * left))));
+}
+
+void Player::beginFrame() {
+  if (!playing_ || working_.isRunning()) return;
+  begun_.start();
+  ContentTime time = clock_.time();
+  request_.seconds = refreshSeconds(windows_);
+  working_.setFuture(startedElsewhere(
+      [renderer = renderer_, content = content_, request = request_, time, last = last_]() -> Frame {
+        ContentPicture picture = content->at(time);
+        if (picture.image.isNull()) return {};
+        bool same = picture.number == last.content && request.compensated == last.request.compensated &&
+                    !last.rendered.drives.empty();
+        if (same && (last.request.thorough || time - last.since < standsStill)) return last;
+        RenderRequest wanted = request;
+        wanted.thorough = same;
+        return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted)};
+      }));
+}
+
+void Player::frameReady() {
+  if (!playing_) return;
+  try {
+    Frame frame = resultOf(working_.future());
+    bool fresh = frame.content != last_.content || frame.request != last_.request;
+    last_ = std::move(frame);
+    if (fresh) {
+      ++frames_;
+      late_ += !last_.request.thorough &&
+               1e-9 * static_cast<double>(begun_.nsecsElapsed()) > refreshSeconds(windows_);
+      recent_.emplace_back(microseconds(running_), last_.rendered.seconds);
+      while (recent_.size() > mostRecent) recent_.pop_front();
+      present();
+    }
+  } catch (const Error& error) {
+    stop();
+    Q_EMIT failed(error.what());
+    return;
+  }
+  next();
+}
+
+void Player::present() {
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    if (black_ || i >= last_.rendered.drives.size()) {
+      windows_[i]->blacken();
+      continue;
+    }
+    QImage drive = last_.rendered.drives[i];
+    if (overlay_) {
+      PlayerStatistics now = statistics();
+      QPainter painter(&drive);
+      QString text = tr("%1 frames a second, %2 ms, %3 late, %4 % out of reach")
+                         .arg(now.framesPerSecond, 0, 'f', 1)
+                         .arg(1e3 * now.frameSeconds, 0, 'f', 1)
+                         .arg(now.late)
+                         .arg(100.0 * now.clipped, 0, 'f', 1);
+      QRect place = painter.boundingRect(QRect(QPoint(8, 8), drive.size()), 0, text);
+      painter.fillRect(place.adjusted(-8, -8, 8, 8), Qt::black);
+      painter.setPen(QColor(160, 160, 160));
+      painter.drawText(place, 0, text);
+    }
+    windows_[i]->present(drive);
+  }
+  Q_EMIT shown();
+}
+
+PlayerStatistics Player::statistics() const {
+  PlayerStatistics result;
+  result.frames = frames_;
+  result.late = late_;
+  result.clipped = last_.rendered.clipped;
+  result.steps = last_.rendered.steps;
+  ContentTime now = microseconds(running_);
+  double seconds = 0.0;
+  int count = 0;
+  for (const auto& [when, took] : recent_) {
+    if (static_cast<double>((now - when).count()) > 1e6 * windowSeconds) continue;
+    seconds += took;
+    ++count;
+  }
+  if (count > 0) result.frameSeconds = seconds / count;
+  double span = std::min(windowSeconds, 1e-6 * static_cast<double>(now.count()));
+  if (span > 0.0) result.framesPerSecond = count / span;
+  return result;
+}
+
+void Player::setFrozen(bool frozen) {
+  frozen ? clock_.pause() : clock_.resume();
+}
+
+void Player::setBlack(bool black) {
+  black_ = black;
+  present();
+}
+
+void Player::setCompensated(bool compensated) {
+  request_.compensated = compensated;
+}
+
+void Player::setOverlay(bool shown) {
+  overlay_ = shown;
+  present();
+}
+
+bool Player::handleKey(int key) {
+  switch (key) {
+    case Qt::Key_C:
+      setCompensated(!isCompensated());
+      return true;
+    case Qt::Key_Space:
+      setFrozen(!isFrozen());
+      return true;
+    case Qt::Key_B:
+      setBlack(!isBlack());
+      return true;
+    case Qt::Key_O:
+      setOverlay(!overlay_);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace relucent

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QElapsedTimer>
+#include <QFutureWatcher>
+#include <QObject>
+#include <QTimer>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "content/outcome.h"
+#include "output/content_clock.h"
+#include "output/frame_renderer.h"
+#include "output/projector_window.h"
+
+namespace relucent {
+
+/// How playing goes, over the last seconds.
+struct PlayerStatistics {
+  double framesPerSecond = 0.0;  // that reached the windows; 0 while a still picture stands
+  double frameSeconds = 0.0;     // one frame's computation, the mean
+  double clipped = 0.0;          // of the last frame
+  int steps = 0;                 // of refinement, of the last frame
+  std::uint64_t frames = 0;      // since it began
+  std::uint64_t late = 0;  // of these, ready later than one refresh of the display after they were begun
+};
+
+/// Plays content on all projectors under one clock. A frame is computed on another thread while the one
+/// before it is shown. A picture that stands still is computed once in time, once more as well as can be, and
+/// then no more.
+class Player : public QObject {
+  Q_OBJECT
+
+ public:
+  /// `windows`: one a projector, in the renderer's order; they must outlive the player.
+  Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentSource> content,
+         std::vector<ProjectorWindow*> windows, ContentClock clock = ContentClock(),
+         QObject* parent = nullptr);
+  ~Player() override;
+
+  void start();
+  /// Black, and nothing is computed any more.
+  void stop();
+
+  bool isPlaying() const { return playing_; }
+  const ContentClock& clock() const { return clock_; }
+  PlayerStatistics statistics() const;
+
+  /// The picture stands, the clock too.
+  void setFrozen(bool frozen);
+  /// Black; the clock goes on.
+  void setBlack(bool black);
+  void setCompensated(bool compensated);
+  void setOverlay(bool shown);
+  bool isFrozen() const { return clock_.isPaused(); }
+  bool isBlack() const { return black_; }
+  bool isCompensated() const { return request_.compensated; }
+
+  /// What a key at a projector's window or the operator's view does: C compensation on and off, space freeze,
+  /// B black, O overlay. Returns whether it means anything.
+  bool handleKey(int key);
+
+ Q_SIGNALS:
+  /// A new picture went to the windows.
+  void shown();
+  /// Rendering or reading ended for good; the windows are black. `sentence` is for people.
+  void failed(const QString& sentence);
+
+ private:
+  struct Frame {
+    std::uint64_t content = 0;
+    ContentTime since{0};  // that the content stands
+    RenderRequest request;
+    RenderedFrame rendered;
+  };
+
+  void next();
+  void beginFrame();
+  void frameReady();
+  void present();
+
+  std::shared_ptr<FrameRenderer> renderer_;
+  std::shared_ptr<ContentSource> content_;
+  std::vector<ProjectorWindow*> windows_;
+  ContentClock clock_;
+  RenderRequest request_;
+  bool playing_ = false, black_ = false, overlay_ = false;
+
+  QTimer pace_;
+  QFutureWatcher<Outcome<Frame>> working_;
+  QElapsedTimer begun_;
+  Frame last_;
+  std::deque<std::pair<ContentTime, double>> recent_;  // when a frame was shown, on a clock that never rests
+  QElapsedTimer running_;
+  std::uint64_t frames_ = 0, late_ = 0;
+};
+
+}  // namespace relucent

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "output/show_log.h"
+
+#include <spdlog/logger.h>
+#include <spdlog/sinks/rotating_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+
+#include <QDir>
+#include <vector>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::size_t largest = std::size_t{1} << 20;
+constexpr std::size_t older = 4;
+
+}  // namespace
+
+ShowLog::ShowLog(const QString& folder) {
+  std::string file = QDir(folder).filePath("show.log").toStdString();
+  try {
+    QDir().mkpath(folder);
+    std::vector<spdlog::sink_ptr> sinks{
+        std::make_shared<spdlog::sinks::rotating_file_sink_mt>(file, largest, older),
+        std::make_shared<spdlog::sinks::stderr_sink_mt>()};
+    logger_ = std::make_shared<spdlog::logger>("show", sinks.begin(), sinks.end());
+  } catch (const spdlog::spdlog_ex& error) {
+    throw Error(ErrorKind::disk, fmt::format("the log cannot be written ({})", error.what()),
+                "choose another folder with --log", file);
+  }
+  logger_->set_pattern("%Y-%m-%dT%H:%M:%S%z %l %v");
+  // A log that stops at a power cut should hold what led to it.
+  logger_->flush_on(spdlog::level::info);
+}
+
+ShowLog::~ShowLog() = default;
+
+void ShowLog::tell(const QString& sentence) {
+  logger_->info(sentence.toStdString());
+}
+
+void ShowLog::warn(const QString& sentence) {
+  logger_->warn(sentence.toStdString());
+}
+
+}  // namespace relucent

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "output/show_settings.h"
+
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+QString described(const QScreen& screen) {
+  QSize size = nativeSize(screen);
+  return QString("%1 (%2x%3%4)")
+      .arg(screen.name())
+      .arg(size.width())
+      .arg(size.height())
+      .arg(&screen == QGuiApplication::primaryScreen() ? ", the operator's" : "");
+}
+
+QString allDescribed() {
+  QStringList found;
+  for (const QScreen* screen : QGuiApplication::screens()) found.append(described(*screen));
+  return found.join(", ");
+}
+
+}  // namespace
+
+std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, const QStringList& named) {
+  if (!named.isEmpty() && static_cast<std::size_t>(named.size()) != projectors.size())
+    throw Error(ErrorKind::input,
+                fmt::format("{} displays are named for {} projectors", named.size(), projectors.size()),
+                fmt::format("name one for each; there are: {}", allDescribed().toStdString()));
+
+  QList<QScreen*> screens = QGuiApplication::screens();
+  std::vector<ScreenIdentity> displays;
+  for (const QString& connector : named) {
+    auto found = std::find_if(screens.begin(), screens.end(),
+                              [&](const QScreen* screen) { return screen->name() == connector; });
+    displays.push_back(found != screens.end() ? identityOf(**found) : ScreenIdentity{connector, {}, {}, {}});
+  }
+  if (!named.isEmpty()) return displays;
+
+  screens.removeOne(QGuiApplication::primaryScreen());
+  std::sort(screens.begin(), screens.end(), [](const QScreen* a, const QScreen* b) {
+    return std::pair(a->geometry().x(), a->geometry().y()) < std::pair(b->geometry().x(), b->geometry().y());
+  });
+  for (const QSize& projector : projectors) {
+    auto found = std::find_if(screens.begin(), screens.end(),
+                              [&](const QScreen* screen) { return nativeSize(*screen) == projector; });
+    if (found == screens.end())
+      throw Error(ErrorKind::input,
+                  fmt::format("no display beside the operator's has the {}x{} pixels of the projector",
+                              projector.width(), projector.height()),
+                  fmt::format("plug it in, set it to that size, or name it with --screen; there are: {}",
+                              allDescribed().toStdString()));
+    displays.push_back(identityOf(**found));
+    screens.erase(found);
+  }
+  return displays;
+}
+
+PlaylistSettings contentOf(const QString& path) {
+  QString ending = QFileInfo(path).suffix().toLower();
+  if (ending == "playlist" || ending == "json") return readPlaylist(path);
+  PlaylistSettings settings;
+  settings.items.append({QFileInfo(path).absoluteFilePath()});
+  return settings;
+}
+
+}  // namespace relucent

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QtTest>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "core/engine/engine_scenes.h"
+#include "engine/cpu_backend.h"
+
+namespace relucent::synthetic {
+
+/// The back ends that this machine has: every test of test_backends runs on each of them.
+struct NamedBackend {
+  std::string name;
+  std::function<std::unique_ptr<EngineBackend>(const EngineVenue&)> make;
+};
+
+inline const std::vector<NamedBackend>& backends() {
+  static const std::vector<NamedBackend> all = [] {
+    std::vector<NamedBackend> list;
+    for (const EngineKernels& kernels : engineKernels())
+      list.push_back({kernels.instructions, [&kernels](const EngineVenue& engine) {
+                        return std::make_unique<CpuBackend>(engine, &kernels);
+                      }});
+    return list;
+  }();
+  return all;
+}
+
+inline std::unique_ptr<EngineBackend> backendOf(const QString& name, const EngineVenue& engine) {
+  for (const NamedBackend& backend : backends())
+    if (name == QString::fromStdString(backend.name)) return backend.make(engine);
+  return nullptr;
+}
+
+inline void everyBackend() {
+  QTest::addColumn<QString>("backend");
+  for (const NamedBackend& backend : backends())
+    QTest::newRow(backend.name.c_str()) << QString::fromStdString(backend.name);
+}
+
+inline void everyBackendInEveryScene() {
+  QTest::addColumn<QString>("backend");
+  QTest::addColumn<QString>("scene");
+  for (const NamedBackend& backend : backends())
+    for (const std::string& scene : engineSceneNames())
+      QTest::addRow("%s, %s", backend.name.c_str(), scene.c_str())
+          << QString::fromStdString(backend.name) << QString::fromStdString(scene);
+}
+
+inline ContentFrame frameOf(const Image& linear) {
+  return {linear.data().data(), linear.size(), 12 * static_cast<std::size_t>(linear.width()),
+          ContentFrame::Format::linearFloat};
+}
+
+/// Undithered, so that a value has one right code.
+inline EngineSettings plain() {
+  EngineSettings settings;
+  settings.dither = Dither::none;
+  return settings;
+}
+
+inline std::vector<std::uint32_t> rendered(EngineBackend& backend, const EngineVenue& engine,
+                                           const ContentFrame& frame, const FrameRequest& request,
+                                           FrameReport* report = nullptr) {
+  EngineContent content = prepareContent(engine, frame.size);
+  backend.setContent(content);
+  std::vector<std::uint32_t> words(engine.brightest.size());
+  FrameReport ignored;
+  if (!backend.render(frame, request, words, report != nullptr ? *report : ignored)) words.clear();
+  return words;
+}
+
+inline int codeOf(std::uint32_t word, std::size_t channel) {
+  return static_cast<int>(word >> (8 * channel) & 255u);
+}
+
+/// The largest difference between 8-bit words and linear drive under a linear response, in codes.
+inline double mostCodesApart(const std::vector<std::uint32_t>& words, const Stack& projector) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < projector.size(); ++i)
+    most = std::max(most, std::abs(codeOf(words[i / 3], i % 3) - 255.0 * static_cast<double>(projector[i])));
+  return most;
+}
+
+inline int mostApart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  if (a.size() != b.size()) return 256;
+  int most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(codeOf(a[i], c) - codeOf(b[i], c)));
+  return most;
+}
+
+}  // namespace relucent::synthetic

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compensation/methods.h"
+#include "core/inverse/synthetic_transport.h"
+#include "engine/engine_plan.h"
+
+namespace relucent::synthetic {
+
+/// A venue that the engine can run in, with its inverse.
+struct EngineScene {
+  MeasuredVenue venue;
+  WindowInverse inverse;
+  std::vector<ProjectorResponse> responses;
+};
+
+inline MeasuredVenue venueOf(Scene scene) {
+  MeasuredVenue venue;
+  venue.flood = scene.transport.floodlight();
+  venue.transport = std::move(scene.transport);
+  venue.black = std::move(scene.black);
+  venue.usable = std::move(scene.usable);
+  return venue;
+}
+
+inline EngineScene engineScene(MeasuredVenue venue, int tile = 4) {
+  EngineScene scene;
+  Progress silent;
+  WindowSettings windows;
+  windows.tile = tile;
+  scene.inverse = computeWindows(venue.transport, venue.usable, windows, silent);
+  scene.responses.resize(venue.transport.projectors().devices());
+  scene.venue = std::move(venue);
+  return scene;
+}
+
+/// Two cameras and two projectors of odd sizes; every colour of far light has a mixing of its own.
+inline MeasuredVenue severalDevices(std::uint64_t seed) {
+  Rasters cameras({{21, 15}, {10, 7}}), projectors({{26, 17}, {13, 11}});
+  NodeLayout layout(projectors);
+  BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
+  for (std::size_t camera = 0; camera < 2; ++camera) {
+    for (std::size_t local = 0; local < cameras.size(camera).count(); ++local) {
+      std::size_t row = cameras.offset(camera) + local;
+      Random random{seed, row};
+      Pixel place = pixelAt(cameras.size(camera), local);
+      ColourBlock mixing;
+      for (int i = 0; i < 9; ++i)
+        mixing.data()[i] = (0.3f + 0.4f * random.uniformFloat()) * (i % 4 == 0 ? 1.0f : 0.1f);
+      for (int projector = 0; projector < 2; ++projector) {
+        Size size = projectors.size(static_cast<std::size_t>(projector));
+        int cx = place.x * size.width / cameras.size(camera).width;
+        int cy = place.y * size.height / cameras.size(camera).height;
+        for (int y = std::max(0, cy - 1); y <= std::min(cy + 1, size.height - 1); ++y)
+          for (int x = std::max(0, cx - 1); x <= std::min(cx + 1, size.width - 1); ++x)
+            builder.add(row, layout.index({projector, 0, x, y}),
+                        ((x == cx && y == cy ? 0.4f : 0.04f) * mixing).eval());
+        ColourBlock far = mixing;
+        far.col(static_cast<Eigen::Index>(random.below(3))) *= 1.5f;
+        builder.add(row, layout.index({projector, 3, 0, 0}), (0.05f * far).eval());
+      }
+    }
+  }
+  MeasuredVenue venue;
+  venue.transport = TransportMatrix(cameras, projectors, builder.build());
+  venue.flood = venue.transport.floodlight();
+  venue.black.assign(venue.flood.size(), 0.002f);
+  venue.usable.assign(cameras.count(), 1);
+  for (std::size_t i = 0; i < venue.usable.size(); i += 37) venue.usable[i] = 0;
+  return venue;
+}
+
+/// Scenes by name, for data-driven tests.
+inline const std::vector<std::string>& engineSceneNames() {
+  static const std::vector<std::string> names{"wall", "defocus", "coarse tiles", "several devices",
+                                              "single pixel"};
+  return names;
+}
+
+inline EngineScene engineSceneOf(const std::string& name) {
+  if (name == "several devices") return engineScene(severalDevices(3));
+  SceneSettings settings;
+  if (name == "defocus") settings = {{50, 37}, {41, 29}, 2, 0.8, 2.0};
+  if (name == "coarse tiles") return engineScene(venueOf(makeScene({{33, 30}, {24, 20}, 5})), 8);
+  if (name == "single pixel") {
+    SceneSettings tiny{{1, 1}, {6, 6}, 4, 0.4, 0.4, 0.0, 0.0};
+    tiny.interreflection = 0.0;
+    Scene scene = makeScene(tiny);
+    scene.usable.assign(scene.usable.size(), 1);
+    return engineScene(venueOf(std::move(scene)));
+  }
+  return engineScene(venueOf(makeScene(settings)));
+}
+
+}  // namespace relucent::synthetic

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+
+#include "base/error.h"
+#include "output/frame_renderer.h"
+#include "output/screen_identity.h"
+
+namespace relucent {
+
+inline const ScreenIdentity projector{"DUMMY1", "", "", ""};
+inline constexpr QSize projectorSize{1024, 768};
+
+/// The content as it is, or its negative where it is not to be compensated.
+class ScriptedRenderer : public FrameRenderer {
+ public:
+  std::vector<QSize> projectors() const override { return {projectorSize}; }
+  QString name() const override { return "scripted"; }
+  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
+    ++rendered;
+    thorough = request.thorough;
+    if (broken) throw Error(ErrorKind::device, "the graphics card is gone", "start again");
+    QImage drive = content.image.copy();
+    if (!request.compensated) drive.invertPixels();
+    return {{drive}, 0.25, 2, 0.001};
+  }
+  std::atomic<int> rendered{0};
+  std::atomic<bool> broken{false}, thorough{false};
+};
+
+}  // namespace relucent

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Runs on two screens that can be unplugged, see tests/support/with-two-screens.
+#include "output/player.h"
+
+#include <QSignalSpy>
+#include <QtTest>
+
+#include "content/still_image.h"
+#include "gui/output/scripted_renderer.h"
+#include "gui/output/two_screens.h"
+
+using namespace relucent;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A grey that says what time it is: a tenth of a second a step.
+class Film : public ContentSource {
+ public:
+  ContentPicture at(ContentTime time) override {
+    auto step = static_cast<std::uint64_t>(time / 100ms);
+    QImage image(projectorSize, QImage::Format_RGBX8888);
+    image.fill(greyAt(time));
+    return {image, step + 1};
+  }
+  std::optional<ContentTime> length() const override { return std::nullopt; }
+  static QColor greyAt(ContentTime time) {
+    int grey = static_cast<int>(time / 100ms) % 256;
+    return {grey, grey, grey};
+  }
+};
+
+/// A clock that the test turns.
+struct Hand {
+  std::chrono::steady_clock::time_point now{};
+  ContentClock clock() {
+    return ContentClock([this] { return now; });
+  }
+};
+
+QRgb seen() {
+  return seenOn("DUMMY1").pixel(500, 400) | 0xff000000u;
+}
+
+}  // namespace
+
+class TestPlayer : public QObject {
+  Q_OBJECT
+
+  std::unique_ptr<ProjectorWindow> window_;
+  ScriptedRenderer* renderer_ = nullptr;  // the player's
+  Hand hand_;
+
+  std::unique_ptr<Player> playerOf(std::shared_ptr<ContentSource> content) {
+    auto renderer = std::make_unique<ScriptedRenderer>();
+    renderer_ = renderer.get();
+    hand_ = {};
+    return std::make_unique<Player>(std::move(renderer), std::move(content),
+                                    std::vector<ProjectorWindow*>{window_.get()}, hand_.clock());
+  }
+  std::shared_ptr<ContentSource> still() {
+    return std::make_shared<StillImage>(noise(projectorSize, 3).convertToFormat(QImage::Format_RGBX8888),
+                                        Canvas{projectorSize, Fit::fill});
+  }
+
+ private slots:
+  void init() {
+    if (screenOn("DUMMY1") == nullptr) plug();
+    window_ = std::make_unique<ProjectorWindow>(projector);
+    window_->shine();
+    QTRY_VERIFY(window_->isExposed());
+  }
+  void cleanup() { window_.reset(); }
+
+  void aStillPictureIsRenderedOnceAndShown() {
+    auto player = playerOf(still());
+    player->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QSignalSpy shown(player.get(), &Player::shown);
+    for (int turns = 0; turns < 200; ++turns) QCoreApplication::processEvents();
+    QCOMPARE(renderer_->rendered.load(), 1);
+    QCOMPARE(shown.count(), 0);
+    QCOMPARE(player->statistics().frames, std::uint64_t{1});
+    QCOMPARE(player->statistics().clipped, 0.25);
+    // It stands: once more, with all the time that it takes, and no more.
+    QVERIFY(!renderer_->thorough);
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    hand_.now += 1h;
+    for (int turns = 0; turns < 200; ++turns) QCoreApplication::processEvents();
+    QCOMPARE(renderer_->rendered.load(), 2);
+  }
+
+  void filmFollowsTheClock() {
+    auto player = playerOf(std::make_shared<Film>());
+    player->start();
+    for (auto time : {0s, 1s, 2s, 7s, 20s}) {
+      hand_.now = std::chrono::steady_clock::time_point(time);
+      QTRY_COMPARE(seen(), Film::greyAt(time).rgb());
+    }
+  }
+
+  void freezingHoldsPictureAndClock() {
+    auto player = playerOf(std::make_shared<Film>());
+    player->start();
+    hand_.now += 3s;
+    QTRY_COMPARE(seen(), Film::greyAt(3s).rgb());
+    QTest::keyClick(window_.get(), Qt::Key_Space);
+    QVERIFY(player->isFrozen());
+    hand_.now += 10s;
+    for (int turns = 0; turns < 200; ++turns) QCoreApplication::processEvents();
+    QCOMPARE(seen(), Film::greyAt(3s).rgb());
+    QTest::keyClick(window_.get(), Qt::Key_Space);
+    hand_.now += 1s;
+    QTRY_COMPARE(seen(), Film::greyAt(4s).rgb());
+  }
+
+  void blackIsBlackAndTheClockGoesOn() {
+    auto player = playerOf(std::make_shared<Film>());
+    player->start();
+    hand_.now += 3s;
+    QTRY_COMPARE(seen(), Film::greyAt(3s).rgb());
+    QTest::keyClick(window_.get(), Qt::Key_B);
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    hand_.now += 5s;
+    QTest::keyClick(window_.get(), Qt::Key_B);
+    QTRY_COMPARE(seen(), Film::greyAt(8s).rgb());
+  }
+
+  void compensationIsSwitchedOnAndOff() {
+    auto player = playerOf(still());
+    player->start();
+    QImage compensated = noise(projectorSize, 3), plain = compensated;
+    plain.invertPixels();
+    QTRY_VERIFY(seenOn("DUMMY1") == compensated);
+    QTest::keyClick(window_.get(), Qt::Key_C);
+    QTRY_VERIFY(seenOn("DUMMY1") == plain);
+    QTest::keyClick(window_.get(), Qt::Key_C);
+    QTRY_VERIFY(seenOn("DUMMY1") == compensated);
+  }
+
+  void overlayStandsOnThePictureAndGoes() {
+    auto player = playerOf(still());
+    player->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QTest::keyClick(window_.get(), Qt::Key_O);
+    QTRY_VERIFY(seenOn("DUMMY1").copy(0, 0, 200, 20) != noise(projectorSize, 3).copy(0, 0, 200, 20));
+    QVERIFY(seenOn("DUMMY1").copy(0, 400, 1024, 300) == noise(projectorSize, 3).copy(0, 400, 1024, 300));
+    QTest::keyClick(window_.get(), Qt::Key_O);
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+  }
+
+  void survivesItsDisplayComingAndGoing() {
+    auto player = playerOf(std::make_shared<Film>());
+    QSignalSpy failed(player.get(), &Player::failed);
+    player->start();
+    for (int cycle = 1; cycle <= 10; ++cycle) {
+      unplug();
+      hand_.now += 1s;
+      plug();
+      QTRY_COMPARE(seen(), Film::greyAt(1s * cycle).rgb());
+    }
+    QCOMPARE(failed.count(), 0);
+    QVERIFY(player->isPlaying());
+  }
+
+  void failureIsBlackAndSaid() {
+    auto player = playerOf(std::make_shared<Film>());
+    QSignalSpy failed(player.get(), &Player::failed);
+    player->start();
+    hand_.now += 3s;
+    QTRY_COMPARE(seen(), Film::greyAt(3s).rgb());
+    renderer_->broken = true;
+    hand_.now += 1s;
+    QTRY_COMPARE(failed.count(), 1);
+    QVERIFY(failed[0][0].toString().contains("the graphics card is gone"));
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QVERIFY(!player->isPlaying());
+  }
+
+  void stoppingIsBlackAndItStartsAgain() {
+    auto player = playerOf(std::make_shared<Film>());
+    player->start();
+    hand_.now += 3s;
+    QTRY_COMPARE(seen(), Film::greyAt(3s).rgb());
+    player->stop();
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    hand_.now += 9s;
+    player->start();
+    QTRY_COMPARE(seen(), Film::greyAt(3s).rgb());
+  }
+};
+
+QTEST_MAIN(TestPlayer)
+#include "test_player.moc"

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Runs on two screens that can be unplugged, see tests/support/with-two-screens.
+#include <QSignalSpy>
+#include <QtTest>
+
+#include "gui/output/scripted_renderer.h"
+#include "gui/output/two_screens.h"
+#include "output/projector_window.h"
+
+using namespace relucent;
+
+class TestProjectorWindow : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void cleanup() {
+    if (screenOn("DUMMY1") == nullptr) plug();
+  }
+
+  void everyPixelArrivesOnItsDisplayAlone() {
+    QImage operatorsBefore = seenOn("DUMMY0");
+    ProjectorWindow window(projector);
+    QCOMPARE(window.displaySize(), QSize(1024, 768));
+    window.shine();
+    QTRY_VERIFY(window.isExposed() && window.isShining());
+    for (quint32 seed : {1u, 2u, 3u}) {
+      QImage picture = noise({1024, 768}, seed);
+      window.present(picture);
+      QTRY_VERIFY(seenOn("DUMMY1") == picture);
+    }
+    QVERIFY(seenOn("DUMMY0") == operatorsBefore);
+  }
+
+  void isBlackUntilItIsGivenAPicture() {
+    ProjectorWindow window(projector);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    window.present(noise({1024, 768}, 4));
+    QTRY_VERIFY(!allBlack(seenOn("DUMMY1")));
+    window.blacken();
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+  }
+
+  void anotherSizeIsNeverScaled() {
+    ProjectorWindow window(projector);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    QImage small = noise({400, 300}, 5);
+    window.present(small);
+    QTRY_VERIFY(seenOn("DUMMY1").copy(312, 234, 400, 300) == small);
+    QImage around = seenOn("DUMMY1");
+    for (int y = 234; y < 534; ++y)
+      for (int x = 312; x < 712; ++x) around.setPixel(x, y, 0xff000000u);
+    QVERIFY(allBlack(around));
+    QImage large = noise({1200, 900}, 6);
+    window.present(large);
+    QTRY_VERIFY(seenOn("DUMMY1") == large.copy(88, 66, 1024, 768));
+  }
+
+  void hidesWhenItsDisplayGoesAndComesBackWithIt() {
+    ProjectorWindow window(projector);
+    QSignalSpy lost(&window, &ProjectorWindow::displayLost), found(&window, &ProjectorWindow::displayFound);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    QImage picture = noise({1024, 768}, 7);
+    window.present(picture);
+    QTRY_VERIFY(seenOn("DUMMY1") == picture);
+    QImage operators = seenOn("DUMMY0");
+    for (int cycle = 1; cycle <= 20; ++cycle) {
+      unplug();
+      QTRY_COMPARE(lost.count(), cycle);
+      QVERIFY(!window.isVisible() && !window.isShining());
+      QVERIFY(seenOn("DUMMY0") == operators);
+      plug();
+      QTRY_COMPARE(found.count(), cycle);
+      QTRY_VERIFY(seenOn("DUMMY1") == picture);
+    }
+  }
+
+  void waitsForADisplayThatIsNotThereYet() {
+    unplug();
+    ProjectorWindow window(projector);
+    window.shine();
+    QVERIFY(!window.isVisible() && window.displaySize().isEmpty());
+    QImage picture = noise({1024, 768}, 8);
+    window.present(picture);
+    plug();
+    QTRY_VERIFY(seenOn("DUMMY1") == picture);
+  }
+
+  void staysHiddenOnceItWasStopped() {
+    ProjectorWindow window(projector);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    window.stop();
+    unplug();
+    plug();
+    QVERIFY(!window.isVisible());
+  }
+
+  /// A display of another name is somebody else's.
+  void anotherDisplayIsLeftAlone() {
+    ProjectorWindow window({"DUMMY2", "", "", ""});
+    window.shine();
+    QVERIFY(!window.isVisible());
+    unplug();
+    plug();
+    QVERIFY(!window.isVisible());
+  }
+
+  void passesKeysOn() {
+    ProjectorWindow window(projector);
+    QSignalSpy keys(&window, &ProjectorWindow::keyPressed);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    QTest::keyClick(&window, Qt::Key_B);
+    QCOMPARE(keys.count(), 1);
+    QCOMPARE(keys[0][0].toInt(), static_cast<int>(Qt::Key_B));
+  }
+};
+
+QTEST_MAIN(TestProjectorWindow)
+#include "test_projector_window.moc"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Runs on two screens that can be unplugged, see tests/support/with-two-screens.
+#include "output/show.h"
+
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "gui/output/scripted_renderer.h"
+#include "gui/output/two_screens.h"
+#include "support/sentences.h"
+
+using namespace relucent;
+
+class TestShow : public QObject {
+  Q_OBJECT
+
+  std::unique_ptr<QTemporaryDir> folder_;
+  int made_ = 0;
+  bool broken_ = false, cannotBeMade_ = false;
+
+  QString picture(const char* name, quint32 seed) {
+    QString file = folder_->filePath(name);
+    noise(projectorSize, seed).save(file);
+    return file;
+  }
+  ShowSettings settings(const QStringList& files) {
+    ShowSettings settings;
+    settings.canvas = {projectorSize, Fit::fill};
+    settings.folder = folder_->filePath("log");
+    settings.content.fadeSeconds = 0.0;
+    for (const QString& file : files) settings.content.items.append({file, 86400.0});
+    return settings;
+  }
+  std::unique_ptr<Show> showOf(const ShowSettings& settings) {
+    made_ = 0;
+    return std::make_unique<Show>(settings, [this] {
+      if (cannotBeMade_) throw Error(ErrorKind::input, "the calibration is gone", "bring it back");
+      auto renderer = std::make_unique<ScriptedRenderer>();
+      renderer->broken = broken_;
+      ++made_;
+      return renderer;
+    });
+  }
+  QJsonObject health() {
+    QFile file(folder_->filePath("log/health.json"));
+    return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object() : QJsonObject();
+  }
+  QString log() {
+    QFile file(folder_->filePath("log/show.log"));
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+  }
+
+ private slots:
+  void init() {
+    if (screenOn("DUMMY1") == nullptr) plug();
+    folder_ = std::make_unique<QTemporaryDir>();
+    broken_ = cannotBeMade_ = false;
+  }
+
+  void playsTellsItsHealthAndEndsBlack() {
+    auto show = showOf(settings({picture("a.png", 3)}));
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QCOMPARE(health()["state"].toString(), QString("playing"));
+    QCOMPARE(health()["renderer"].toString(), QString("scripted"));
+    QCOMPARE(health()["displays"].toArray().size(), 1);
+    QVERIFY(health()["displays"][0]["shining"].toBool());
+    show->stop();
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QCOMPARE(health()["state"].toString(), QString("stopped"));
+    QVERIFY(log().contains("playing 1 items on scripted") && log().contains("stopped"));
+  }
+
+  void aLostDisplayIsToldAndWaitedFor() {
+    auto show = showOf(settings({picture("a.png", 3)}));
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    unplug();
+    QTRY_VERIFY(!health()["displays"][0]["shining"].toBool());
+    QVERIFY(log().contains("display lost: DUMMY1"));
+    plug();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QTRY_VERIFY(health()["displays"][0]["shining"].toBool());
+    QVERIFY(log().contains("display back: DUMMY1"));
+  }
+
+  void beginsAgainAfterAFailure() {
+    broken_ = true;
+    auto show = showOf(settings({picture("a.png", 3)}));
+    show->start();
+    QTRY_COMPARE(health()["state"].toString(), QString("failed"));
+    QVERIFY(log().contains("the graphics card is gone"));
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    cannotBeMade_ = true;
+    QTRY_VERIFY(log().contains("the calibration is gone"));
+    broken_ = cannotBeMade_ = false;
+    QTRY_VERIFY_WITH_TIMEOUT(seenOn("DUMMY1") == noise(projectorSize, 3), 20'000);
+    QCOMPARE(health()["state"].toString(), QString("playing"));
+  }
+
+  void whatCannotBeReadIsNamed() {
+    ShowSettings wanted = settings({folder_->filePath("gone.png"), picture("b.png", 4)});
+    auto show = showOf(wanted);
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 4));
+    show->stop();
+    QCOMPARE(health()["skipped"].toInt(), 1);
+    QVERIFY(log().contains("gone.png"));
+  }
+
+  void displaysAreChosenBySizeOrName() {
+    QCOMPARE(displaysFor({projectorSize}, {}).front().connector, QString("DUMMY1"));
+    QCOMPARE(displaysFor({projectorSize}, {"DUMMY0"}).front().connector,
+             QString("DUMMY0"));  // named on purpose
+    QCOMPARE(displaysFor({projectorSize}, {"HDMI-7"}).front().connector, QString("HDMI-7"));  // not there yet
+    auto sentence = [](const std::vector<QSize>& sizes, const QStringList& named) {
+      return sentenceOf([&] { displaysFor(sizes, named); }, ErrorKind::input);
+    };
+    QVERIFY(mentions(sentence({QSize(1920, 1200)}, {}), "1920x1200"));
+    QVERIFY(mentions(sentence({QSize(1366, 768)}, {}), "operator's"));  // there, and not to be taken
+    QVERIFY(mentions(sentence({projectorSize, projectorSize}, {}), "DUMMY1 (1024x768)"));
+    QVERIFY(mentions(sentence({projectorSize}, {"A", "B"}), "2 displays are named for 1"));
+  }
+};
+
+QTEST_MAIN(TestShow)
+#include "test_show.moc"

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QGuiApplication>
+#include <QImage>
+#include <QPixmap>
+#include <QProcess>
+#include <QRandomGenerator>
+#include <QScreen>
+#include <QtTest>
+
+/// The two screens of tests/support/with-two-screens: DUMMY0 is the operator's, DUMMY1 a projector's.
+namespace relucent {
+
+inline QScreen* screenOn(const QString& connector) {
+  for (QScreen* screen : QGuiApplication::screens())
+    if (screen->name() == connector) return screen;
+  return nullptr;
+}
+
+inline void xrandr(const QStringList& arguments) {
+  QCOMPARE(QProcess::execute("xrandr", arguments), 0);
+}
+inline void unplug() {
+  xrandr({"--output", "DUMMY1", "--off"});
+  QTRY_VERIFY(screenOn("DUMMY1") == nullptr);
+}
+inline void plug() {
+  xrandr({"--output", "DUMMY1", "--mode", "1024x768", "--right-of", "DUMMY0"});
+  QTRY_VERIFY(screenOn("DUMMY1") != nullptr);
+}
+
+inline QImage noise(QSize size, quint32 seed) {
+  QImage image(size, QImage::Format_RGB32);
+  QRandomGenerator random(seed);
+  for (int y = 0; y < size.height(); ++y)
+    for (int x = 0; x < size.width(); ++x) image.setPixel(x, y, random.generate() | 0xff000000u);
+  return image;
+}
+
+/// What stands on a screen now.
+inline QImage seenOn(const QString& connector) {
+  QScreen* screen = screenOn(connector);
+  if (screen == nullptr) return {};
+  return screen->grabWindow(0).toImage().convertToFormat(QImage::Format_RGB32);
+}
+
+inline bool allBlack(const QImage& image) {
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if ((image.pixel(x, y) & 0xffffffu) != 0) return false;
+  return !image.isNull();
+}
+
+}  // namespace relucent

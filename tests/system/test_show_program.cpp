@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The desktop program plays a calibrated venue on the second screen, with nobody at it.
+#include <signal.h>
+
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <cmath>
+
+#include "gui/output/two_screens.h"
+
+using namespace relucent;
+
+namespace {
+
+constexpr int patience =
+    60'000;  // ms for a program that calibrates or reads a calibration, on a busy machine
+
+struct Distance {
+  double mean = 0.0;    // of the difference, codes
+  double within = 0.0;  // share of values no more than two codes apart
+};
+
+Distance distance(const QImage& a, const QImage& b) {
+  Distance result;
+  double values = 3.0 * a.width() * a.height();
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x) {
+      QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+      for (int apart : {qRed(p) - qRed(q), qGreen(p) - qGreen(q), qBlue(p) - qBlue(q)}) {
+        result.mean += std::abs(apart) / values;
+        result.within += std::abs(apart) <= 2 ? 1.0 / values : 0.0;
+      }
+    }
+  return result;
+}
+
+}  // namespace
+
+class TestShowProgram : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  QString program(const char* name) { return QCoreApplication::applicationDirPath() + "/" + name; }
+  QString calibration() { return folder_.filePath("calibration"); }
+  static QString picture() { return QString(RELUCENT_RESOURCES) + "/pictures/demo.png"; }
+  void run(const char* name, const QStringList& arguments) {
+    QProcess process;
+    process.start(program(name), arguments);
+    QVERIFY(process.waitForFinished(2 * patience));
+    QVERIFY2(process.exitCode() == 0, process.readAllStandardError().constData());
+  }
+  QImage pattern(const char* method) {
+    run("relucent-cli", {"compensate", calibration(), "--image", picture(), "--method", method, "--out",
+                         folder_.filePath(method)});
+    return QImage(folder_.filePath(QString(method) + "/pattern.png"));
+  }
+  QJsonObject health() {
+    QFile file(folder_.filePath("log/health.json"));
+    return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object() : QJsonObject();
+  }
+
+ private slots:
+  void initTestCase() {
+    run("relucent-cli", {"calibrate", calibration(), "--venue", "corner", "--projector", "128x96", "--camera",
+                         "80x60", "--cache", folder_.filePath("cache")});
+  }
+
+  void showsWhatThePipelineComputesAndEndsBlack() {
+    QImage refined = pattern("refined"), plain = pattern("none");
+    QSize content = QImage(picture()).size();
+    QProcess show;
+    show.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+    show.start(program("relucent"), {"show", calibration(), "--content", picture(), "--canvas",
+                                     QString("%1x%2").arg(content.width()).arg(content.height()), "--log",
+                                     folder_.filePath("log")});
+    // Dither puts a value on either of two neighbouring codes; and the engine keeps one mixing of colours for
+    // a camera pixel, which moves a few values in a hundred by more than that.
+    QTRY_VERIFY_WITH_TIMEOUT(distance(seenOn("DUMMY1"), refined).within > 0.95, patience);
+    Distance apart = distance(seenOn("DUMMY1"), refined), uncompensated = distance(seenOn("DUMMY1"), plain);
+    qInfo() << "codes apart, mean:" << apart.mean << "uncompensated:" << uncompensated.mean;
+    QVERIFY(apart.mean < 1.0);
+    QVERIFY(uncompensated.mean > 10.0 * apart.mean);
+    QCOMPARE(health()["state"].toString(), QString("playing"));
+    QVERIFY(health()["displays"][0]["shining"].toBool());
+
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      unplug();
+      xrandr({"--output", "DUMMY1", "--mode", "relucent-128x96", "--right-of", "DUMMY0"});
+      QTRY_VERIFY_WITH_TIMEOUT(distance(seenOn("DUMMY1"), refined).within > 0.95, patience);
+    }
+    QCOMPARE(kill(static_cast<pid_t>(show.processId()), SIGTERM), 0);
+    QVERIFY(show.waitForFinished(patience));
+    QCOMPARE(show.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(show.exitCode(), 0);
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QCOMPARE(health()["state"].toString(), QString("stopped"));
+  }
+
+  void refusesWithOneSentence_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<int>("status");
+    QTest::addColumn<QString>("part");
+    QTest::newRow("no calibration") << QStringList{"show", "/nowhere", "--content", picture()} << 1
+                                    << "/nowhere";
+    QTest::newRow("nothing to play") << QStringList{"show", "CALIBRATION"} << 2 << "--content";
+    QTest::newRow("no canvas") << QStringList{"show",    "CALIBRATION", "--content",
+                                              picture(), "--canvas",    "wide"}
+                               << 2 << "WIDTHxHEIGHT";
+    QTest::newRow("no command") << QStringList{} << 2 << "relucent show";
+    QTest::newRow("unknown option") << QStringList{"show", "CALIBRATION", "--quick"} << 2 << "quick";
+    QTest::newRow("two displays for one projector")
+        << QStringList{"show", "CALIBRATION", "--content", picture(), "--screen", "A", "--screen", "B"} << 1
+        << "2 displays are named for 1";
+    QTest::newRow("newer playlist") << QStringList{"show", "CALIBRATION", "--content", "PLAYLIST"} << 1
+                                    << "newer";
+  }
+  void refusesWithOneSentence() {
+    QFETCH(QStringList, arguments);
+    QFETCH(int, status);
+    QFETCH(QString, part);
+    QFile playlist(folder_.filePath("newer.playlist"));
+    QVERIFY(playlist.open(QIODevice::WriteOnly) && playlist.write("{\"version\": 9, \"items\": []}") > 0);
+    playlist.close();
+    arguments.replaceInStrings("CALIBRATION", calibration());
+    arguments.replaceInStrings("PLAYLIST", playlist.fileName());
+    QProcess process;
+    process.start(program("relucent"), arguments << "--log" << folder_.filePath("other"));
+    QVERIFY(process.waitForFinished(patience));
+    QString said = process.readAllStandardError();
+    QVERIFY2(process.exitCode() == status && said.contains(part), qPrintable(said));
+  }
+};
+
+QTEST_MAIN(TestShowProgram)
+#include "test_show_program.moc"

@@ -47,7 +47,7 @@ int runShowCommand(const QStringList& arguments) {
   QCommandLineOption content("content", "A picture, a folder of numbered pictures, or a playlist.", "PATH");
   QCommandLineOption loop("loop", "Begin again when it has ended.");
   QCommandLineOption display(
-      "display", "Connector of a projector's display, one for each; else chosen by size.", "NAME");
+      "screen", "Connector of a projector's display, one for each; else chosen by size.", "NAME");
   QCommandLineOption canvas("canvas", "Size that content is brought to.", "WxH", "1920x1080");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));

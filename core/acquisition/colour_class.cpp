@@ -43,14 +43,14 @@ ColourBlock underPattern(const std::vector<BlockSparse>& leaves, std::size_t row
 }
 
 /// The light of the lit channels in one camera channel.
-float inLight(const ColourBlock& block, std::size_t cameraChannel, const Light& light) {
+float inLight(const ColourBlock& block, std::size_t cameraChannel, const LitChannels& light) {
   float sum = 0.0f;
   for (std::size_t k = 0; k < 3; ++k)
     if (light[k]) sum += block.data()[3 * cameraChannel + k];
   return sum;
 }
 
-Stack patternIn(const Light& light, const std::vector<std::uint8_t>& lit) {
+Stack patternIn(const LitChannels& light, const std::vector<std::uint8_t>& lit) {
   Stack pattern(3 * lit.size(), 0.0f);
   for (std::size_t i = 0; i < lit.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) pattern[3 * i + k] = light[k] ? lit[i] : 0.0f;
@@ -82,7 +82,7 @@ std::shared_ptr<const LitQuadrant> ColourClass::lit(int quadrant, std::vector<st
   return result;
 }
 
-ClassFrame ColourClass::frame(std::shared_ptr<const LitQuadrant> quadrant, const Light& light) const {
+ClassFrame ColourClass::frame(std::shared_ptr<const LitQuadrant> quadrant, const LitChannels& light) const {
   ClassFrame frame;
   frame.light = light;
   frame.pattern = patternIn(light, quadrant->lit);
@@ -124,7 +124,7 @@ bool ColourClass::contradictsParents() {
   return contradicting >= fewestContradictions + seen_.size() / mostRows;
 }
 
-std::vector<Demand> ColourClass::demands(const LitQuadrant& quadrant, const Light& light) const {
+std::vector<Demand> ColourClass::demands(const LitQuadrant& quadrant, const LitChannels& light) const {
   std::vector<Demand> demands(references_.usable.size());
   parallelFor(0, seen_.size(), 1024, [&](std::size_t i) {
     std::size_t row = seen_[i].row;
@@ -146,7 +146,7 @@ std::size_t ColourClass::projectorOf(const Seen& seen) const {
 }
 
 void ColourClass::extract(const ClassFrame& frame, const HdrFrame& seen) {
-  const Light& light = frame.light;
+  const LitChannels& light = frame.light;
   parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
     if (!wanted_[i]) return;
     std::size_t row = seen_[i].row, projector = projectorOf(seen_[i]);

@@ -22,7 +22,7 @@ struct LitQuadrant {
 /// A photograph to be taken: all that can be computed before it is.
 struct ClassFrame {
   std::shared_ptr<const LitQuadrant> quadrant;
-  Light light{};
+  LitChannels light{};
   Stack pattern;
   std::vector<Demand> demands;  // empty: all exposures
 };
@@ -36,7 +36,7 @@ class ColourClass {
   ColourClass(Tree& tree, std::span<const Seen> seen, const References& references, const Scheme& scheme);
 
   std::shared_ptr<const LitQuadrant> lit(int quadrant, std::vector<std::uint8_t> pixels) const;
-  ClassFrame frame(std::shared_ptr<const LitQuadrant> quadrant, const Light& light) const;
+  ClassFrame frame(std::shared_ptr<const LitQuadrant> quadrant, const LitChannels& light) const;
 
   static HdrFrame photograph(const ClassFrame& frame, Watch& watch, const Progress& progress,
                              const Meanwhile& meanwhile);
@@ -53,7 +53,7 @@ class ColourClass {
   void settle(Children& children);
 
  private:
-  std::vector<Demand> demands(const LitQuadrant& quadrant, const Light& light) const;
+  std::vector<Demand> demands(const LitQuadrant& quadrant, const LitChannels& light) const;
   bool contradictsParent(std::size_t i) const;
   void settle(std::size_t i, Children& children) const;
   /// A value as codes of a row, what the rounding leaves over handed on to the row's next leaf.

@@ -10,7 +10,7 @@ namespace {
 // A flood's sum below this many standard deviations says nothing about its mixing.
 constexpr float mixingSigmas = 5.0f;
 
-std::vector<Light> lightsOf(LitColours colours) {
+std::vector<LitChannels> lightsOf(LitColours colours) {
   if (colours == LitColours::white) return {{true, true, true}};
   return {{true, false, false}, {false, true, false}, {false, false, true}};
 }
@@ -50,7 +50,8 @@ Scheme schemeOf(const AcquisitionSettings& settings, const References& reference
   return scheme;
 }
 
-ColourBlock channelShares(const Light& light, const ColourBlock& flood, const ColourBlock& floodVariance) {
+ColourBlock channelShares(const LitChannels& light, const ColourBlock& flood,
+                          const ColourBlock& floodVariance) {
   ColourBlock shares = ColourBlock::Zero();
   for (int c = 0; c < 3; ++c) {
     float sum = 0.0f, variance = 0.0f, lit = 0.0f;

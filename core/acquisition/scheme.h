@@ -9,7 +9,7 @@
 namespace relucent {
 
 /// The projector channels that a pattern is shown in at once.
-using Light = std::array<bool, 3>;
+using LitChannels = std::array<bool, 3>;
 
 /// How the tree is measured: which children go on, what their measurement is corrected by, where the light of
 /// the others is kept. All schemes share the quadtree and the colouring of conflicting blocks.
@@ -32,8 +32,8 @@ struct Scheme {
   bool subtractsLeaves = true;
   bool reconciles = true;
   bool restToParent = false;
-  bool repairs = true;        // flagged camera pixels are measured again
-  std::vector<Light> lights;  // shown one after the other
+  bool repairs = true;              // flagged camera pixels are measured again
+  std::vector<LitChannels> lights;  // shown one after the other
 
   /// Whether any of a child's nine values is above what the scheme follows.
   bool follows(std::size_t row, const ColourBlock& value, const ColourBlock& variance) const;
@@ -45,6 +45,7 @@ Scheme schemeOf(const AcquisitionSettings& settings, const References& reference
 /// channels that are lit, and are 0 elsewhere. One channel: all its own. White: as in the reference floods,
 ///   share(c, k) = M(c, k) / sum_k M(c, k),
 /// or evenly, where the flood M of the camera pixel is not above its noise.
-ColourBlock channelShares(const Light& light, const ColourBlock& flood, const ColourBlock& floodVariance);
+ColourBlock channelShares(const LitChannels& light, const ColourBlock& flood,
+                          const ColourBlock& floodVariance);
 
 }  // namespace relucent

@@ -17,14 +17,6 @@ Stack difference(const Stack& a, const Stack& b) {
   return stackOf(a.size(), [&](std::size_t i) { return a[i] - b[i]; });
 }
 
-/// Per projector pixel: its brightest camera pixel lies within the content.
-std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
-  std::vector<std::uint8_t> free(brightest.size(), 0);
-  for (std::size_t j = 0; j < free.size(); ++j)
-    free[j] = brightest[j] >= 0 && target.inside[static_cast<std::size_t>(brightest[j])];
-  return free;
-}
-
 /// Clamps, blackens what is not free, and says what share of the free values was cut off.
 double finish(Stack& p, const std::vector<std::uint8_t>& free) {
   // A value beyond by less than half a code of an 8-bit projector is not visibly cut.
@@ -93,6 +85,13 @@ std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transpo
     }
   }
   return brightest;
+}
+
+std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
+  std::vector<std::uint8_t> free(brightest.size(), 0);
+  for (std::size_t j = 0; j < free.size(); ++j)
+    free[j] = brightest[j] >= 0 && target.inside[static_cast<std::size_t>(brightest[j])];
+  return free;
 }
 
 Compensator::Compensator(const MeasuredVenue& venue, const WindowInverse& inverse,

@@ -99,4 +99,7 @@ class Compensator {
 std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
                                                   const std::vector<std::uint8_t>& usable);
 
+/// Per projector pixel: its brightest camera pixel lies within the content. The others are black.
+std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
+
 }  // namespace relucent

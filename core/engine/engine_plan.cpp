@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "compensation/stacks.h"
 
 namespace relucent {
 namespace {
@@ -77,13 +78,9 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   result.warp =
       ContentWarp(content, placementOf(engine, content, target.corners), venue.transport.cameras().size(0));
 
-  result.free.assign(engine.brightest.size(), 0);
-  Stack lit(3 * result.free.size(), 0.0f);
-  for (std::size_t j = 0; j < result.free.size(); ++j) {
-    if (engine.brightest[j] < 0 || !target.inside[static_cast<std::size_t>(engine.brightest[j])]) continue;
-    result.free[j] = 1;
-    for (std::size_t c = 0; c < 3; ++c) lit[3 * j + c] = 1.0f;
-  }
+  result.free = contentPixels(engine.brightest, target);
+  Stack lit =
+      stackOf(3 * result.free.size(), [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
   result.lit = venue.transport.apply(lit);
   return result;
 }

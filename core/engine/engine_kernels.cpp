@@ -5,31 +5,14 @@
 
 #include <cstring>
 
+#include "transport/code_lanes.h"
+
 namespace relucent {
 namespace {
 
-using Floats [[gnu::vector_size(16)]] = float;
-using Longs [[gnu::vector_size(16)]] = std::int64_t;
-using Integers [[gnu::vector_size(16)]] = std::int32_t;
-using Codes [[gnu::vector_size(16)]] = std::int16_t;
+using namespace detail;
 using WideIntegers [[gnu::vector_size(32)]] = std::int32_t;
 using WideFloats [[gnu::vector_size(32)]] = float;
-
-// A code in the upper half of 32 bits: that is one instruction everywhere, widening with the sign is not.
-constexpr float lanesToCodes = 0x1.0p-16f;
-
-// Inlined into each version below, so that each compiles it for its own instruction set.
-#define RELUCENT_KERNEL [[gnu::always_inline]] inline
-
-RELUCENT_KERNEL Floats load(const float* from) {
-  Floats values;
-  std::memcpy(&values, from, sizeof values);
-  return values;
-}
-
-RELUCENT_KERNEL Floats floatsOf(Codes halves) {
-  return __builtin_convertvector(reinterpret_cast<Integers>(halves), Floats);
-}
 
 /// A leaf's three codes times 65536, and in the fourth lane its column as if that were a code.
 RELUCENT_KERNEL Floats lanesOf(const PackedLeaf& leaf) {

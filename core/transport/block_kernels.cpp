@@ -7,25 +7,12 @@
 
 #include <cstring>
 
+#include "transport/code_lanes.h"
+
 namespace relucent {
 namespace {
 
-using Floats [[gnu::vector_size(16)]] = float;
-using Integers [[gnu::vector_size(16)]] = std::int32_t;
-using Longs [[gnu::vector_size(16)]] = std::int64_t;
-using Codes [[gnu::vector_size(16)]] = std::int16_t;
-
-// A code in the upper half of 32 bits: that is one instruction everywhere, widening with the sign is not.
-constexpr float lanesToCodes = 0x1.0p-16f;
-
-// Inlined into each version below, so that each compiles it for its own instruction set.
-#define RELUCENT_KERNEL [[gnu::always_inline]] inline
-
-RELUCENT_KERNEL Floats load(const float* from) {
-  Floats values;
-  std::memcpy(&values, from, sizeof values);
-  return values;
-}
+using namespace detail;
 
 RELUCENT_KERNEL Codes eightCodes(const std::int16_t* from) {
   Codes codes;
@@ -38,10 +25,6 @@ RELUCENT_KERNEL Codes fourCodes(const std::int16_t* from) {
   std::int64_t codes;
   std::memcpy(&codes, from, sizeof codes);
   return reinterpret_cast<Codes>(Longs{codes, 0});
-}
-
-RELUCENT_KERNEL Floats floatsOf(Codes halves) {
-  return __builtin_convertvector(reinterpret_cast<Integers>(halves), Floats);
 }
 
 /// A block's codes times 65536, a vector for each camera channel; the fourth lane is of no meaning.

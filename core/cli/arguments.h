@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/acquisition_bench.h"
 #include "pipeline/pipeline.h"
 
 namespace relucent {
@@ -70,6 +71,7 @@ struct Report {
 };
 struct Bench {
   std::string name;
+  AcquisitionBenchSettings acquisition;
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, ImportPictures, Plan,

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 #include <new>
 
@@ -11,6 +10,7 @@
 #include "calibration/calibration_folder.h"
 #include "cli/interruption.h"
 #include "cli/terminal_progress.h"
+#include "cli/texts.h"
 
 namespace relucent {
 namespace {
@@ -22,126 +22,6 @@ void refuse(const std::vector<std::string>& problems) {
   std::string all;
   for (const std::string& problem : problems) all += (all.empty() ? "" : ", and ") + problem;
   if (!all.empty()) throw Error(ErrorKind::input, all, "choose other values");
-}
-
-std::string lines(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += sentence + "\n";
-  return text;
-}
-
-std::string textOf(const CalibrateResult& result) {
-  double seconds = result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse;
-  return fmt::format(
-             "Calibrated with {} patterns and {} photographs in {:.0f} s.\n"
-             "{} connections of light in {} leaves; {:.1f} % of the light is unresolved, {:.1f} % of the "
-             "camera's "
-             "pixels are flagged.\n",
-             result.patterns, result.exposures, seconds, result.connections, result.leaves,
-             100.0 * result.unresolvedEnergy, 100.0 * result.flaggedShare) +
-         lines(result.findings);
-}
-
-std::string textOf(const WrittenFiles& result) {
-  std::string text;
-  for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
-  for (const std::string& note : result.notes) text += "Note: " + note + ".\n";
-  return text;
-}
-
-std::string textOf(const VerifyResult& result) {
-  const Reverification& found = result.found;
-  std::string text = fmt::format("{}\nError by size of the pattern's blocks:", result.judgement.sentence);
-  for (std::size_t size = 0; size < found.errorOf.size(); ++size)
-    text += fmt::format("{} {} {:.1f} %", size == 0 ? "" : ",", 1 << size, 100.0 * found.errorOf[size]);
-  text += fmt::format(
-      ".\nThe lamp gives {:.1f} % of its light; the room's light changed by {:+.2f} % of the flood image; "
-      "{} photographs in {:.0f} s.\n",
-      100.0 * found.lamp, 100.0 * found.ambient, found.exposures, result.seconds);
-  return text + textOf(WrittenFiles{result.files});
-}
-
-std::string textOf(const ImportResult& result) {
-  return fmt::format(
-             "Imported {} photographs of a {}x{} projector in {:.0f} s; {} of them were not fitted but "
-             "predicted.\n"
-             "Error of the prediction, as a share of what varies: {:.1f} % by T, {:.1f} % by one colour mix "
-             "a "
-             "pixel, {:.1f} % by a one-to-one map.\n",
-             result.patterns, result.projector.width, result.projector.height, result.seconds, result.heldOut,
-             100.0 * result.error.transport, 100.0 * result.error.mix, 100.0 * result.error.oneToOne) +
-         lines(result.findings);
-}
-
-std::string textOf(const CompensateResult& result) {
-  std::string text = fmt::format(
-      "Predicted: {:.1f} dB where it can be reached, which is {:.1f} % of the picture; colour error {:.1f} "
-      "(CIEDE2000) over all of it; {:.1f} % of the drive values are at their limits.\n",
-      result.psnrPredicted, 100.0 * result.reachable, result.deltaE, 100.0 * result.clipped);
-  for (const auto& [key, share] : result.uncorrectable) {
-    if (share < 0.0005) continue;
-    std::string reason = key;
-    std::replace(reason.begin(), reason.end(), '_', ' ');
-    text += fmt::format("Cannot be corrected: {:.1f} % {}.\n", 100.0 * share, reason);
-  }
-  return text + textOf(WrittenFiles{result.files});
-}
-
-std::string textOf(const EvaluateResult& result) {
-  std::string text =
-      fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
-  for (const ImageScore& image : result.images) {
-    text += fmt::format("\n{:<12} {:>14} {:>9} {:>7} {:>7} {:>9}\n", image.name, "reachable dB", "all dB",
-                        "SSIM", "dE2000", "seconds");
-    for (const MethodScore& score : image.methods)
-      text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", score.method,
-                          score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
-  }
-  return text;
-}
-
-std::string textOf(const SeparateResult& result) {
-  return fmt::format("{:.1f} % of the light is direct.\n", 100.0 * result.directShare) +
-         textOf(WrittenFiles{result.files});
-}
-
-std::string textOf(const DifferenceResult& result) {
-  return fmt::format(
-             "They differ by {:.4g} (root mean square), {:.2f} % of the second; shown {:.3g} times.\n",
-             result.rms, 100.0 * result.relative, result.gain) +
-         textOf(WrittenFiles{result.files});
-}
-
-std::string textOf(const BenchResult& result) {
-  std::string text = fmt::format("{}, {} threads, copies {:.1f} GB/s\n", result.machine.processor,
-                                 result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
-  for (const Benchmark& benchmark : result.benchmarks)
-    text += fmt::format("{:<32} {:>10.3f} ms {:>8.1f} MB {:>5.0f} % of copying\n", benchmark.name,
-                        1e3 * benchmark.seconds, benchmark.bytes / 1e6, 100.0 * benchmark.shareOfCopy);
-  return text;
-}
-
-std::string textOf(const InverseBenchResult& result) {
-  const PaperFigures paper;
-  std::string text = fmt::format(
-      "paper: clustering and inversion {:.0f} to {:.0f} s, row errors {:.0f} to {:.0f} %\n\n"
-      "{:<8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12} {:>12} {:>12}\n",
-      paper.leastInversionSeconds, paper.mostInversionSeconds, 100.0 * paper.leastError,
-      100.0 * paper.mostError, "venue", "clusters s", "largest", "error %", "capped s", "error %", "svd s",
-      "windows s", "ridge");
-  for (const VenueInversion& v : result.venues)
-    text += fmt::format(
-        "{:<8} {:>10.2f} {:>10} {:>10.0f} {:>10.2f} {:>10.0f} {:>12.2f} {:>12.2f} {:>12.2g}\n", v.venue,
-        v.clusterSeconds, v.printed.largest, 100.0 * v.printed.errorMedian, v.cappedSeconds,
-        100.0 * v.capped.errorMedian, v.truncatedSeconds, v.windowSeconds, v.ridge);
-  text += fmt::format("\n{:<8}", "dB");
-  for (const MethodDescription& method : methodDescriptions) text += fmt::format(" {:>9}", method.name);
-  for (const VenueInversion& v : result.venues) {
-    text += fmt::format("\n{:<8}", v.venue);
-    for (const MethodDescription& method : methodDescriptions)
-      text += fmt::format(" {:>9.2f}", v.quality.at(std::string(method.name)));
-  }
-  return text + "\n";
 }
 
 int statusOf(Verdict verdict) {
@@ -236,6 +116,10 @@ struct Executor {
 
   Outcome operator()(const Bench& command) const {
     if (command.name == "inverse") return outcomeOf(benchInverse(command.cache, progress));
+    if (command.name == "acquisition") {
+      refuse(problems(command.acquisition));
+      return outcomeOf(benchAcquisition(command.acquisition, command.cache, progress));
+    }
     return outcomeOf(bench(command.name, progress));
   }
 };

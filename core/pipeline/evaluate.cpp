@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -33,6 +34,10 @@ double relightError(const TransportMatrix& transport, const TransportMatrix& ref
   return whole > 0.0 ? std::sqrt(apart / whole) : 0.0;
 }
 
+double sumOf(const Stack& stack) {
+  return std::accumulate(stack.begin(), stack.end(), 0.0);
+}
+
 TransportScore scoreOf(const TransportMatrix& transport, const SimulatedVenue& venue) {
   const TransportMatrix& truth = venue.trueTransport();
   TransportDifference apart = difference(transport, truth);
@@ -40,8 +45,19 @@ TransportScore scoreOf(const TransportMatrix& transport, const SimulatedVenue& v
   Stack binary(natural.size());
   Random random{20071028, 2};
   for (float& value : binary) value = random.uniform() < 0.5 ? 0.0f : 1.0f;
-  return {apart.frobenius, apart.rowMedian, apart.rowP95, relightError(transport, truth, natural),
-          relightError(transport, truth, binary)};
+  return {apart.frobenius,
+          apart.rowMedian,
+          apart.rowP95,
+          relightError(transport, truth, natural),
+          relightError(transport, truth, binary),
+          sumOf(transport.floodlight()) / sumOf(truth.floodlight())};
+}
+
+OpenedRig openedVenue(const MeasuredCalibration& measured, const fs::path& cache, Progress& progress) {
+  if (!std::holds_alternative<VenueSettings>(measured.rig))
+    throw Error(ErrorKind::input, "only a simulated venue's true light transport is known",
+                "calibrate one with --venue, or look at the prediction: relucent-cli compensate");
+  return openRig(measured.rig, cache, progress);
 }
 
 /// Judges projections by what they truly look like in the venue.
@@ -125,13 +141,10 @@ std::vector<Method> methodsOf(const EvaluateSettings& settings) {
 
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
                      const fs::path& cache, Progress& progress) {
-  if (!std::holds_alternative<VenueSettings>(measured.rig))
-    throw Error(ErrorKind::input, "only a simulated venue's true light transport is known",
-                "calibrate one with --venue, or look at the prediction: relucent-cli compensate");
   std::vector<NamedImage> content = contentOf(settings);
   std::vector<Method> methods = methodsOf(settings);
   Progress opening = progress.part(0.2, "Preparing the venue");
-  OpenedRig devices = openRig(measured.rig, cache, opening);
+  OpenedRig devices = openedVenue(measured, cache, opening);
   const SimulatedVenue& venue = devices.venue.value();
 
   Evaluation evaluation;
@@ -142,7 +155,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   result.transport = scoreOf(measured.venue.transport, venue);
 
   Judge judge(measured, venue);
-  Compensator compensator(measured.venue, measured.inverse);
+  Compensator compensator(measured.venue, measured.inverse, settings.compensator);
   Progress judging = progress.part(0.8, "Comparing the methods");
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
@@ -169,6 +182,12 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   }
   progress.report(1.0);
   return evaluation;
+}
+
+TransportScore transportScore(const MeasuredCalibration& measured, const fs::path& cache,
+                              Progress& progress) {
+  OpenedRig devices = openedVenue(measured, cache, progress);
+  return scoreOf(measured.venue.transport, devices.venue.value());
 }
 
 EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,

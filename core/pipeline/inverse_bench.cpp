@@ -54,6 +54,27 @@ void timeInversions(const MeasuredVenue& venue, VenueInversion& result, Progress
   result.fullColourSeconds = invert("Ridge in full colour", ClusterSolver::ridge, ClusterColour::full);
 }
 
+/// dB per method, mean over the product's pictures.
+std::map<std::string, double> qualityOf(const MeasuredCalibration& measured, const EvaluateSettings& settings,
+                                        const std::filesystem::path& cache, Progress& progress) {
+  EvaluateResult scores = evaluated(measured, settings, cache, progress).result;
+  std::map<std::string, double> quality;
+  for (const ImageScore& image : scores.images)
+    for (const MethodScore& score : image.methods)
+      quality[score.method] += score.psnrReachable / static_cast<double>(scores.images.size());
+  return quality;
+}
+
+double clusterQuality(const MeasuredCalibration& measured, ClusterSolver solver, ClusterColour colour,
+                      const std::filesystem::path& cache, Progress& progress) {
+  const std::string method = "clusters";
+  EvaluateSettings settings;
+  settings.methods = {method};
+  settings.compensator.clusterInverse.solver = solver;
+  settings.compensator.clusterInverse.colour = colour;
+  return qualityOf(measured, settings, cache, progress).at(method);
+}
+
 VenueInversion inverted(const std::string& name, const std::filesystem::path& cache, Progress& progress) {
   TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / name;
@@ -72,11 +93,13 @@ VenueInversion inverted(const std::string& name, const std::filesystem::path& ca
   result.leaves = measured.venue.transport.leaves().blocks();
   Progress timing = progress.part(0.1, "Inverting " + name);
   timeInversions(measured.venue, result, timing);
-  Progress evaluating = progress.part(0.15, "Comparing the methods in " + name);
-  EvaluateResult scores = evaluated(measured, {}, cache, evaluating).result;
-  for (const ImageScore& image : scores.images)
-    for (const MethodScore& score : image.methods)
-      result.quality[score.method] += score.psnrReachable / static_cast<double>(scores.images.size());
+  Progress evaluating = progress.part(0.11, "Comparing the methods in " + name);
+  result.quality = qualityOf(measured, {}, cache, evaluating);
+  Progress comparing = progress.part(0.04, "Comparing the inverses of clusters in " + name);
+  result.truncatedQuality =
+      clusterQuality(measured, ClusterSolver::truncatedSvd, ClusterColour::shared, cache, comparing);
+  result.fullColourQuality =
+      clusterQuality(measured, ClusterSolver::ridge, ClusterColour::full, cache, comparing);
   return result;
 }
 

@@ -25,6 +25,8 @@ struct VenueInversion {
   double ridgeSeconds = 0.0;              // and by ridge
   double fullColourSeconds = 0.0;         // by ridge, every connection its 3x3 block
   std::map<std::string, double> quality;  // dB, per method, mean over the product's pictures
+  double truncatedQuality = 0.0;          // dB of `clusters` inverted by truncated SVD
+  double fullColourQuality = 0.0;         // dB of `clusters` with full 3x3 blocks (paper, eq. 2)
 };
 
 struct InverseBenchResult {

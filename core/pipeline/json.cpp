@@ -39,6 +39,15 @@ Json clustersToJson(double seconds, const ClusteringStatistics& clusters) {
           {"error_p95", clusters.errorP95}};
 }
 
+Json transportToJson(const TransportScore& score) {
+  return {{"frobenius", score.frobenius},
+          {"row_median", score.rowMedian},
+          {"row_p95", score.rowP95},
+          {"relight_natural", score.relightNatural},
+          {"relight_random", score.relightRandom},
+          {"energy", score.energy}};
+}
+
 }  // namespace
 
 Json toJson(const CalibrateResult& result) {
@@ -90,12 +99,7 @@ Json toJson(const EvaluateResult& result) {
           {"projector", sizeToJson(result.projector)},
           {"camera", sizeToJson(result.camera)},
           {"reachable", result.reachable},
-          {"transport",
-           {{"frobenius", result.transport.frobenius},
-            {"row_median", result.transport.rowMedian},
-            {"row_p95", result.transport.rowP95},
-            {"relight_natural", result.transport.relightNatural},
-            {"relight_random", result.transport.relightRandom}}},
+          {"transport", transportToJson(result.transport)},
           {"images", std::move(images)}};
 }
 
@@ -122,22 +126,41 @@ Json toJson(const InverseBenchResult& result) {
     for (const MethodDescription& method : methodDescriptions)
       if (auto found = venue.quality.find(std::string(method.name)); found != venue.quality.end())
         quality[found->first] = found->second;
-    list.push_back({{"venue", venue.venue},
-                    {"leaves", venue.leaves},
-                    {"windows", {{"seconds", venue.windowSeconds}, {"ridge", venue.ridge}}},
-                    {"algorithm1", clustersToJson(venue.clusterSeconds, venue.printed)},
-                    {"capped", clustersToJson(venue.cappedSeconds, venue.capped)},
-                    {"inverse_seconds",
-                     {{"truncated_svd", venue.truncatedSeconds},
-                      {"ridge", venue.ridgeSeconds},
-                      {"ridge_full_colour", venue.fullColourSeconds}}},
-                    {"psnr_reachable", std::move(quality)}});
+    list.push_back(
+        {{"venue", venue.venue},
+         {"leaves", venue.leaves},
+         {"windows", {{"seconds", venue.windowSeconds}, {"ridge", venue.ridge}}},
+         {"algorithm1", clustersToJson(venue.clusterSeconds, venue.printed)},
+         {"capped", clustersToJson(venue.cappedSeconds, venue.capped)},
+         {"inverse_seconds",
+          {{"truncated_svd", venue.truncatedSeconds},
+           {"ridge", venue.ridgeSeconds},
+           {"ridge_full_colour", venue.fullColourSeconds}}},
+         {"psnr_reachable", std::move(quality)},
+         {"psnr_clusters",
+          {{"truncated_svd", venue.truncatedQuality}, {"ridge_full_colour", venue.fullColourQuality}}}});
   }
   return {{"paper",
            {{"inversion_seconds", {paper.leastInversionSeconds, paper.mostInversionSeconds}},
             {"error", {paper.leastError, paper.mostError}},
             {"frames_per_second", {paper.leastFrameRate, paper.mostFrameRate}}}},
           {"venues", std::move(list)}};
+}
+
+Json toJson(const AcquisitionBenchResult& result) {
+  Json runs = Json::array();
+  for (const AcquisitionRun& run : result.runs)
+    runs.push_back({{"venue", run.venue},
+                    {"mode", run.mode},
+                    {"threshold", run.threshold},
+                    {"patterns", run.patterns},
+                    {"exposures", run.exposures},
+                    {"seconds", run.seconds},
+                    {"unresolved_energy", run.unresolvedEnergy},
+                    {"transport", transportToJson(run.transport)}});
+  return {{"projector", sizeToJson(result.projector)},
+          {"camera", sizeToJson(result.camera)},
+          {"runs", std::move(runs)}};
 }
 
 Json toJson(const BenchResult& result) {

@@ -3,6 +3,7 @@
 
 #include "calibration/json.h"
 
+#include "pipeline/acquisition_bench.h"
 #include "pipeline/inverse_bench.h"
 #include "pipeline/pipeline.h"
 
@@ -21,6 +22,7 @@ Json toJson(const SeparateResult& result);
 Json toJson(const DifferenceResult& result);
 Json toJson(const BenchResult& result);
 Json toJson(const InverseBenchResult& result);
+Json toJson(const AcquisitionBenchResult& result);
 Json toJson(const std::vector<VenueDescription>& venues);
 
 }  // namespace relucent

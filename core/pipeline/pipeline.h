@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "compensation/direct_light.h"
 #include "compensation/method.h"
+#include "compensation/methods.h"
 #include "compensation/target.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
@@ -182,6 +183,7 @@ struct EvaluateSettings {
   std::vector<std::filesystem::path> images;  // none: the product's own test pictures
   std::vector<std::string> methods;           // none: all of them
   TargetSettings target;
+  CompensatorSettings compensator;
 };
 std::vector<std::string> problems(const EvaluateSettings& settings);
 
@@ -208,6 +210,7 @@ struct TransportScore {
   double rowP95 = 0.0;
   double relightNatural = 0.0;
   double relightRandom = 0.0;
+  double energy = 0.0;  // of T 1 over the truth's; 1: all light, and none twice
 };
 
 struct EvaluateResult {

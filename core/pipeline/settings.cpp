@@ -107,6 +107,7 @@ Problems problems(const EvaluateSettings& settings) {
   Problems found;
   for (const std::string& method : settings.methods) checkMethod(found, method);
   checkTarget(found, settings.target);
+  append(found, problems(settings.compensator));
   return found;
 }
 

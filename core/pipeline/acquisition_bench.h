@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+struct AcquisitionBenchSettings {
+  std::vector<std::string> venues;  // names; none: all of them
+  Size projector{256, 192};
+  Size camera{160, 120};
+};
+std::vector<std::string> problems(const AcquisitionBenchSettings& settings);
+
+/// One measurement of one venue, and how near T came to the truth.
+struct AcquisitionRun {
+  std::string venue;
+  std::string mode;
+  double threshold = 0.0;  // as a share of the flood image
+  int patterns = 0;        // linearization, references and verification included
+  int exposures = 0;
+  double seconds = 0.0;  // of acquisition; simulated photographs take no exposure time but some computing
+  double unresolvedEnergy = 0.0;
+  TransportScore transport;
+};
+
+struct AcquisitionBenchResult {
+  Size projector;
+  Size camera;
+  std::vector<AcquisitionRun> runs;
+};
+
+/// Measures simulated venues in every mode, `adaptive` and `sen` at several thresholds, and holds T against
+/// the truth: what each mode costs and what it is worth. Takes minutes a venue at rehearsal size.
+/// Throws: as calibrate() and evaluate().
+AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings,
+                                        const std::filesystem::path& cache, Progress& progress);
+
+}  // namespace relucent

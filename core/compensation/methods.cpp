@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <utility>
 
 #include "base/error.h"
@@ -56,34 +58,43 @@ std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transpo
   const BlockSparse& leaves = transport.leaves();
   const NodeLayout& layout = transport.layout();
   const Rasters& projectors = transport.projectors();
-  std::vector<std::int32_t> brightest(projectors.count(), -1);
-  std::vector<float> light(projectors.count(), 0.0f);
   NodeTable nodes(layout);
-
-  std::vector<float> ofEntry;
-  for (std::size_t row = 0; row < leaves.rows(); ++row) {
-    if (!usable[row]) continue;
-    ofEntry.clear();
-    float most = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      ofEntry.push_back(leaves.block(row, entry).sum() / nodes.pixels[leaves.column(entry)]);
-      most = std::max(most, ofEntry.back());
+  // The brightest so far, its light above its row: whoever comes first in whatever order, the brightest wins,
+  // of equals the first row. Bits of positive floats sort as the floats do.
+  std::vector<std::uint64_t> first(projectors.count(), 0);
+  auto offer = [&](std::size_t pixel, float light, std::size_t row) {
+    std::uint64_t bid =
+        std::uint64_t{std::bit_cast<std::uint32_t>(light)} << 32 | ~static_cast<std::uint32_t>(row);
+    std::atomic_ref<std::uint64_t> held(first[pixel]);
+    std::uint64_t seen = held.load(std::memory_order_relaxed);
+    while (seen < bid && !held.compare_exchange_weak(seen, bid, std::memory_order_relaxed)) {
     }
-    for (std::size_t i = 0; i < ofEntry.size(); ++i) {
-      if (!(ofEntry[i] > 0.0f) || ofEntry[i] < leastShare * most) continue;
-      Node node = layout.node(leaves.column(leaves.rowBegin(row) + i));
+  };
+
+  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+    if (!usable[row]) return;
+    auto lightOf = [&](std::size_t entry) {
+      return leaves.block(row, entry).sum() / nodes.pixels[leaves.column(entry)];
+    };
+    float most = 0.0f;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      most = std::max(most, lightOf(entry));
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+      float light = lightOf(entry);
+      if (!(light > 0.0f) || light < leastShare * most) continue;
+      Node node = layout.node(leaves.column(entry));
       auto projector = static_cast<std::size_t>(node.projector);
       Block block = layout.block(node);
-      for (int y = block.y0; y < block.y1; ++y) {
-        for (int x = block.x0; x < block.x1; ++x) {
-          std::size_t pixel = projectors.offset(projector) + indexOf(projectors.size(projector), {x, y});
-          if (ofEntry[i] <= light[pixel]) continue;
-          light[pixel] = ofEntry[i];
-          brightest[pixel] = static_cast<std::int32_t>(row);
-        }
-      }
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+          offer(projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light, row);
     }
-  }
+  });
+
+  std::vector<std::int32_t> brightest(first.size(), -1);
+  for (std::size_t pixel = 0; pixel < first.size(); ++pixel)
+    if (first[pixel] != 0)
+      brightest[pixel] = static_cast<std::int32_t>(~static_cast<std::uint32_t>(first[pixel]));
   return brightest;
 }
 

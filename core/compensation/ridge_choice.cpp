@@ -10,6 +10,7 @@
 #include "compensation/methods.h"
 #include "compensation/prediction.h"
 #include "image/dead_leaves.h"
+#include "inverse/prepared_windows.h"
 
 namespace relucent {
 namespace {
@@ -31,30 +32,29 @@ std::vector<Target> trialTargets(const MeasuredVenue& venue) {
 /// The trials so far, by factors of 2 from the ridge that it starts at.
 class Search {
  public:
-  Search(const MeasuredVenue& venue, const WindowSettings& settings, std::vector<Target> targets)
-      : venue_(venue), settings_(settings), targets_(std::move(targets)) {}
+  Search(const MeasuredVenue& venue, const WindowSettings& settings, std::vector<Target> targets,
+         Progress& progress)
+      : venue_(venue),
+        startRidge_(settings.ridge),
+        prepared_(venue.transport, venue.usable, settings, progress),
+        targets_(std::move(targets)) {}
 
-  double ridge(int step) const { return std::ldexp(settings_.ridge, step); }
-
-  WindowInverse windows(int step, Progress& progress) const {
-    WindowSettings settings = settings_;
-    settings.ridge = ridge(step);
-    return computeWindows(venue_.transport, venue_.usable, settings, progress);
-  }
+  double ridge(int step) const { return std::ldexp(startRidge_, step); }
 
   double trial(int step, Progress& progress) {
     Progress computing = progress.part(0.8, progress.stage());
-    WindowInverse inverse = windows(step, computing);
-    Compensator compensator(venue_, inverse);
+    current_ = prepared_.inverse(ridge(step), computing);
+    // Made once, it looks at `current_`, whichever windows these are.
+    if (!compensator_) compensator_.emplace(venue_, current_);
     double sum = 0.0;
     for (const Target& target : targets_) {
       Progress solving = progress.part(0.2 / static_cast<double>(targets_.size()), progress.stage());
-      Compensation compensation = compensator.solve(Method::windows, target, solving);
+      Compensation compensation = compensator_->solve(Method::windows, target, solving);
       sum += predict(venue_, target, compensation).psnrReachable;
     }
     double psnr = sum / static_cast<double>(targets_.size());
     psnr_[step] = psnr;
-    if (step == best()) kept_ = {step, std::move(inverse)};
+    if (step == best()) kept_ = {step, std::move(current_)};
     return psnr;
   }
 
@@ -73,7 +73,8 @@ class Search {
 
   /// The windows of the step, from its trial where they were kept.
   WindowInverse take(int step, Progress& progress) {
-    return kept_ && kept_->first == step ? std::move(kept_->second) : windows(step, progress);
+    return kept_ && kept_->first == step ? std::move(kept_->second)
+                                         : prepared_.inverse(ridge(step), progress);
   }
   std::vector<RidgeTrial> curve() const {
     std::vector<RidgeTrial> trials;
@@ -83,8 +84,11 @@ class Search {
 
  private:
   const MeasuredVenue& venue_;
-  WindowSettings settings_;
+  double startRidge_;
+  PreparedWindows prepared_;
   std::vector<Target> targets_;
+  WindowInverse current_;
+  std::optional<Compensator> compensator_;
   std::map<int, double> psnr_;
   std::optional<std::pair<int, WindowInverse>> kept_;
 };
@@ -96,9 +100,10 @@ RidgeChoice chooseRidge(const MeasuredVenue& venue, const WindowSettings& settin
   if (targets.empty())
     return {settings.ridge, {}, computeWindows(venue.transport, venue.usable, settings, progress)};
 
-  Search search(venue, settings, std::move(targets));
+  Progress preparing = progress.part(0.1, progress.stage());
+  Search search(venue, settings, std::move(targets), preparing);
   // Nobody knows how many trials it takes: each gets a third of what is left.
-  double left = 1.0;
+  double left = 0.9;
   auto trial = [&](int step) {
     Progress part = progress.part(left / 3.0, progress.stage());
     left -= left / 3.0;

@@ -27,7 +27,7 @@ struct Candidates {
 
 using Reach = std::vector<std::pair<std::uint32_t, float>>;
 
-/// How strongly one row's near field reaches each tile, strongest first.
+/// How strongly one row's near field reaches each tile, those that it reaches most.
 Reach reachOf(std::size_t row, const NearField& near, const NodeLayout& layout, const Rasters& tiles,
               int tileLevel) {
   Reach reach;
@@ -55,10 +55,13 @@ Reach reachOf(std::size_t row, const NearField& near, const NodeLayout& layout, 
   }
   reach.resize(kept);
   std::erase_if(reach, [](const auto& tile) { return !(tile.second > 0.0f); });
-  std::sort(reach.begin(), reach.end(), [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second > b.second : a.first < b.first;
-  });
-  if (reach.size() > mostTilesOfARow) reach.resize(mostTilesOfARow);
+  if (reach.size() > mostTilesOfARow) {
+    std::nth_element(reach.begin(), reach.begin() + mostTilesOfARow, reach.end(),
+                     [](const auto& a, const auto& b) {
+                       return a.second != b.second ? a.second > b.second : a.first < b.first;
+                     });
+    reach.resize(mostTilesOfARow);
+  }
   return reach;
 }
 

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include "inverse/prepared_windows.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "inverse/near_field.h"
 #include "inverse/window_rows.h"
 #include "inverse/window_system.h"
-#include "inverse/windows.h"
 
 namespace relucent {
 namespace {
 
 constexpr float largestCode = 32767.0f;
+
+Rasters tilesOf(const Rasters& projectors, int side) {
+  std::vector<Size> tiles;
+  for (Size size : projectors.sizes())
+    tiles.push_back({(size.width + side - 1) / side, (size.height + side - 1) / side});
+  return Rasters(tiles);
+}
 
 /// Vectors and matrices of one window, kept between windows so that nothing is allocated for each.
 struct Scratch {
@@ -24,30 +31,29 @@ struct Scratch {
 
 }  // namespace
 
-/// Makes a WindowInverse in the steps that windows.h lists.
+/// Fills in the weights of a WindowInverse that has none yet.
 class WindowBuilder {
  public:
-  WindowBuilder(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
-                const WindowSettings& settings)
-      : layout_(transport.layout()), settings_(settings), near_(nearFieldOf(transport, usable)) {
-    result_.cameras_ = transport.cameras();
-    result_.projectors_ = transport.projectors();
-    result_.tile_ = settings.tile;
-    std::vector<Size> tiles;
-    for (Size size : transport.projectors().sizes())
-      tiles.push_back({(size.width + settings.tile - 1) / settings.tile,
-                       (size.height + settings.tile - 1) / settings.tile});
-    result_.tiles_ = Rasters(tiles);
-    for (const ColourBlock& unmix : near_.unmix)
-      result_.unmix_.insert(result_.unmix_.end(), unmix.data(), unmix.data() + 9);
+  WindowBuilder(const NearField& near, const NodeLayout& layout, double ridge, WindowInverse without)
+      : near_(near), layout_(layout), ridge_(static_cast<float>(ridge)), result_(std::move(without)) {}
+
+  /// All but the weights, see PreparedWindows.
+  static WindowInverse without(const TransportMatrix& transport, const NearField& near,
+                               const WindowSettings& settings) {
+    WindowInverse result;
+    result.cameras_ = transport.cameras();
+    result.projectors_ = transport.projectors();
+    result.tile_ = settings.tile;
+    result.tiles_ = tilesOf(transport.projectors(), settings.tile);
+    for (const ColourBlock& unmix : near.unmix)
+      result.unmix_.insert(result.unmix_.end(), unmix.data(), unmix.data() + 9);
+    WindowRows rows = chooseWindowRows(near, transport.layout(), result.tiles_, settings);
+    result.tileStart_ = std::move(rows.start);
+    result.row_ = std::move(rows.row);
+    return result;
   }
 
   WindowInverse build(Progress& progress) {
-    WindowRows rows = chooseWindowRows(near_, layout_, result_.tiles_, settings_);
-    result_.tileStart_ = std::move(rows.start);
-    result_.row_ = std::move(rows.row);
-    progress.report(0.2);
-
     std::size_t tiles = result_.tiles_.count();
     result_.weight_.assign(result_.row_.size() * 3 * pixelsOfTile(), 0);
     result_.scale_.assign(3 * tiles, 0.0f);
@@ -58,13 +64,13 @@ class WindowBuilder {
         Scratch scratch{WindowSystem(near_, layout_), {}, {}, {}};
         for (std::size_t tile = first; tile < last; ++tile) solve(tile, scratch);
       });
-      progress.report(0.2 + 0.8 * static_cast<double>(end) / static_cast<double>(tiles));
+      progress.report(static_cast<double>(end) / static_cast<double>(tiles));
     }
     return std::move(result_);
   }
 
  private:
-  std::size_t pixelsOfTile() const { return static_cast<std::size_t>(settings_.tile * settings_.tile); }
+  std::size_t pixelsOfTile() const { return static_cast<std::size_t>(result_.tile_ * result_.tile_); }
 
   std::span<const std::uint32_t> rowsOf(std::size_t tile) const {
     return {result_.row_.data() + result_.tileStart_[tile],
@@ -74,7 +80,7 @@ class WindowBuilder {
   /// Pixels [x0, x1) x [y0, y1) of a tile on its projector.
   Block blockOfTile(std::size_t projector, Pixel tile) const {
     Size size = layout_.projectors().size(projector);
-    int side = settings_.tile;
+    int side = result_.tile_;
     return {tile.x * side, tile.y * side, std::min((tile.x + 1) * side, size.width),
             std::min((tile.y + 1) * side, size.height)};
   }
@@ -86,14 +92,14 @@ class WindowBuilder {
     while (projector + 1 < result_.tiles_.devices() && tile >= result_.tiles_.offset(projector + 1))
       ++projector;
     Pixel place = pixelAt(result_.tiles_.size(projector), tile - result_.tiles_.offset(projector));
-    scratch.system.gather(blockOfTile(projector, place), settings_.tile, static_cast<int>(projector), rows);
+    scratch.system.gather(blockOfTile(projector, place), result_.tile_, static_cast<int>(projector), rows);
 
     for (std::size_t channel = 0; channel < 3; ++channel) {
       scratch.system.correlate(channel);
       Eigen::MatrixXf& gram = scratch.system.gram();
       float diagonal = gram.diagonal().mean();
       if (!(diagonal > 0.0f)) continue;  // a colour that these camera pixels do not see at all
-      gram.diagonal() += noise(rows, channel, static_cast<float>(settings_.ridge) * diagonal);
+      gram.diagonal() += noise(rows, channel, ridge_ * diagonal);
       Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>> cholesky(gram);
       if (cholesky.info() != Eigen::Success)
         throw Error(ErrorKind::numerics,
@@ -153,17 +159,33 @@ class WindowBuilder {
     }
   }
 
+  const NearField& near_;
   const NodeLayout& layout_;
-  WindowSettings settings_;
-  NearField near_;
+  float ridge_;
   WindowInverse result_;
 };
 
-WindowInverse computeWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
-                             const WindowSettings& settings, Progress& progress) {
+PreparedWindows::PreparedWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+                                 const WindowSettings& settings, Progress& progress)
+    : layout_(transport.layout()) {
   auto wrong = problems(settings);
   require(wrong.empty(), "window settings: {}", fmt::join(wrong, "; "));
-  return WindowBuilder(transport, usable, settings).build(progress);
+  near_ = nearFieldOf(transport, usable);
+  progress.report(0.5);
+  without_ = WindowBuilder::without(transport, near_, settings);
+  progress.report(1.0);
+}
+
+WindowInverse PreparedWindows::inverse(double ridge, Progress& progress) const {
+  return WindowBuilder(near_, layout_, ridge, without_).build(progress);
+}
+
+WindowInverse computeWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+                             const WindowSettings& settings, Progress& progress) {
+  Progress preparing = progress.part(0.4, progress.stage());
+  PreparedWindows prepared(transport, usable, settings, preparing);
+  Progress solving = progress.part(0.6, progress.stage());
+  return prepared.inverse(settings.ridge, solving);
 }
 
 }  // namespace relucent

@@ -25,9 +25,9 @@ struct CompensatorSettings {
   float correctionByInverse = 0.5f;
   float correctionByAdjoint = 1.0f;
   /// a_k of `refined`, in pairs: short steps settle what T passes on in full (low frequencies), long ones
-  /// reach what it dims. |prod (1 - a_k s)| <= 1 for all 0 <= s <= 1, the spectrum of C T^T W T: nothing
-  /// grows.
-  std::vector<float> steps = {1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 10.0f};
+  /// reach what it dims. |prod (1 - a_k s)| <= 1 for all 0 <= s <= 1, the spectrum of C T^T W T, after any
+  /// number of steps: nothing grows.
+  std::vector<float> steps = {1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 10.0f, 1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 20.0f};
   SolverSettings optimum;
   /// Of `sharpen`: steepest descent, as Zhang & Nayar.
   SolverSettings sharpening{SolverSettings::Algorithm::steepestDescent, 20};

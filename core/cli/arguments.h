@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/pipeline.h"
+#include "pipeline/prove.h"
 
 namespace relucent {
 
@@ -28,6 +29,11 @@ struct Resume {
 struct Verify {
   std::filesystem::path calibration;
   VerifySettings settings;
+  std::filesystem::path cache;
+};
+struct Prove {
+  std::filesystem::path calibration;
+  ProveSettings settings;
   std::filesystem::path cache;
 };
 struct ImportPictures {
@@ -72,7 +78,7 @@ struct Bench {
   std::string name;
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, ImportPictures, Plan,
+using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, Prove, ImportPictures, Plan,
                              Compensate, Evaluate, Export, Relight, Separate, Difference, Report, Bench>;
 
 struct Arguments {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "content/video_frame.h"
 
+#include <QTransform>
 #include <QVideoFrameFormat>
 #include <optional>
 
@@ -62,6 +63,17 @@ std::optional<VideoSamples> samplesOf(const Mapped& frame, Format::PixelFormat f
   }
 }
 
+/// As it is to be seen: telephones turn films by a note in the file.
+QImage upright(const QImage& picture, const QVideoFrame& frame) {
+#if QT_VERSION >= QT_VERSION_CHECK(6, 7, 0)
+  int turned = static_cast<int>(frame.rotation());
+#else
+  int turned = static_cast<int>(frame.rotationAngle());
+#endif
+  QImage result = frame.mirrored() ? picture.mirrored(true, false) : picture;
+  return turned % 360 == 0 ? result : result.transformed(QTransform().rotate(turned));
+}
+
 [[noreturn]] void refuseRange(const char* what) {
   throw Error(ErrorKind::input, fmt::format("the video is {}, which projectors cannot show", what),
               "convert it to BT.709 of standard dynamic range");
@@ -114,15 +126,15 @@ QImage pictureOf(const QVideoFrame& frame) {
                               Format::pixelFormatToString(format.pixelFormat()).toStdString()),
                   "convert it to H.264 with 4:2:0 chroma");
     VideoSamples::Plane plane = mapped.plane(0);
-    return QImage(static_cast<const uchar*>(plane.data), size.width(), size.height(),
-                  static_cast<qsizetype>(plane.bytesPerLine), known)
-        .convertToFormat(QImage::Format_RGBX8888)
-        .copy();
+    QImage there(static_cast<const uchar*>(plane.data), size.width(), size.height(),
+                 static_cast<qsizetype>(plane.bytesPerLine), known);
+    // A copy: the frame's memory goes with it.
+    return upright(there.convertToFormat(QImage::Format_RGBX8888).copy(), frame);
   }
   QImage picture(size, QImage::Format_RGBX8888);
   srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format), picture.bits(),
                 static_cast<std::size_t>(picture.bytesPerLine()));
-  return picture;
+  return upright(picture, frame);
 }
 
 }  // namespace relucent

@@ -13,7 +13,7 @@ namespace relucent {
 /// Throws: Error{input} for what no projector of ours can show: high dynamic range and BT.2020.
 VideoEncoding encodingOf(const QVideoFrameFormat& format);
 
-/// A frame's light as sRGB codes, Format_RGBX8888.
+/// A frame's light as sRGB codes, upright, Format_RGBX8888.
 /// Throws: as encodingOf(); Error{format} for samples of an unknown kind or memory that cannot be reached.
 QImage pictureOf(const QVideoFrame& frame);
 

@@ -78,11 +78,10 @@ def main():
         while not health_file.exists() and show.poll() is None:
             time.sleep(0.2)
         begin = time.monotonic()
-        memory, rates, cycle, lost = [], [], 0, 0
+        memory, cycle, lost = [], 0, 0
         while (now := time.monotonic() - begin) < seconds and show.poll() is None:
             memory.append((now, resident(show.pid)))
             state = health()
-            rates.append(state["frames_per_second"])
             lost += state["state"] != "playing"
             if cycle < options.cycles and now >= (cycle + 0.5) * seconds / options.cycles:
                 xrandr("--off")
@@ -96,6 +95,7 @@ def main():
             time.sleep(11)  # the health file is written every ten seconds
             alive = health()["frames"] > frames_before and all(d["shining"] for d in health()["displays"])
         last = health()
+        played = time.monotonic() - begin
         log = (work / "log/show.log").read_text()
         if show.poll() is None:
             show.send_signal(signal.SIGTERM)
@@ -107,7 +107,7 @@ def main():
     figures = {"minutes": options.minutes, "cycles": cycle, "alive": alive, "exit_status": ended,
                "failures": last["failures"], "not_playing": lost, "displays_lost": log.count("display lost"),
                "displays_back": log.count("display back"), "frames": last["frames"], "late": last["late"],
-               "frames_per_second": statistics.median(rates), "frame_milliseconds": last["frame_milliseconds"],
+               "frames_per_second": last["frames"] / played, "frame_milliseconds": last["frame_milliseconds"],
                "resident_begin_bytes": memory[0][1], "resident_early_bytes": early,
                "resident_late_bytes": late, "growth": late / early - 1}
     print(json.dumps(figures, indent=2))

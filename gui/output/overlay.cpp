@@ -8,25 +8,26 @@
 namespace relucent {
 namespace {
 
-QString tr(const char* text) {
-  return QCoreApplication::translate("Overlay", text);
-}
+/// The context of its texts for translators.
+class Overlay {
+  Q_DECLARE_TR_FUNCTIONS(Overlay)
+};
 
 }  // namespace
 
 QStringList overlayLines(const OverlayState& state) {
   const PlayerStatistics& now = state.statistics;
-  QStringList lines{
-      tr("%1 frames a second, %2 ms a frame, %3 of %4 late")
-          .arg(now.framesPerSecond, 0, 'f', 1)
-          .arg(1e3 * now.frameSeconds, 0, 'f', 1)
-          .arg(now.late)
-          .arg(now.frames),
-      state.compensated
-          ? tr("compensated, %1 steps, %2 % out of reach").arg(now.steps).arg(100.0 * now.clipped, 0, 'f', 1)
-          : tr("not compensated")};
-  if (state.frozen) lines.append(tr("frozen"));
-  if (state.chart) lines.append(tr("test chart: %1").arg(nameOf(*state.chart)));
+  QStringList lines{Overlay::tr("%1 frames a second, %2 ms a frame, %3 of %4 late")
+                        .arg(now.framesPerSecond, 0, 'f', 1)
+                        .arg(1e3 * now.frameSeconds, 0, 'f', 1)
+                        .arg(now.late)
+                        .arg(now.frames),
+                    state.compensated ? Overlay::tr("compensated, %1 steps, %2 % out of reach")
+                                            .arg(now.steps)
+                                            .arg(100.0 * now.clipped, 0, 'f', 1)
+                                      : Overlay::tr("not compensated")};
+  if (state.frozen) lines.append(Overlay::tr("frozen"));
+  if (state.chart) lines.append(Overlay::tr("test chart: %1").arg(nameOf(*state.chart)));
   return lines;
 }
 

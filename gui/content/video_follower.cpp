@@ -14,7 +14,10 @@ constexpr int interval = 15;            // milliseconds between two looks at the
 constexpr auto forgotten = 400ms;       // since it was asked for: nobody shows it any more
 constexpr auto standsStill = 150ms;     // since the time asked for moved: longer than a slow frame takes
 constexpr ContentTime astray{140'000};  // that nobody hears or sees
+// It plays on until the standing is noticed; to jump back by that would be seen.
+constexpr ContentTime astrayStanding{220'000};
 constexpr ContentTime lastPicture{40'000};
+constexpr int mostAgain = 3;
 constexpr auto betweenJumps = 500ms;  // what a jump takes until it shows in the position
 
 }  // namespace
@@ -29,12 +32,14 @@ VideoTime::Asked VideoTime::asked() const {
   return asked_;
 }
 
-VideoStep VideoPursuit::next(const VideoTime::Asked& asked, ContentTime position, Clock::time_point now) {
+VideoStep VideoPursuit::next(const VideoTime::Asked& asked, ContentTime position,
+                             std::optional<ContentTime> shown, Clock::time_point now) {
   if (asked.when == Clock::time_point{} || now - asked.when > forgotten) {
     last_ = ContentTime{-1};
     return {};
   }
   bool jumped = last_ < ContentTime{0} || asked.time < last_ || asked.time > last_ + 1s;
+  if (jumped) again_ = 0;
   if (asked.time != last_) moved_ = now;
   last_ = asked.time;
   bool runs = now - moved_ < standsStill;
@@ -43,7 +48,13 @@ VideoStep VideoPursuit::next(const VideoTime::Asked& asked, ContentTime position
   // Behind the end its last picture stays.
   wanted = std::min(wanted, std::max(ContentTime{0}, length_ - lastPicture));
   VideoStep step{runs && position < length_, std::nullopt};
-  if (std::chrono::abs(position - wanted) > astray && (jumped || now - sought_ > betweenJumps)) {
+  auto isAstray = [&](ContentTime place) {
+    return std::chrono::abs(place - wanted) > (runs ? astray : astrayStanding);
+  };
+  // Qt's player may jump while it stands and show what it showed before.
+  bool failed = !runs && shown && isAstray(*shown) && again_ < mostAgain;
+  if ((isAstray(position) || failed) && (jumped || now - sought_ > betweenJumps)) {
+    if (!isAstray(position) && !jumped) ++again_;
     step.seek = wanted;
     sought_ = now;
   }
@@ -85,8 +96,10 @@ void VideoFollower::statusChanged(QMediaPlayer::MediaStatus status) {
 }
 
 void VideoFollower::follow() {
-  VideoStep step =
-      pursuit_->next(time_.asked(), std::chrono::milliseconds(player_.position()), VideoTime::Clock::now());
+  std::optional<ContentTime> shown;
+  if (qint64 start = frames_.newest().frame.startTime(); start >= 0) shown = ContentTime(start);
+  VideoStep step = pursuit_->next(time_.asked(), std::chrono::milliseconds(player_.position()), shown,
+                                  VideoTime::Clock::now());
   bool stopped = player_.playbackState() == QMediaPlayer::StoppedState;
   if (step.seek) {
     // Behind its end a player has stopped, and would begin anew by itself.

@@ -9,6 +9,7 @@
 #include <QTimer>
 #include <QVideoSink>
 #include <chrono>
+#include <optional>
 
 #include "content/content_source.h"
 #include "content/frame_slot.h"
@@ -42,13 +43,16 @@ class VideoPursuit {
  public:
   using Clock = VideoTime::Clock;
   explicit VideoPursuit(ContentTime length) : length_(length) {}
-  /// `position`: where the player is.
-  VideoStep next(const VideoTime::Asked& asked, ContentTime position, Clock::time_point now);
+  /// `position`: where the player says that it is. `shown`: of the newest picture, where that is known; while
+  /// the time stands it is what counts.
+  VideoStep next(const VideoTime::Asked& asked, ContentTime position, std::optional<ContentTime> shown,
+                 Clock::time_point now);
 
  private:
   ContentTime length_;
   ContentTime last_{-1};
   Clock::time_point moved_{}, sought_{};  // when the time asked for last moved on; when the last jump was
+  int again_ = 0;                         // jumps that were told once more
 };
 
 /// Qt's player, following. Lives on a thread with an event loop.

@@ -20,6 +20,16 @@ QString lineOf(const QString& text, const QString& key) {
   return {};
 }
 
+/// What a doubled sign stands for; one that stands alone would mean something else, and is wrong.
+QString undoubled(const QString& word, QChar sign) {
+  QString result;
+  for (int i = 0; i < word.size(); ++i) {
+    if (word[i] == sign && (++i == word.size() || word[i] != sign)) return "a single " + QString(sign);
+    result += word[i];
+  }
+  return result;
+}
+
 /// The words of ExecStart= as systemd.syntax(7) says that it reads them.
 QStringList readBySystemd(const QString& line) {
   QStringList words;
@@ -36,9 +46,8 @@ QStringList readBySystemd(const QString& line) {
         word += line[i];
       }
     }
-    word.replace("%%", "%");
-    if (!words.isEmpty()) word.replace("$$", "$");
-    words.append(word);
+    word = undoubled(word, '%');
+    words.append(words.isEmpty() ? word : undoubled(word, '$'));
   }
   return words;
 }
@@ -51,7 +60,7 @@ QStringList readByDesktop(QString line) {
     if (line[i] == ' ') continue;
     QString word;
     for (++i; line[i] != '"'; ++i) word += line[i] == '\\' ? line[++i] : line[i];
-    words.append(word.replace("%%", "%"));
+    words.append(undoubled(word, '%'));
   }
   return words;
 }

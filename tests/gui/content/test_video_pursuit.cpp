@@ -17,11 +17,12 @@ struct Player {
   double speed = 1.0;
   int seeks = 0;
   bool playing = false;
+  std::optional<ContentTime> shown;  // none: what is at its position
 
   void tick(const VideoTime::Asked& asked) {
     now += 15ms;
     if (playing) position += std::chrono::duration_cast<ContentTime>(15ms * speed);
-    VideoStep step = pursuit.next(asked, position, now);
+    VideoStep step = pursuit.next(asked, position, shown, now);
     playing = step.play;
     if (step.seek) {
       position = *step.seek;
@@ -89,6 +90,21 @@ class TestVideoPursuit : public QObject {
     QVERIFY(std::chrono::abs(player.position - 2s) < 250ms);
     player.run(2s, 3s);
     QVERIFY(player.playing && std::chrono::abs(player.position - 5s) < 200ms);
+  }
+
+  /// A player that was told to jump while it stood, and shows the old picture all the same: told again, and
+  /// not for ever, as some films number their pictures otherwise.
+  void aJumpThatDidNotComeIsTriedAgain() {
+    Player player;
+    player.run(0s, 5s);
+    int before = player.seeks;
+    player.shown = player.position;
+    for (int i = 0; i < 1000; ++i) player.tick({40s, player.now});
+    QVERIFY(player.seeks - before >= 2 && player.seeks - before <= 5);
+    player.shown = 40s;
+    before = player.seeks;
+    for (int i = 0; i < 1000; ++i) player.tick({40s, player.now});
+    QCOMPARE(player.seeks, before);
   }
 
   void stopsWhenNobodyShowsItAnyMore() {

@@ -38,6 +38,7 @@ class Parser {
     addCalibrate();
     addResume();
     addVerify();
+    addProve();
     addImport();
     addPlan();
     addCompensate();
@@ -130,6 +131,27 @@ class Parser {
         ->type_name("DIR");
     addCache(sub, command->cache);
     sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as ever.");
+  }
+
+  void addProve() {
+    auto command = std::make_shared<Prove>();
+    ProveSettings& settings = command->settings;
+    CLI::App* sub =
+        add("prove", "Project a picture, photograph it, and compare it with what was wanted and predicted",
+            command);
+    addFolder(sub, command->calibration, "Folder of the calibration");
+    sub->add_option("--image", settings.image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
+        ->type_name("FILE")
+        ->required();
+    sub->add_option("--method", settings.method, "How to compensate")
+        ->check(CLI::IsMember(methodNames()))
+        ->type_name("METHOD")
+        ->capture_default_str();
+    sub->add_option("--out", settings.out, "Folder for the photographs, before and after, and comparison.png")
+        ->type_name("DIR")
+        ->required();
+    addTarget(sub, settings.target);
+    addCache(sub, command->cache);
   }
 
   void addImport() {

@@ -9,6 +9,7 @@
 
 #include "pipeline/acquisition_bench.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/prove.h"
 
 namespace relucent {
 
@@ -29,6 +30,11 @@ struct Resume {
 struct Verify {
   std::filesystem::path calibration;
   VerifySettings settings;
+  std::filesystem::path cache;
+};
+struct Prove {
+  std::filesystem::path calibration;
+  ProveSettings settings;
   std::filesystem::path cache;
 };
 struct ImportPictures {
@@ -74,7 +80,7 @@ struct Bench {
   AcquisitionBenchSettings acquisition;
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, ImportPictures, Plan,
+using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, Prove, ImportPictures, Plan,
                              Compensate, Evaluate, Export, Relight, Separate, Difference, Report, Bench>;
 
 struct Arguments {

@@ -71,6 +71,11 @@ struct Executor {
     return outcome;
   }
 
+  Outcome operator()(const Prove& command) const {
+    refuse(problems(command.settings));
+    return outcomeOf(proveCalibration(command.calibration, command.settings, command.cache, progress));
+  }
+
   Outcome operator()(const ImportPictures& command) const {
     refuse(problems(command.settings));
     return outcomeOf(importPictures(command.calibration, command.settings, progress));

@@ -47,6 +47,23 @@ std::string textOf(const VerifyResult& result) {
   return text + textOf(WrittenFiles{result.files});
 }
 
+std::string textOf(const ProveResult& result) {
+  auto line = [](const char* name, const ProvedProjection& proved) {
+    return fmt::format(
+        "{:<8} measured {:>5.1f} dB, colour error {:>4.1f}; predicted {:>5.1f} dB, {:>4.1f}; the photograph "
+        "is "
+        "{:.1f} % away from the prediction.\n",
+        name, proved.measured.psnr, proved.measured.deltaE, proved.predicted.psnr, proved.predicted.deltaE,
+        100.0 * proved.surprise);
+  };
+  return line("Before:", result.before) + line("After:", result.after) +
+         fmt::format(
+             "dB where it can be reached, which is {:.1f} % of the picture; colour error (CIEDE2000) over "
+             "all of it; {} photographs in {:.0f} s.\n",
+             100.0 * result.reachable, result.exposures, result.seconds) +
+         textOf(WrittenFiles{result.files});
+}
+
 std::string textOf(const ImportResult& result) {
   return fmt::format(
              "Imported {} photographs of a {}x{} projector in {:.0f} s; {} of them were not fitted but "

@@ -6,6 +6,7 @@
 #include "pipeline/acquisition_bench.h"
 #include "pipeline/inverse_bench.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/prove.h"
 
 namespace relucent {
 
@@ -13,6 +14,7 @@ namespace relucent {
 std::string textOf(const CalibrateResult& result);
 std::string textOf(const WrittenFiles& result);
 std::string textOf(const VerifyResult& result);
+std::string textOf(const ProveResult& result);
 std::string textOf(const ImportResult& result);
 std::string textOf(const CompensateResult& result);
 std::string textOf(const EvaluateResult& result);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -13,15 +14,13 @@
 
 namespace relucent {
 
-Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation) {
-  const Rasters& cameras = venue.transport.cameras();
-  require(target.wanted.size() == 3 * cameras.count() && target.inside.size() == cameras.count(),
-          "a target of {} values for {} camera pixels", target.wanted.size(), cameras.count());
+Prediction compared(Stack camera, const Target& target, const Rasters& cameras) {
+  require(target.wanted.size() == 3 * cameras.count() && target.inside.size() == cameras.count() &&
+              camera.size() == target.wanted.size(),
+          "a target of {} and a picture of {} values for {} camera pixels", target.wanted.size(),
+          camera.size(), cameras.count());
   Prediction prediction;
-  prediction.clipped = compensation.clipped;
-  prediction.camera = venue.transport.apply(compensation.projector);
-  parallelFor(0, prediction.camera.size(), 4096,
-              [&](std::size_t i) { prediction.camera[i] += venue.black[i]; });
+  prediction.camera = std::move(camera);
 
   std::size_t pixels = cameras.size(0).count();
   std::span<const std::uint8_t> inside(target.inside.data(), pixels),
@@ -41,6 +40,14 @@ Prediction predict(const MeasuredVenue& venue, const Target& target, const Compe
   prediction.reachable = covered > 0.0 ? reached / covered : 0.0;
   prediction.psnrReachable =
       reached > 0.0 ? psnr(seen, wanted, target.white, reachable) : std::numeric_limits<double>::quiet_NaN();
+  return prediction;
+}
+
+Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation) {
+  Stack camera = venue.transport.apply(compensation.projector);
+  parallelFor(0, camera.size(), 4096, [&](std::size_t i) { camera[i] += venue.black[i]; });
+  Prediction prediction = compared(std::move(camera), target, venue.transport.cameras());
+  prediction.clipped = compensation.clipped;
   return prediction;
 }
 

@@ -16,6 +16,10 @@ struct Prediction {
   double clipped = 0.0;        // share of the content's projector values that were cut off
 };
 
+/// How far what the cameras see is from what was wanted. `clipped` stays 0.
+/// Shapes: `camera` and `target` of `cameras`. Content that covers no pixel has a mean of 0.
+Prediction compared(Stack camera, const Target& target, const Rasters& cameras);
+
 /// The preview of a compensation: T is believed.
 /// Shapes: `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.
 Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation);

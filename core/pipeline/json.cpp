@@ -85,6 +85,20 @@ Json toJson(const VerifyResult& result) {
           {"files", pathsToJson(result.files)}};
 }
 
+Json toJson(const ProveResult& result) {
+  auto projection = [](const ProvedProjection& proved) {
+    return Json{{"psnr_predicted", proved.predicted.psnr},
+                {"psnr_measured", proved.measured.psnr},
+                {"delta_e_predicted", proved.predicted.deltaE},
+                {"delta_e_measured", proved.measured.deltaE},
+                {"surprise", proved.surprise}};
+  };
+  return {{"method", result.method},           {"before", projection(result.before)},
+          {"after", projection(result.after)}, {"reachable", result.reachable},
+          {"exposures", result.exposures},     {"seconds", result.seconds},
+          {"files", pathsToJson(result.files)}};
+}
+
 Json toJson(const CompensateResult& result) {
   return {{"method", result.method},       {"psnr_predicted", result.psnrPredicted},
           {"delta_e", result.deltaE},      {"clipped", result.clipped},

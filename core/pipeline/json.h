@@ -6,16 +6,20 @@
 #include "pipeline/acquisition_bench.h"
 #include "pipeline/inverse_bench.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/prove.h"
 
 namespace relucent {
 
 /// The documents of the command line: snake_case keys, numbers without units. What is not finite is null.
 /// verify: {"verdict", "sentence", "error", "error_then", "error_by_block": {"1", "2", "4", "8"},
 ///   "error_without_lamp", "changed_share", "lamp", "ambient", "patterns", "exposures", "seconds", "files"}.
+/// prove: {"method", "before": {"psnr_predicted", "psnr_measured", "delta_e_predicted", "delta_e_measured",
+///   "surprise"}, "after": the same, "reachable", "exposures", "seconds", "files"}.
 Json toJson(const CalibrateResult& result);
 Json toJson(const VerifyResult& result);
 Json toJson(const ImportResult& result);
 Json toJson(const CompensateResult& result);
+Json toJson(const ProveResult& result);
 Json toJson(const EvaluateResult& result);
 Json toJson(const WrittenFiles& result);
 Json toJson(const SeparateResult& result);

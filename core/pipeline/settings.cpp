@@ -3,6 +3,7 @@
 
 #include "compensation/solver.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/prove.h"
 
 namespace relucent {
 namespace {
@@ -99,6 +100,15 @@ Problems problems(const CompensateSettings& settings) {
   if (!algorithmFromName(settings.solver))
     found.push_back(
         fmt::format("there is no solver '{}': there are fista, spectral, descent, dense", settings.solver));
+  checkTarget(found, settings.target);
+  return found;
+}
+
+Problems problems(const ProveSettings& settings) {
+  Problems found;
+  if (settings.image.empty()) found.push_back("no image is given");
+  if (settings.out.empty()) found.push_back("no folder for the results is given");
+  checkMethod(found, settings.method);
   checkTarget(found, settings.target);
   return found;
 }

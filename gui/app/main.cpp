@@ -2,8 +2,10 @@
 #include <QGuiApplication>
 
 #include "app/show_command.h"
+#include "content/media_thread.h"
 
 int main(int argc, char** argv) {
+  relucent::chooseMediaBackend();
   QGuiApplication application(argc, argv);
   QGuiApplication::setApplicationName("relucent");
   QGuiApplication::setApplicationVersion(RELUCENT_VERSION);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "app/show_command.h"
 
-#include <QCommandLineParser>
-#include <QDir>
-#include <QFileInfo>
+#include <QCoreApplication>
 #include <QGuiApplication>
 #include <QStandardPaths>
 #include <cstdio>
-#include <optional>
 
+#include "app/show_arguments.h"
 #include "app/termination.h"
 #include "base/error.h"
+#include "calibration/calibration_folder.h"
 #include "output/engine_renderer.h"
 #include "output/show.h"
 
@@ -19,76 +18,65 @@ namespace {
 
 constexpr int done = 0, failed = 1, wrongUsage = 2;
 
-void say(const QString& sentence) {
+int fail(const QString& sentence, int status) {
   std::fprintf(stderr, "relucent: %s\n", qPrintable(sentence));
+  return status;
 }
 
-/// Of "1920x1080"; none if it is no size that content can have.
-std::optional<QSize> sizeFrom(const QString& text) {
-  QStringList parts = text.toLower().split('x');
-  if (parts.size() != 2) return std::nullopt;
-  QSize size(parts[0].toInt(), parts[1].toInt());
-  if (size.width() < 8 || size.height() < 8 || size.width() > 8192 || size.height() > 8192)
-    return std::nullopt;
-  return size;
+int say(const QString& text) {
+  std::fputs(qPrintable(text), stdout);
+  return done;
+}
+
+QString config() {
+  return QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation);
+}
+
+int run(const PrintText& print) {
+  return say(print.text);
+}
+
+int run(const PlayShow& play) {
+  const ShowSettings& settings = play.settings;
+  Show show(settings, [settings] {
+    Progress quiet;
+    return std::make_unique<EngineRenderer>(settings.calibration, settings.canvas, settings.adaptiveRange,
+                                            quiet);
+  });
+  Termination termination;
+  QObject::connect(&termination, &Termination::requested, &show, [&show] {
+    show.stop();
+    QGuiApplication::quit();
+  });
+  show.start();
+  return QGuiApplication::exec();
+}
+
+int run(const InstallShow& wanted) {
+  // Now is when somebody is there to mend it.
+  CalibrationFolder::open(wanted.settings.calibration, CalibrationFolder::Access::read);
+  QString file = install(wanted.start, config(), QCoreApplication::applicationFilePath(), wanted.arguments);
+  return say(QString("Wrote %1: the show starts at the next log-in.\n").arg(file) +
+             (wanted.start == Start::service
+                  ? "Now: systemctl --user daemon-reload && systemctl --user start relucent-show\n"
+                  : ""));
+}
+
+int run(const UninstallShow& unwanted) {
+  QString file = uninstall(unwanted.start, config());
+  return say(file.isEmpty() ? QString("There was none.\n")
+                            : QString("Removed %1: the show starts no more by itself.\n").arg(file));
 }
 
 }  // namespace
 
 int runShowCommand(const QStringList& arguments) {
-  QCommandLineParser parser;
-  parser.setApplicationDescription(
-      "Plays content in a calibrated venue, compensated, until it is asked to end.\n"
-      "Keys at the projector: C compensation on and off, space freeze, B black, O overlay.");
-  parser.addHelpOption();
-  parser.addVersionOption();
-  parser.addPositionalArgument("show", "Play a calibrated venue.", "show");
-  parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
-  QCommandLineOption content("content", "A picture, a folder of numbered pictures, or a playlist.", "PATH");
-  QCommandLineOption loop("loop", "Begin again when it has ended.");
-  QCommandLineOption display(
-      "screen", "Connector of a projector's display, one for each; else chosen by size.", "NAME");
-  QCommandLineOption canvas("canvas", "Size that content is brought to.", "WxH", "1920x1080");
-  QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
-                         QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  for (const QCommandLineOption& option : {content, loop, display, canvas, log}) parser.addOption(option);
-  if (!parser.parse(arguments)) {
-    say(parser.errorText());
-    return wrongUsage;
-  }
-  if (parser.isSet("help")) parser.showHelp(done);
-  if (parser.isSet("version")) parser.showVersion();
-  QStringList words = parser.positionalArguments();
-  std::optional<QSize> canvasSize = sizeFrom(parser.value(canvas));
-  if (words.size() != 2 || words[0] != "show" || !parser.isSet(content) || !canvasSize) {
-    say(words.size() != 2 || words[0] != "show" ? "usage: relucent show CALIBRATION --content PATH"
-        : !parser.isSet(content)                ? "nothing to play; name it with --content"
-                                 : "the canvas must be WIDTHxHEIGHT of 8 to 8192 pixels, as 1920x1080");
-    return wrongUsage;
-  }
-
   try {
-    ShowSettings settings;
-    settings.calibration = words[1].toStdString();
-    settings.content = contentOf(parser.value(content));
-    settings.content.loop = settings.content.loop || parser.isSet(loop);
-    settings.displays = parser.values(display);
-    settings.canvas.size = *canvasSize;
-    settings.folder = parser.value(log);
-    Show show(settings, [settings] {
-      Progress quiet;
-      return std::make_unique<EngineRenderer>(settings.calibration, settings.canvas, quiet);
-    });
-    Termination termination;
-    QObject::connect(&termination, &Termination::requested, &show, [&show] {
-      show.stop();
-      QGuiApplication::quit();
-    });
-    show.start();
-    return QGuiApplication::exec();
+    return std::visit([](const auto& command) { return run(command); }, parseShowArguments(arguments));
+  } catch (const WrongArguments& error) {
+    return fail(error.what(), wrongUsage);
   } catch (const Error& error) {
-    say(error.what());
-    return failed;
+    return fail(error.what(), failed);
   }
 }
 

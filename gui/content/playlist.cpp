@@ -7,14 +7,28 @@
 #include <utility>
 
 #include "base/error.h"
+#include "content/content_address.h"
 #include "content/image_sequence.h"
+#include "content/live_camera.h"
+#include "content/live_screen.h"
 #include "content/still_image.h"
+#include "content/test_chart.h"
+#include "content/video.h"
 
 namespace relucent {
 namespace {
 
 constexpr int mostSentences = 100;
 constexpr ContentTime betweenTries{1'000'000};
+
+std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canvas) {
+  if (std::optional<TestChart> chart = testChartFromName(name))
+    return std::make_unique<TestChartContent>(*chart, canvas);
+  QStringList known;
+  for (TestChart chart : allTestCharts) known.append(nameOf(chart));
+  throw Error(ErrorKind::input, fmt::format("there is no test chart '{}'", name.toStdString()),
+              fmt::format("choose one of {}", known.join(", ").toStdString()));
+}
 
 ContentTime fromSeconds(double seconds) {
   return ContentTime(std::llround(1e6 * seconds));
@@ -23,8 +37,22 @@ ContentTime fromSeconds(double seconds) {
 }  // namespace
 
 std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas) {
+  ContentAddress address = addressOf(item.path);
+  switch (address.kind) {
+    case ContentAddress::Kind::chart:
+      return openChart(address.which, canvas);
+    case ContentAddress::Kind::screen:
+      return std::make_unique<LiveScreen>(LiveScreen::What::screen, address.which, canvas);
+    case ContentAddress::Kind::window:
+      return std::make_unique<LiveScreen>(LiveScreen::What::window, address.which, canvas);
+    case ContentAddress::Kind::camera:
+      return std::make_unique<LiveCamera>(address.which, canvas);
+    case ContentAddress::Kind::file:
+      break;
+  }
   if (QFileInfo(item.path).isDir())
     return std::make_unique<ImageSequence>(picturesIn(item.path), item.picturesPerSecond, canvas);
+  if (isVideo(item.path)) return std::make_unique<Video>(item.path, canvas);
   return std::make_unique<StillImage>(item.path, canvas);
 }
 

@@ -17,8 +17,8 @@ namespace relucent {
 
 /// One thing to play.
 struct PlaylistItem {
-  QString path;                     // a picture, or a folder of numbered pictures
-  double seconds = 10.0;            // how long a still picture stands
+  QString path;           // a picture, a film, a folder of numbered pictures, or a chart, see ContentAddress
+  double seconds = 10.0;  // how long a still picture stands
   double picturesPerSecond = 25.0;  // of a folder
 
   bool operator==(const PlaylistItem&) const = default;

@@ -8,12 +8,17 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "content/content_address.h"
 #include "content/playlist.h"
 
 namespace relucent {
 namespace {
 
 constexpr int version = 1;
+
+bool isFile(const QString& path) {
+  return addressOf(path).kind == ContentAddress::Kind::file;
+}
 
 [[noreturn]] void refuse(const QString& file, const std::string& what) {
   throw Error(ErrorKind::format, what, "open it with the program that wrote it, or make a new playlist",
@@ -57,7 +62,7 @@ PlaylistSettings readPlaylist(const QString& file) {
     QJsonObject entry = value.toObject();
     PlaylistItem item;
     if (QString path = entry["path"].toString(); !path.isEmpty())
-      item.path = QDir::cleanPath(folder.absoluteFilePath(path));
+      item.path = isFile(path) ? QDir::cleanPath(folder.absoluteFilePath(path)) : path;
     item.seconds = entry["seconds"].toDouble(item.seconds);
     item.picturesPerSecond = entry["pictures_per_second"].toDouble(item.picturesPerSecond);
     settings.items.append(item);
@@ -70,7 +75,7 @@ void savePlaylist(const QString& file, const PlaylistSettings& settings) {
   QDir folder = QFileInfo(file).absoluteDir();
   QJsonArray items;
   for (const PlaylistItem& item : settings.items)
-    items.append(QJsonObject{{"path", folder.relativeFilePath(item.path)},
+    items.append(QJsonObject{{"path", isFile(item.path) ? folder.relativeFilePath(item.path) : item.path},
                              {"seconds", item.seconds},
                              {"pictures_per_second", item.picturesPerSecond}});
   QJsonObject object{{"version", version},

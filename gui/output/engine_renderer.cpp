@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
 #include "calibration/calibration_folder.h"
@@ -16,7 +17,8 @@ constexpr double shareOfBudget = 0.7;
 }  // namespace
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
-                               Progress& progress) {
+                               bool adaptiveRange, Progress& progress)
+    : canvas_(canvas) {
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
   calibration_ = loadCalibration(folder, progress);
   EngineSettings settings;
@@ -25,6 +27,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
   backend_ = std::make_unique<CpuBackend>(*venue_);
   backend_->setContent(*content_);
+  if (adaptiveRange) range_.emplace(*venue_, *content_);
   words_.resize(calibration_.venue.transport.projectors().count());
 }
 
@@ -70,6 +73,14 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
   FrameRequest wanted;
   wanted.compensated = request.compensated;
   wanted.steps = stepsFor(request);
+  bool settled = true;
+  if (range_ && request.compensated) {
+    auto now = std::chrono::steady_clock::now();
+    DisplayRange range = range_->follow(frame, now - std::exchange(rangeAsked_, now));
+    wanted.brightness = range.brightness;
+    wanted.blackLift = range.blackLift;
+    settled = range_->settled();
+  }
   FrameReport report;
   if (!backend_->render(frame, wanted, words_, report))
     throw Error(ErrorKind::device, "the engine lost its device", "start the show again",
@@ -79,6 +90,7 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
   RenderedFrame rendered;
   rendered.clipped = report.clipped;
   rendered.steps = report.steps;
+  rendered.settled = settled;
   rendered.seconds = report.seconds.count();
   const Rasters& projectors = calibration_.venue.transport.projectors();
   for (std::size_t i = 0; i < projectors.devices(); ++i) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "base/progress.h"
 #include "content/canvas.h"
+#include "engine/adaptive_range.h"
 #include "engine/cpu_backend.h"
 #include "engine/engine_plan.h"
 #include "engine/step_budget.h"
@@ -18,21 +20,27 @@ namespace relucent {
 /// The real-time engine over a calibration.
 class EngineRenderer : public FrameRenderer {
  public:
-  /// Reads a finished calibration and prepares everything; takes seconds.
+  /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
+  /// offset follow the content, see AdaptiveRange.
   /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
-  EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, Progress& progress);
+  EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
+                 Progress& progress);
 
   std::vector<QSize> projectors() const override;
+  Canvas canvas() const override { return canvas_; }
   QString name() const override;
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override;
 
  private:
   int stepsFor(const RenderRequest& request);
 
+  Canvas canvas_;
   MeasuredCalibration calibration_;
   std::optional<EngineVenue> venue_;
   std::optional<EngineContent> content_;
   std::unique_ptr<EngineBackend> backend_;
+  std::optional<AdaptiveRange> range_;
+  std::chrono::steady_clock::time_point rangeAsked_{};
   std::vector<std::uint32_t> words_;
   std::optional<StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // that the budget is for

@@ -6,6 +6,7 @@
 #include <QString>
 #include <vector>
 
+#include "content/canvas.h"
 #include "content/content_source.h"
 
 namespace relucent {
@@ -25,6 +26,7 @@ struct RenderedFrame {
   double clipped = 0.0;        // share of drive values that the projectors' limits cut off
   int steps = 0;               // of refinement
   double seconds = 0.0;
+  bool settled = true;  // false: the same content would look a little different the next time
 };
 
 /// Turns content into what projectors show. Used by one thread at a time.
@@ -33,6 +35,8 @@ class FrameRenderer {
   virtual ~FrameRenderer() = default;
   /// The projectors' sizes in pixels.
   virtual std::vector<QSize> projectors() const = 0;
+  /// The size that content must have.
+  virtual Canvas canvas() const = 0;
   /// What it runs on, for people.
   virtual QString name() const = 0;
   /// Throws: Error{device} if there is nothing left that could render.

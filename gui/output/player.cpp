@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "output/player.h"
 
-#include <QPainter>
 #include <QScreen>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@ namespace relucent {
 namespace {
 
 constexpr ContentTime standsStill{500'000};
+constexpr int overlayInterval = 500;      // milliseconds
 constexpr double windowSeconds = 5.0;     // over which the statistics are taken
 constexpr std::size_t mostRecent = 1500;  // frames in that time, at the quickest displays' rates
 
@@ -43,6 +43,8 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
   pace_.setTimerType(Qt::PreciseTimer);
   pace_.setSingleShot(true);
   connect(&pace_, &QTimer::timeout, this, &Player::beginFrame);
+  overlayed_.setInterval(overlayInterval);
+  connect(&overlayed_, &QTimer::timeout, this, &Player::present);
   connect(&working_, &QFutureWatcherBase::finished, this, &Player::frameReady);
   for (ProjectorWindow* window : windows_) {
     connect(window, &ProjectorWindow::keyPressed, this, [this](int key) { handleKey(key); });
@@ -82,24 +84,25 @@ void Player::beginFrame() {
   begun_.start();
   ContentTime time = clock_.time();
   request_.seconds = refreshSeconds(windows_);
-  working_.setFuture(startedElsewhere(
-      [renderer = renderer_, content = content_, request = request_, time, last = last_]() -> Frame {
-        ContentPicture picture = content->at(time);
-        if (picture.image.isNull()) return {};
-        bool same = picture.number == last.content && request.compensated == last.request.compensated &&
-                    !last.rendered.drives.empty();
-        if (same && (last.request.thorough || time - last.since < standsStill)) return last;
-        RenderRequest wanted = request;
-        wanted.thorough = same;
-        return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted)};
-      }));
+  working_.setFuture(startedElsewhere([renderer = renderer_, content = chart_ ? chartContent_ : content_,
+                                       request = request_, time, last = last_]() -> Frame {
+    ContentPicture picture = content->at(time);
+    if (picture.image.isNull()) return {};
+    bool same = picture.number == last.content && request.compensated == last.request.compensated &&
+                !last.rendered.drives.empty();
+    bool rests = same && last.rendered.settled;
+    if (rests && (last.request.thorough || time - last.since < standsStill)) return last;
+    RenderRequest wanted = request;
+    wanted.thorough = rests;
+    return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted)};
+  }));
 }
 
 void Player::frameReady() {
   if (!playing_) return;
   try {
     Frame frame = resultOf(working_.future());
-    bool fresh = frame.content != last_.content || frame.request != last_.request;
+    bool fresh = frame.content != last_.content || frame.request != last_.request || !last_.rendered.settled;
     last_ = std::move(frame);
     if (fresh) {
       ++frames_;
@@ -124,19 +127,7 @@ void Player::present() {
       continue;
     }
     QImage drive = last_.rendered.drives[i];
-    if (overlay_) {
-      PlayerStatistics now = statistics();
-      QPainter painter(&drive);
-      QString text = tr("%1 frames a second, %2 ms, %3 late, %4 % out of reach")
-                         .arg(now.framesPerSecond, 0, 'f', 1)
-                         .arg(1e3 * now.frameSeconds, 0, 'f', 1)
-                         .arg(now.late)
-                         .arg(100.0 * now.clipped, 0, 'f', 1);
-      QRect place = painter.boundingRect(QRect(QPoint(8, 8), drive.size()), 0, text);
-      painter.fillRect(place.adjusted(-8, -8, 8, 8), Qt::black);
-      painter.setPen(QColor(160, 160, 160));
-      painter.drawText(place, 0, text);
-    }
+    if (hasOverlay()) drawOverlay(drive, overlayLines({statistics(), isCompensated(), isFrozen(), chart_}));
     windows_[i]->present(drive);
   }
   Q_EMIT shown();
@@ -176,8 +167,19 @@ void Player::setCompensated(bool compensated) {
 }
 
 void Player::setOverlay(bool shown) {
-  overlay_ = shown;
+  shown ? overlayed_.start() : overlayed_.stop();
   present();
+}
+
+void Player::setChart(std::optional<TestChart> chart) {
+  chart_ = chart;
+  chartContent_ = chart ? std::make_shared<TestChartContent>(*chart, renderer_->canvas()) : nullptr;
+}
+
+void Player::nextChart() {
+  auto next =
+      chart_ ? std::find(allTestCharts.begin(), allTestCharts.end(), *chart_) + 1 : allTestCharts.begin();
+  setChart(next == allTestCharts.end() ? std::nullopt : std::optional(*next));
 }
 
 bool Player::handleKey(int key) {
@@ -191,8 +193,11 @@ bool Player::handleKey(int key) {
     case Qt::Key_B:
       setBlack(!isBlack());
       return true;
+    case Qt::Key_T:
+      nextChart();
+      return true;
     case Qt::Key_O:
-      setOverlay(!overlay_);
+      setOverlay(!hasOverlay());
       return true;
     default:
       return false;

@@ -12,19 +12,11 @@
 #include "content/outcome.h"
 #include "output/content_clock.h"
 #include "output/frame_renderer.h"
+#include "output/overlay.h"
+#include "output/player_statistics.h"
 #include "output/projector_window.h"
 
 namespace relucent {
-
-/// How playing goes, over the last seconds.
-struct PlayerStatistics {
-  double framesPerSecond = 0.0;  // that reached the windows; 0 while a still picture stands
-  double frameSeconds = 0.0;     // one frame's computation, the mean
-  double clipped = 0.0;          // of the last frame
-  int steps = 0;                 // of refinement, of the last frame
-  std::uint64_t frames = 0;      // since it began
-  std::uint64_t late = 0;  // of these, ready later than one refresh of the display after they were begun
-};
 
 /// Plays content on all projectors under one clock. A frame is computed on another thread while the one
 /// before it is shown. A picture that stands still is computed once in time, once more as well as can be, and
@@ -52,13 +44,19 @@ class Player : public QObject {
   /// Black; the clock goes on.
   void setBlack(bool black);
   void setCompensated(bool compensated);
+  /// Figures over the picture, renewed twice a second.
   void setOverlay(bool shown);
+  /// A test chart in place of the content; none: the content, which has gone on.
+  void setChart(std::optional<TestChart> chart);
   bool isFrozen() const { return clock_.isPaused(); }
   bool isBlack() const { return black_; }
   bool isCompensated() const { return request_.compensated; }
+  bool hasOverlay() const { return overlayed_.isActive(); }
+  std::optional<TestChart> chart() const { return chart_; }
 
   /// What a key at a projector's window or the operator's view does: C compensation on and off, space freeze,
-  /// B black, O overlay. Returns whether it means anything.
+  /// B black, T the next test chart and behind the last one the content, O overlay. Returns whether it means
+  /// anything.
   bool handleKey(int key);
 
  Q_SIGNALS:
@@ -79,15 +77,18 @@ class Player : public QObject {
   void beginFrame();
   void frameReady();
   void present();
+  void nextChart();
 
   std::shared_ptr<FrameRenderer> renderer_;
   std::shared_ptr<ContentSource> content_;
   std::vector<ProjectorWindow*> windows_;
   ContentClock clock_;
   RenderRequest request_;
-  bool playing_ = false, black_ = false, overlay_ = false;
+  bool playing_ = false, black_ = false;
+  std::optional<TestChart> chart_;
+  std::shared_ptr<ContentSource> chartContent_;
 
-  QTimer pace_;
+  QTimer pace_, overlayed_;
   QFutureWatcher<Outcome<Frame>> working_;
   QElapsedTimer begun_;
   Frame last_;

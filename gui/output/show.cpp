@@ -7,6 +7,7 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -16,6 +17,8 @@
 namespace relucent {
 namespace {
 
+constexpr std::string_view playing = "playing", resting = "resting";
+constexpr std::chrono::seconds noticed{1};  // of sleep
 constexpr int healthInterval = 10'000;      // milliseconds
 constexpr int shortestPause = 1'000;        // before it is tried again, doubled with every failure ...
 constexpr int longestPause = 60'000;        // ... up to here
@@ -23,15 +26,17 @@ constexpr int forgivenAfter = 10 * 60'000;  // of playing without one
 
 }  // namespace
 
-Show::Show(ShowSettings settings, MakeRenderer make, QObject* parent)
+Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject* parent)
     : QObject(parent),
       settings_(std::move(settings)),
       make_(std::move(make)),
+      clock_(std::move(clock)),
+      slept_(clock_.slept()),
       log_(settings_.folder),
       awake_(tr("A show is playing.")) {
   for (const QString& problem : awake_.problems()) log_.warn(problem);
   health_.setInterval(healthInterval);
-  connect(&health_, &QTimer::timeout, this, [this] { tellHealth(state_); });
+  connect(&health_, &QTimer::timeout, this, [this] { look(); });
   again_.setSingleShot(true);
   connect(&again_, &QTimer::timeout, this, [this] {
     try {
@@ -77,11 +82,39 @@ void Show::open() {
 
 void Show::start() {
   for (const auto& window : windows_) window->shine();
+  health_.start();
+  isTime() ? play() : rest();
+  QTimer::singleShot(forgivenAfter, player_.get(), [this] { failures_ = 0; });
+}
+
+bool Show::isTime() const {
+  return !settings_.hours || settings_.hours->contain(clock_.wall().time());
+}
+
+void Show::play() {
   player_->start();
   log_.tell(QString("playing %1 items on %2").arg(settings_.content.items.size()).arg(renderer_));
-  health_.start();
   tellHealth("playing");
-  QTimer::singleShot(forgivenAfter, player_.get(), [this] { failures_ = 0; });
+}
+
+void Show::rest() {
+  player_->stop();
+  log_.tell("black until " + settings_.hours->from.toString("HH:mm"));
+  tellHealth("resting");
+}
+
+void Show::look() {
+  std::chrono::nanoseconds slept = clock_.slept();
+  if (slept - slept_ > noticed) {
+    log_.tell(QString("the machine slept for %1 s")
+                  .arg(std::chrono::duration<double>(slept - slept_).count(), 0, 'f', 0));
+    // Displays and graphics memory may have gone meanwhile.
+    for (const auto& window : windows_) window->shine();
+  }
+  slept_ = slept;
+  if (state_ == playing && !isTime()) return rest();
+  if (state_ == resting && isTime()) return play();
+  tellHealth(state_);
 }
 
 void Show::tryAgain(const QString& sentence) {
@@ -98,12 +131,12 @@ void Show::stop() {
   health_.stop();
   if (player_) player_->stop();
   for (const auto& window : windows_) window->stop();
-  if (std::string_view(state_) == "stopped") return;
+  if (state_ == "stopped") return;
   log_.tell("stopped");
   tellHealth("stopped");
 }
 
-void Show::tellHealth(const char* state) {
+void Show::tellHealth(std::string_view state) {
   state_ = state;
   Playlist::Status content = content_->status();
   const QStringList& skipped = content.skipped;
@@ -114,7 +147,7 @@ void Show::tellHealth(const char* state) {
     displays.append(
         QJsonObject{{"connector", window->display().connector}, {"shining", window->isShining()}});
   PlayerStatistics statistics = player_ ? player_->statistics() : PlayerStatistics{};
-  QJsonObject health{{"state", state},
+  QJsonObject health{{"state", QString::fromUtf8(state.data(), static_cast<qsizetype>(state.size()))},
                      {"updated", QDateTime::currentDateTime().toString(Qt::ISODate)},
                      {"renderer", renderer_},
                      {"frames", static_cast<qint64>(statistics.frames)},

@@ -5,38 +5,47 @@
 #include <QTimer>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "output/awake.h"
+#include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"
 #include "output/show_settings.h"
 
 namespace relucent {
 
-/// A show that runs by itself: opens the displays, plays, writes a log and a health file, and begins again
-/// after a failure.
+/// A show that runs by itself: opens the displays, plays at its hours and is black between them, writes a log
+/// and a health file, and begins again after a failure. Content goes on where it was when the machine slept.
 class Show : public QObject {
   Q_OBJECT
 
  public:
   using MakeRenderer = std::function<std::unique_ptr<FrameRenderer>()>;
   /// `make` is called again after a failure. Throws: Error as `make` and displaysFor() do, the first time.
-  Show(ShowSettings settings, MakeRenderer make, QObject* parent = nullptr);
+  Show(ShowSettings settings, MakeRenderer make, MachineClock clock = {}, QObject* parent = nullptr);
   ~Show() override;
 
   void start();
   /// Black, windows gone, the last word in log and health file.
   void stop();
   Player& player() { return *player_; }
+  /// Looks at the clock, and writes the health file. Done by itself every ten seconds.
+  void look();
 
  private:
   void open();
+  void play();
+  void rest();
+  bool isTime() const;
   void tryAgain(const QString& sentence);
-  void tellHealth(const char* state);
+  void tellHealth(std::string_view state);
 
   ShowSettings settings_;
   MakeRenderer make_;
+  MachineClock clock_;
+  std::chrono::nanoseconds slept_;
   ShowLog log_;
   Awake awake_;
   std::vector<std::unique_ptr<ProjectorWindow>> windows_;
@@ -46,7 +55,7 @@ class Show : public QObject {
   QTimer health_, again_;
   int failures_ = 0;
   qsizetype toldSkipped_ = 0;
-  const char* state_ = "starting";
+  std::string_view state_ = "starting";
 };
 
 }  // namespace relucent

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "content/content_address.h"
 
 namespace relucent {
 namespace {
@@ -62,6 +63,11 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
 }
 
 PlaylistSettings contentOf(const QString& path) {
+  if (addressOf(path).kind != ContentAddress::Kind::file) {
+    PlaylistSettings settings;
+    settings.items.append({path});
+    return settings;
+  }
   QString ending = QFileInfo(path).suffix().toLower();
   if (ending == "playlist" || ending == "json") return readPlaylist(path);
   PlaylistSettings settings;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "content/playlist.h"
+#include "output/daily_hours.h"
 #include "output/screen_identity.h"
 
 namespace relucent {
@@ -17,7 +18,9 @@ struct ShowSettings {
   PlaylistSettings content;
   QStringList displays;  // connectors, one a projector; empty: chosen by size, see displaysFor()
   Canvas canvas;
-  QString folder;  // of the log and the health file
+  bool adaptiveRange = false;       // brightness and offset follow the content
+  std::optional<DailyHours> hours;  // of the day in which it plays; none: all
+  QString folder;                   // of the log and the health file
 };
 
 /// The displays that the projectors hang on. A named one may be absent: the show waits for it. With none
@@ -25,7 +28,7 @@ struct ShowSettings {
 /// places. Throws: Error{input} naming the displays that are there if that does not settle it.
 std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, const QStringList& named);
 
-/// What content a path names: a playlist's file, a picture, or a folder of numbered pictures.
+/// What content a path names: a playlist's file, or what an item of a playlist may name.
 /// Throws: as readPlaylist().
 PlaylistSettings contentOf(const QString& path);
 

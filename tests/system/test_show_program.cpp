@@ -10,6 +10,7 @@
 #include <QtTest>
 #include <cmath>
 
+#include "gui/content/avi_film.h"
 #include "gui/output/two_screens.h"
 
 using namespace relucent;
@@ -87,7 +88,7 @@ class TestShowProgram : public QObject {
     QCOMPARE(health()["state"].toString(), QString("playing"));
     QVERIFY(health()["displays"][0]["shining"].toBool());
 
-    for (int cycle = 0; cycle < 3; ++cycle) {
+    for (int cycle = 0; cycle < unplugCycles(3); ++cycle) {
       unplug();
       xrandr({"--output", "DUMMY1", "--mode", "relucent-128x96", "--right-of", "DUMMY0"});
       QTRY_VERIFY_WITH_TIMEOUT(distance(seenOn("DUMMY1"), refined).within > 0.95, patience);
@@ -100,6 +101,52 @@ class TestShowProgram : public QObject {
     QCOMPARE(health()["state"].toString(), QString("stopped"));
   }
 
+  void startsByItselfOnceItIsInstalled() {
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert("XDG_CONFIG_HOME", folder_.filePath("config"));
+    QString unit = folder_.filePath("config/systemd/user/relucent-show.service");
+    auto said = [&](const QStringList& arguments) {
+      QProcess process;
+      process.setProcessEnvironment(environment);
+      process.start(program("relucent"), arguments);
+      return process.waitForFinished(patience) && process.exitCode() == 0 ? process.readAllStandardOutput()
+                                                                          : QByteArray();
+    };
+    QVERIFY(said({"show", calibration(), "--content", picture(), "--install-service"})
+                .contains("relucent-show.service"));
+    QFile file(unit);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QByteArray text = file.readAll();
+    QVERIFY(text.contains(program("relucent").toUtf8()) && text.contains(calibration().toUtf8()));
+    QVERIFY(said({"show", "--remove-service"}).contains("Removed"));
+    QVERIFY(!QFile::exists(unit));
+    QVERIFY(said({"show", "--remove-service"}).contains("none"));
+  }
+
+  /// A film, at its hours, with brightness that follows it.
+  void playsAFilmWithEverySwitch() {
+    QString film = folder_.filePath("film.avi");
+    AviFilm made;
+    made.frames = 100;
+    made.samples = [](int frame, int x, int) { return std::array{60 + (2 * frame + 3 * x) % 120, 128, 128}; };
+    QVERIFY(write(film, aviOf(made)));
+    QTime now = QTime::currentTime();
+    QString hours = now.addSecs(-7200).toString("HH:mm") + '-' + now.addSecs(7200).toString("HH:mm");
+    QProcess show;
+    show.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+    show.start(program("relucent"),
+               {"show", calibration(), "--content", film, "--canvas", "64x48", "--loop", "--adaptive-range",
+                "--schedule", hours, "--log", folder_.filePath("film log")});
+    QImage last;
+    for (int pictures = 0; pictures < 5; ++pictures) {
+      QTRY_VERIFY_WITH_TIMEOUT(seenOn("DUMMY1") != last && !allBlack(seenOn("DUMMY1")), patience);
+      last = seenOn("DUMMY1");
+    }
+    QCOMPARE(kill(static_cast<pid_t>(show.processId()), SIGTERM), 0);
+    QVERIFY(show.waitForFinished(patience));
+    QCOMPARE(show.exitCode(), 0);
+  }
+
   void refusesWithOneSentence_data() {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<int>("status");
@@ -110,6 +157,11 @@ class TestShowProgram : public QObject {
     QTest::newRow("no canvas") << QStringList{"show",    "CALIBRATION", "--content",
                                               picture(), "--canvas",    "wide"}
                                << 2 << "WIDTHxHEIGHT";
+    QTest::newRow("no hours") << QStringList{"show",    "CALIBRATION", "--content",
+                                             picture(), "--schedule",  "9-5"}
+                              << 2 << "HH:MM-HH:MM";
+    QTest::newRow("no calibration to install")
+        << QStringList{"show", "/nowhere", "--content", picture(), "--install-service"} << 1 << "/nowhere";
     QTest::newRow("no command") << QStringList{} << 2 << "relucent show";
     QTest::newRow("unknown option") << QStringList{"show", "CALIBRATION", "--quick"} << 2 << "quick";
     QTest::newRow("two displays for one projector")

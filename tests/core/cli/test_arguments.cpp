@@ -127,6 +127,10 @@ class TestArguments : public QObject {
     QVERIFY(!parsed<Report>("report d --no-evaluate").settings.evaluate);
     QCOMPARE(parsed<Bench>("bench windows").name, std::string("windows"));
     QCOMPARE(parsed<Resume>("resume d").calibration, std::filesystem::path("d"));
+    Prove prove = parsed<Prove>("prove d --image a.png --out o --method mix --black-lift 0.02");
+    QCOMPARE(prove.settings.method, std::string("mix"));
+    QCOMPARE(prove.settings.target.blackLift, 0.02);
+    QCOMPARE(prove.settings.image, std::filesystem::path("a.png"));
     QCOMPARE(parsed<Verify>("verify d --out maps").calibration, std::filesystem::path("d"));
     QCOMPARE(parsed<Verify>("verify d --out maps").settings.out, std::filesystem::path("maps"));
   }

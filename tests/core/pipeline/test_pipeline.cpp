@@ -8,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "image/color.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/prove.h"
 #include "pipeline/standard_images.h"
 #include "transport/files.h"
 
@@ -132,6 +134,53 @@ class TestPipeline : public QObject {
     QVERIFY(result.errorThen > 0.0 && result.found.exposures >= result.found.patterns);
     QCOMPARE(result.files.size(), std::size_t{5});
     for (const fs::path& file : result.files) QVERIFY((readRgbExr(file).size() == Size{28, 21}));
+  }
+
+  /// What the camera sees is what T predicted, before and after; and compensation is worth it on the surface,
+  /// not in the computer alone. With brighter room light the photographs are no more what was predicted.
+  void provesAPictureOnTheSurface_data() {
+    QTest::addColumn<quint64>("seed");
+    for (quint64 seed : {1, 7}) QTest::addRow("noise %d", static_cast<int>(seed)) << seed;
+  }
+  void provesAPictureOnTheSurface() {
+    QFETCH(quint64, seed);
+    fs::path picture = root() / "picture.png";
+    writePng(picture, srgbEncoded(standardImages({64, 48}).front().linear), 8);
+    VenueSettings venue = std::get<VenueSettings>(smallVenue("plain", seed).rig);
+    ProveSettings settings;
+    settings.image = picture;
+    settings.out = root() / "proved";
+    settings.rig = venue;
+    Progress silent;
+    ProveResult result = proveCalibration(root() / "plain", settings, cache(), silent);
+    QVERIFY(result.after.measured.psnr > result.before.measured.psnr + 3.0);
+    QVERIFY(result.after.measured.deltaE < result.before.measured.deltaE);
+    // T predicts photographs that it was not made from to 3 %, and a single photograph's noise is less.
+    QVERIFY2(result.before.surprise < 0.06 && result.after.surprise < 0.06,
+             qPrintable(QString("%1 %2").arg(result.before.surprise).arg(result.after.surprise)));
+    QVERIFY(std::abs(result.before.measured.psnr - result.before.predicted.psnr) < 1.0);
+    QVERIFY(result.reachable > 0.5 && result.exposures >= 2);
+    QCOMPARE(result.files.size(), std::size_t{8});
+    for (const fs::path& file : result.files) QVERIFY(fs::exists(file));
+    QVERIFY((readLinearContent(settings.out / "comparison.png").size() == Size{3 * 28 + 8, 2 * 21 + 4}));
+
+    venue.devices.ambient += 0.1;
+    settings.rig = venue;
+    ProveResult brighter = proveCalibration(root() / "plain", settings, cache(), silent);
+    QVERIFY(brighter.after.surprise > 2.0 * result.after.surprise);
+    QVERIFY(brighter.after.measured.deltaE > result.after.measured.deltaE);
+  }
+  void proveRefusesWhatCannotBe() {
+    Progress silent;
+    ProveSettings settings;
+    QCOMPARE(problems(settings).size(), std::size_t{2});
+    settings.image = root() / "missing.png";
+    settings.out = root() / "proved";
+    settings.method = "magic";
+    QCOMPARE(problems(settings).size(), std::size_t{1});
+    settings.method = "mix";
+    std::string sentence = errorOf([&] { proveCalibration(root() / "plain", settings, cache(), silent); });
+    QVERIFY2(QString::fromStdString(sentence).contains("missing.png"), sentence.c_str());
   }
 
   void verifyRefusesOtherDevices() {

@@ -16,6 +16,7 @@ inline constexpr QSize projectorSize{1024, 768};
 class ScriptedRenderer : public FrameRenderer {
  public:
   std::vector<QSize> projectors() const override { return {projectorSize}; }
+  Canvas canvas() const override { return {projectorSize, Fit::fill}; }
   QString name() const override { return "scripted"; }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
     ++rendered;
@@ -23,10 +24,10 @@ class ScriptedRenderer : public FrameRenderer {
     if (broken) throw Error(ErrorKind::device, "the graphics card is gone", "start again");
     QImage drive = content.image.copy();
     if (!request.compensated) drive.invertPixels();
-    return {{drive}, 0.25, 2, 0.001};
+    return {{drive}, 0.25, 2, 0.001, !restless};
   }
   std::atomic<int> rendered{0};
-  std::atomic<bool> broken{false}, thorough{false};
+  std::atomic<bool> broken{false}, thorough{false}, restless{false};
 };
 
 }  // namespace relucent

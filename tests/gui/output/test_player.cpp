@@ -91,6 +91,22 @@ class TestPlayer : public QObject {
     QCOMPARE(renderer_->rendered.load(), 2);
   }
 
+  /// Brightness that is still on its way: rendered on and on until it has arrived, and then as one that
+  /// stands.
+  void aPictureIsRenderedUntilItSettles() {
+    auto player = playerOf(still());
+    renderer_->restless = true;
+    player->start();
+    QTRY_VERIFY(renderer_->rendered >= 10);
+    QVERIFY(!renderer_->thorough);
+    renderer_->restless = false;
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    int rendered = renderer_->rendered;
+    for (int turns = 0; turns < 200; ++turns) QCoreApplication::processEvents();
+    QCOMPARE(renderer_->rendered.load(), rendered);
+  }
+
   void filmFollowsTheClock() {
     auto player = playerOf(std::make_shared<Film>());
     player->start();
@@ -150,11 +166,38 @@ class TestPlayer : public QObject {
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
   }
 
+  void testChartsReplaceTheContentAndGo() {
+    auto player = playerOf(std::make_shared<Film>());
+    player->start();
+    hand_.now += 3s;
+    QTRY_COMPARE(seen(), Film::greyAt(3s).rgb());
+    for (TestChart chart : allTestCharts) {
+      QTest::keyClick(window_.get(), Qt::Key_T);
+      QVERIFY(player->chart() == chart);
+      QImage drive = drawn(chart, projectorSize).convertToFormat(QImage::Format_RGB32);
+      QTRY_VERIFY(seenOn("DUMMY1") == drive);
+    }
+    hand_.now += 4s;
+    QTest::keyClick(window_.get(), Qt::Key_T);
+    QVERIFY(!player->chart());
+    QTRY_COMPARE(seen(), Film::greyAt(7s).rgb());
+  }
+
+  /// On a picture that stands, too: how many are late is no matter of the moment in which it was switched on.
+  void overlayIsRenewed() {
+    auto player = playerOf(still());
+    player->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    player->setOverlay(true);
+    QSignalSpy shown(player.get(), &Player::shown);
+    QTRY_VERIFY(shown.count() >= 2);
+  }
+
   void survivesItsDisplayComingAndGoing() {
     auto player = playerOf(std::make_shared<Film>());
     QSignalSpy failed(player.get(), &Player::failed);
     player->start();
-    for (int cycle = 1; cycle <= 10; ++cycle) {
+    for (int cycle = 1; cycle <= unplugCycles(10); ++cycle) {
       unplug();
       hand_.now += 1s;
       plug();

@@ -67,7 +67,7 @@ class TestProjectorWindow : public QObject {
     window.present(picture);
     QTRY_VERIFY(seenOn("DUMMY1") == picture);
     QImage operators = seenOn("DUMMY0");
-    for (int cycle = 1; cycle <= 20; ++cycle) {
+    for (int cycle = 1; cycle <= unplugCycles(20); ++cycle) {
       unplug();
       QTRY_COMPARE(lost.count(), cycle);
       QVERIFY(!window.isVisible() && !window.isShining());

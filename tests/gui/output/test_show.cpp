@@ -34,15 +34,21 @@ class TestShow : public QObject {
     for (const QString& file : files) settings.content.items.append({file, 86400.0});
     return settings;
   }
+  QDateTime wall_;
+  std::chrono::nanoseconds slept_{0};
   std::unique_ptr<Show> showOf(const ShowSettings& settings) {
     made_ = 0;
-    return std::make_unique<Show>(settings, [this] {
-      if (cannotBeMade_) throw Error(ErrorKind::input, "the calibration is gone", "bring it back");
-      auto renderer = std::make_unique<ScriptedRenderer>();
-      renderer->broken = broken_;
-      ++made_;
-      return renderer;
-    });
+    MachineClock clock{[this] { return wall_; }, [this] { return slept_; }};
+    return std::make_unique<Show>(
+        settings,
+        [this] {
+          if (cannotBeMade_) throw Error(ErrorKind::input, "the calibration is gone", "bring it back");
+          auto renderer = std::make_unique<ScriptedRenderer>();
+          renderer->broken = broken_;
+          ++made_;
+          return renderer;
+        },
+        clock);
   }
   QJsonObject health() {
     QFile file(folder_->filePath("log/health.json"));
@@ -58,6 +64,8 @@ class TestShow : public QObject {
     if (screenOn("DUMMY1") == nullptr) plug();
     folder_ = std::make_unique<QTemporaryDir>();
     broken_ = cannotBeMade_ = false;
+    wall_ = QDateTime({2026, 5, 4}, {12, 0});
+    slept_ = {};
   }
 
   void playsTellsItsHealthAndEndsBlack() {
@@ -85,6 +93,51 @@ class TestShow : public QObject {
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     QTRY_VERIFY(health()["displays"][0]["shining"].toBool());
     QVERIFY(log().contains("display back: DUMMY1"));
+  }
+
+  void playsAtItsHoursAndIsBlackBetweenThem() {
+    ShowSettings wanted = settings({picture("a.png", 3)});
+    wanted.hours = DailyHours{{18, 0}, {2, 30}};
+    auto show = showOf(wanted);
+    show->start();
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QCOMPARE(health()["state"].toString(), QString("resting"));
+    QVERIFY(log().contains("black until 18:00") && health()["displays"][0]["shining"].toBool());
+    for (int day = 0; day < 2; ++day) {
+      wall_ = QDateTime({2026, 5, 4 + day}, {18, 0});
+      show->look();
+      QCOMPARE(health()["state"].toString(), QString("playing"));
+      QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+      wall_ = QDateTime({2026, 5, 5 + day}, {2, 29, 59});
+      show->look();
+      QCOMPARE(health()["state"].toString(), QString("playing"));
+      wall_ = QDateTime({2026, 5, 5 + day}, {2, 30});
+      show->look();
+      QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+      QCOMPARE(health()["state"].toString(), QString("resting"));
+    }
+  }
+
+  /// The lid was closed in the evening and opened in the morning: told, and played on by the hour that it is.
+  void survivesTheMachinesSleep() {
+    ShowSettings wanted = settings({picture("a.png", 3)});
+    wanted.hours = DailyHours{{9, 0}, {21, 0}};
+    auto show = showOf(wanted);
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    slept_ = std::chrono::hours(12);
+    wall_ = QDateTime({2026, 5, 5}, {0, 0});
+    show->look();
+    QVERIFY(log().contains("slept for 43200 s"));
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    wall_ = QDateTime({2026, 5, 5}, {9, 0});
+    show->look();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QCOMPARE(log().count("slept"), 1);
+    // Set back by an hour: the clock on the wall rules.
+    wall_ = QDateTime({2026, 5, 5}, {8, 0});
+    show->look();
+    QCOMPARE(health()["state"].toString(), QString("resting"));
   }
 
   void beginsAgainAfterAFailure() {

@@ -30,6 +30,13 @@ inline void plug() {
   QTRY_VERIFY(screenOn("DUMMY1") != nullptr);
 }
 
+/// How often a test unplugs the projector: $RELUCENT_UNPLUG_CYCLES, or as often as there is time for usually.
+inline int unplugCycles(int usually) {
+  bool given = false;
+  int cycles = qEnvironmentVariableIntValue("RELUCENT_UNPLUG_CYCLES", &given);
+  return given ? cycles : usually;
+}
+
 inline QImage noise(QSize size, quint32 seed) {
   QImage image(size, QImage::Format_RGB32);
   QRandomGenerator random(seed);

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "engine/adaptive_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "image/color.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::size_t mostSamples = 4096;
+// What is left of a way when it counts as gone: less than one code of a projector's 8 bits.
+constexpr float nearBrightness = 0.002f, nearLift = 0.0005f;
+
+/// The value below which `share` of them lie. Reorders them.
+float quantile(std::vector<float>& values, double share) {
+  auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+float positive(float value) {
+  return value > 0.0f ? value : 0.0f;
+}
+
+/// The brightness at which a pixel's content is as bright as it can be shown.
+float brightnessFor(const Reach& reach, const std::array<float, 3>& mixed, float brightest) {
+  float result = brightest;
+  for (std::size_t c = 0; c < 3; ++c)
+    if (float wanted = positive(mixed[c]); wanted * result > reach.most[c])
+      result = positive(reach.most[c]) / wanted;
+  return result;
+}
+
+/// The lift at which a pixel's content is as dark as it can be shown.
+float liftFor(const Reach& reach, const std::array<float, 3>& mixed, float most) {
+  float result = 0.0f;
+  for (std::size_t c = 0; c < 3; ++c) {
+    float wanted = positive(mixed[c]);
+    if (wanted < reach.least[c] && wanted < 1.0f)
+      result = std::max(result, std::min(most, (reach.least[c] - wanted) / (1.0f - wanted)));
+  }
+  return result;
+}
+
+/// demandedRange() in memory that is there already.
+DisplayRange demanded(const std::vector<Reach>& reach, const std::vector<std::array<float, 3>>& mixed,
+                      const AdaptiveRangeSettings& settings, std::vector<float>& brightness,
+                      std::vector<float>& lift) {
+  if (reach.empty()) return {};
+  for (std::size_t i = 0; i < reach.size(); ++i) {
+    brightness[i] = brightnessFor(reach[i], mixed[i], static_cast<float>(settings.brightest));
+    lift[i] = liftFor(reach[i], mixed[i], static_cast<float>(settings.mostLift));
+  }
+  double share = settings.outOfReach / 100.0;
+  return {std::max(static_cast<float>(settings.dimmest), quantile(brightness, share)),
+          quantile(lift, 1.0 - share)};
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const AdaptiveRangeSettings& settings) {
+  std::vector<std::string> found;
+  if (!(settings.outOfReach >= 0.0 && settings.outOfReach <= 100.0))
+    found.push_back("the share of pixels out of reach must lie between 0 and 100 percent");
+  if (!(settings.dimmest > 0.0 && settings.dimmest <= 1.0 && settings.brightest >= 1.0 &&
+        settings.brightest <= 100.0))
+    found.push_back("the brightness must be able to stay as it is: from 0 to 1 to at most 100");
+  if (!(settings.mostLift >= 0.0 && settings.mostLift < 1.0))
+    found.push_back("the black lift must lie between 0 and 1");
+  if (!(settings.timeConstant > 0.0)) found.push_back("the time constant must be more than 0 seconds");
+  if (!(settings.cut > 0.0)) found.push_back("a cut must change more than nothing");
+  return found;
+}
+
+DisplayRange demandedRange(const std::vector<Reach>& reach, const std::vector<std::array<float, 3>>& mixed,
+                           const AdaptiveRangeSettings& settings) {
+  require(reach.size() == mixed.size(), "{} colours for {} pixels", mixed.size(), reach.size());
+  std::vector<float> brightness(reach.size()), lift(reach.size());
+  return demanded(reach, mixed, settings, brightness, lift);
+}
+
+AdaptiveRange::AdaptiveRange(const EngineVenue& engine, const EngineContent& content,
+                             const AdaptiveRangeSettings& settings)
+    : settings_(settings), size_(content.warp.content()), mixing_(engine.mixing) {
+  auto wrong = problems(settings);
+  require(wrong.empty(), "adaptive range: {}", fmt::join(wrong, "; "));
+  for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
+    linearOfSrgb_[code] = static_cast<float>(srgbDecode(static_cast<double>(code) / 255.0));
+
+  const MeasuredVenue& venue = engine.venue;
+  std::vector<std::size_t> pixels;
+  for (std::size_t i = 0; i < content.warp.footprints().size(); ++i)
+    if (content.warp.inside(i) && venue.usable[i]) pixels.push_back(i);
+  std::size_t count = std::min(pixels.size(), mostSamples);
+  for (std::size_t sample = 0; sample < count; ++sample) {
+    std::size_t i = pixels[sample * pixels.size() / count];
+    const ContentWarp::Footprint& footprint = content.warp.footprints()[i];
+    place_.push_back({footprint.x + footprint.width / 2, footprint.y + footprint.height / 2});
+    Reach reach;
+    for (std::size_t c = 0; c < 3; ++c) {
+      reach.least[c] = venue.black[3 * i + c] / content.white;
+      reach.most[c] = (venue.black[3 * i + c] + venue.flood[3 * i + c]) / content.white;
+    }
+    reach_.push_back(reach);
+  }
+  mixed_.resize(reach_.size());
+  lowest_.resize(reach_.size());
+  highest_.resize(reach_.size());
+}
+
+void AdaptiveRange::look(const ContentFrame& frame) {
+  histogram_.fill(0.0f);
+  const bool encoded = frame.format != ContentFrame::Format::linearFloat;
+  const bool blueFirst = frame.format == ContentFrame::Format::bgra8;
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    const auto* pixel = static_cast<const unsigned char*>(frame.data) +
+                        static_cast<std::size_t>(place_[i].y) * frame.bytesPerLine +
+                        static_cast<std::size_t>(place_[i].x) * bytesPerPixel(frame.format);
+    std::array<float, 3> colour;
+    for (std::size_t c = 0; c < 3; ++c)
+      colour[c] = encoded ? linearOfSrgb_[pixel[blueFirst ? 2 - c : c]]
+                          : std::min(1.0f, positive(reinterpret_cast<const float*>(pixel)[c]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      auto row = static_cast<Eigen::Index>(c);
+      mixed_[i][c] = mixing_(row, 0) * colour[0] + mixing_(row, 1) * colour[1] + mixing_(row, 2) * colour[2];
+    }
+    float light = std::min(1.0f, (colour[0] + colour[1] + colour[2]) / 3.0f);
+    auto place = static_cast<std::size_t>(std::sqrt(light) * static_cast<float>(classes - 1) + 0.5f);
+    histogram_[place] += 1.0f / static_cast<float>(place_.size());
+  }
+}
+
+DisplayRange AdaptiveRange::follow(const ContentFrame& frame, std::chrono::duration<double> elapsed) {
+  require(frame.size == size_, "content of {}x{} where {}x{} is prepared", frame.size.width,
+          frame.size.height, size_.width, size_.height);
+  look(frame);
+  DisplayRange goal = demanded(reach_, mixed_, settings_, lowest_, highest_);
+  float changed = 0.0f;
+  for (std::size_t i = 0; i < classes; ++i) changed += 0.5f * std::abs(histogram_[i] - before_[i]);
+  before_ = histogram_;
+
+  auto left = static_cast<float>(std::exp(-std::max(0.0, elapsed.count()) / settings_.timeConstant));
+  float apart = std::log(now_.brightness / goal.brightness) * left;
+  float lower = (now_.blackLift - goal.blackLift) * left;
+  bool cut = !begun_ || changed > static_cast<float>(settings_.cut);
+  settled_ = cut || (std::abs(apart) < nearBrightness && std::abs(lower) < nearLift);
+  now_ = settled_ ? goal : DisplayRange{goal.brightness * std::exp(apart), goal.blackLift + lower};
+  begun_ = true;
+  return now_;
+}
+
+}  // namespace relucent

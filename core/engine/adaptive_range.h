@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "engine/content_frame.h"
+#include "engine/engine_plan.h"
+
+namespace relucent {
+
+struct AdaptiveRangeSettings {
+  double outOfReach = 2.0;    // percent of the pixels that may want more, or less, than the venue can show
+  double dimmest = 0.5;       // least brightness, relative to the target's
+  double brightest = 1.5;     // most
+  double mostLift = 0.1;      // share of white added to black
+  double timeConstant = 1.0;  // seconds in which 63 % of a change are made
+  double cut = 0.4;           // share of the pixels that change their brightness when a scene ends
+};
+std::vector<std::string> problems(const AdaptiveRangeSettings& settings);
+
+/// Brightness and offset of a frame, see FrameRequest.
+struct DisplayRange {
+  float brightness = 1.0f;
+  float blackLift = 0.0f;
+
+  bool operator==(const DisplayRange&) const = default;
+};
+
+/// What a pixel can show, channel by channel, as shares of the target's white.
+struct Reach {
+  std::array<float, 3> least{};  // e / white
+  std::array<float, 3> most{};   // (T 1 + e) / white
+};
+
+/// The range in which content just fits what can be reached. k = K c, the content as the venue mixes it:
+///   brightness = the lowest outOfReach % quantile over the pixels of  min_c most_c / k_c,
+///   blackLift  = the highest outOfReach % quantile over the pixels of  max_c (least_c - k_c) / (1 - k_c),
+/// both held to the settings. Brighter content never gets a greater brightness, nor a greater lift.
+/// Shapes: as many `mixed` as `reach`. Without pixels: 1 and 0. What is no number counts as black.
+DisplayRange demandedRange(const std::vector<Reach>& reach, const std::vector<std::array<float, 3>>& mixed,
+                           const AdaptiveRangeSettings& settings);
+
+/// Lets the range follow what films demand, unseen: it glides there with a time constant, brightness by
+/// ratios,
+///   x(t + dt) = x* + (x(t) - x*) exp(-dt / timeConstant),
+/// rests when it has all but arrived, so that a picture that stands does not change for ever, and jumps where
+/// a scene ends. A scene ends where the histogram of brightness (32 classes of its square root) changes at
+/// once by more than `cut`: 1/2 sum |h - h'|.
+class AdaptiveRange {
+ public:
+  /// `engine` and `content` must outlive it. Looks at some thousand camera pixels, evenly spread.
+  /// Throws: std::logic_error for wrong settings.
+  AdaptiveRange(const EngineVenue& engine, const EngineContent& content,
+                const AdaptiveRangeSettings& settings = {});
+
+  /// The range of a frame that is shown `elapsed` after the one before it. Allocates nothing.
+  /// Contract: the frame has the content's size.
+  DisplayRange follow(const ContentFrame& frame, std::chrono::duration<double> elapsed);
+  /// Whether the same frame would get the same range again.
+  bool settled() const { return settled_; }
+
+ private:
+  static constexpr std::size_t classes = 32;
+  using Histogram = std::array<float, classes>;
+
+  void look(const ContentFrame& frame);
+
+  AdaptiveRangeSettings settings_;
+  Size size_;
+  ColourBlock mixing_;
+  std::array<float, 256> linearOfSrgb_{};
+  std::vector<Pixel> place_;  // of the content, at the middle of a camera pixel
+  std::vector<Reach> reach_;
+  std::vector<std::array<float, 3>> mixed_;
+  std::vector<float> lowest_, highest_;
+  Histogram histogram_{}, before_{};
+  DisplayRange now_;
+  bool begun_ = false, settled_ = true;
+};
+
+}  // namespace relucent

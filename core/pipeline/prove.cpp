@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/prove.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "acquisition/photographer.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/stopwatch.h"
+#include "compensation/methods.h"
+#include "compensation/prediction.h"
+#include "image/color.h"
+#include "image/exr.h"
+#include "image/picture_files.h"
+#include "pipeline/devices.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/projection.h"
+#include "pipeline/report_pictures.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double brightestDeltaE = 20.0;  // of the maps: twice what nobody overlooks
+constexpr int gap = 4;                    // pixels between the pictures of the comparison
+
+struct Photographed {
+  ProvedProjection error;
+  Stack camera;  // radiance
+  Image deltaE;
+};
+
+PictureError errorOf(const Prediction& seen) {
+  return {seen.psnrReachable, seen.meanDeltaE};
+}
+
+double surpriseOf(const Stack& measured, const Stack& predicted, const Target& target) {
+  double apart = 0.0, light = 0.0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (!target.inside[i / 3]) continue;
+    double value = static_cast<double>(measured[i]), difference = value - static_cast<double>(predicted[i]);
+    apart += difference * difference;
+    light += value * value;
+  }
+  return light > 0.0 ? std::sqrt(apart / light) : 0.0;
+}
+
+/// A pixel that saturates every exposure is no measurement: it counts in neither figure.
+void leaveOut(Target& target, const HdrFrame& frame) {
+  for (std::size_t i = 0; i < target.inside.size(); ++i) {
+    if (frame.valid[3 * i] && frame.valid[3 * i + 1] && frame.valid[3 * i + 2]) continue;
+    target.inside[i] = target.reachable[i] = 0;
+  }
+}
+
+Photographed photograph(Photographer& photographer, const MeasuredCalibration& measured, Target target,
+                        const Compensation& compensation, const Progress& progress) {
+  const Rasters& cameras = measured.venue.transport.cameras();
+  const Rasters& projectors = measured.venue.transport.projectors();
+  // Drive values, as the projectors are given them.
+  std::vector<Image> drive = encodedDrive(compensation.projector, projectors, measured.linearization);
+  HdrFrame frame = photographer.takeAll(stackFromImages(drive, projectors), progress);
+  leaveOut(target, frame);
+  Prediction predicted = predict(measured.venue, target, compensation);
+  Photographed result;
+  result.camera = frame.radiance;
+  result.error.surprise = surpriseOf(frame.radiance, predicted.camera, target);
+  result.error.predicted = errorOf(predicted);
+  Prediction seen = compared(std::move(frame.radiance), target, cameras);
+  result.error.measured = errorOf(seen);
+  result.deltaE = std::move(seen.deltaE);
+  return result;
+}
+
+/// Pictures of one size side by side, row by row; an empty one leaves its place dark.
+Image sheet(const std::vector<std::vector<Image>>& rows, Size size) {
+  int columns = static_cast<int>(rows.front().size()), lines = static_cast<int>(rows.size());
+  Image result({columns * (size.width + gap) - gap, lines * (size.height + gap) - gap}, 3);
+  for (int row = 0; row < lines; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const Image& picture = rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+      if (picture.empty()) continue;
+      for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+          for (int c = 0; c < 3; ++c)
+            result.at(column * (size.width + gap) + x, row * (size.height + gap) + y, c) =
+                picture.at(x, y, c);
+    }
+  return result;
+}
+
+std::vector<fs::path> writePictures(const fs::path& out, const Target& target, const Rasters& cameras,
+                                    const Photographed& before, const Photographed& after) {
+  createFolder(out);
+  std::vector<fs::path> files;
+  auto shown = [&](const char* name, const Stack& stack) {
+    Image picture = viewed(imageFromStack(stack, cameras, 0), target.white);
+    files.push_back(out / fmt::format("{}.png", name));
+    writePng(files.back(), picture, 8);
+    return picture;
+  };
+  auto measured = [&](const char* name, const Photographed& photographed) {
+    files.push_back(out / fmt::format("{}.exr", name));
+    writeExr(files.back(), imageFromStack(photographed.camera, cameras, 0), ExrType::floatType,
+             {{exr_attribute::units, std::string("camera signal per second")}});
+    files.push_back(out / fmt::format("{}_delta_e.exr", name));
+    writeExr(files.back(), photographed.deltaE, ExrType::floatType,
+             {{exr_attribute::units, std::string("CIEDE2000")}});
+    return painted(photographed.deltaE, ColorMap::viridis, 0.0, brightestDeltaE);
+  };
+  std::vector<Image> pictures{shown("target", target.wanted), shown("before", before.camera),
+                              shown("after", after.camera)};
+  std::vector<Image> maps{Image(), measured("before", before), measured("after", after)};
+  files.push_back(out / "comparison.png");
+  writePng(files.back(), sheet({pictures, maps}, cameras.size(0)), 8);
+  return files;
+}
+
+}  // namespace
+
+ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, const fs::path& cache,
+                             Progress& progress) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  Image content = readLinearContent(settings.image);
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  RigSettings rig = settings.rig.value_or(settingsOf(folder).rig);
+  Progress loading = progress.part(0.3, "Reading the calibration");
+  MeasuredCalibration measured = loadCalibration(folder, loading);
+  Progress opening = progress.part(0.2, "Preparing the devices");
+  OpenedRig devices = openRig(rig, cache, opening);
+  const TransportMatrix& transport = measured.venue.transport;
+  if (!(devices.rig.cameraRasters() == transport.cameras() &&
+        devices.rig.projectorRasters() == transport.projectors()))
+    throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
+                "set projector and camera as they were, or calibrate anew", path.string());
+
+  Target target = fitTarget(content, measured.venue, settings.target);
+  Compensator compensator(measured.venue, measured.inverse);
+  Progress solving = progress.part(0.2, "Compensating");
+  Compensation plain = compensator.solve(Method::none, target, solving);
+  Compensation compensated = compensator.solve(methodFromName(settings.method).value(), target, solving);
+  ProveResult result;
+  result.method = settings.method;
+  result.reachable = predict(measured.venue, target, compensated).reachable;
+  if (result.reachable == 0.0)
+    throw Error(ErrorKind::input, "no part of the picture can be shown in this venue",
+                "make the content darker, or place it where the projector reaches", settings.image.string());
+
+  Progress photographing = progress.part(0.25, "Photographing the projections");
+  Stopwatch watch;
+  NoShotLog log;
+  ShotTaker shots(devices.rig, log, "prove");
+  Photographer photographer(shots, measured.linearization);
+  Photographed before = photograph(photographer, measured, target, plain, photographing);
+  photographing.report(0.5);
+  Photographed after = photograph(photographer, measured, target, compensated, photographing);
+  photographing.report(1.0);
+  result.before = before.error;
+  result.after = after.error;
+  result.seconds = watch.seconds();
+  result.exposures = shots.exposures();
+  result.files = writePictures(settings.out, target, transport.cameras(), before, after);
+  progress.report(1.0);
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+struct ProveSettings {
+  std::filesystem::path image;     // content, sRGB file or linear EXR
+  std::string method = "refined";  // a name from methodDescriptions
+  TargetSettings target;
+  std::filesystem::path out;       // folder; created; files of the same names are replaced
+  std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
+};
+std::vector<std::string> problems(const ProveSettings& settings);
+
+/// How far a picture on the surface is from the wanted one, the first camera's pixels.
+struct PictureError {
+  double psnr = 0.0;    // dB over the reachable pixels, in linear light with the target's white as peak
+  double deltaE = 0.0;  // mean CIEDE2000 over the content, as a viewer adapted to its white sees it
+};
+
+/// One projection: what T said of it, and what the camera saw.
+struct ProvedProjection {
+  PictureError predicted;
+  PictureError measured;
+  /// |measured - predicted| / |measured| over the content: how far T is believed rightly.
+  double surprise = 0.0;
+};
+
+struct ProveResult {
+  std::string method;
+  ProvedProjection before;  // the content as it is, in its place: method none
+  ProvedProjection after;   // compensated
+  double reachable = 0.0;   // share of the content's camera pixels
+  int exposures = 0;
+  double seconds = 0.0;  // of photographing
+  std::vector<std::filesystem::path> files;
+};
+
+/// The verification shot: projects a picture as it is and compensated, photographs both with the
+/// calibration's devices, and compares the photographs with what was wanted and with what T predicts.
+/// Nothing of the calibration is changed. Writes into `out`: before.exr, after.exr (measured, camera signal
+/// per second), target.png, before.png, after.png (to look at), before_delta_e.exr, after_delta_e.exr, and
+/// comparison.png: target, before and after beside each other, below them the CIEDE2000 of before and after
+/// from 0 (dark) to 20 (bright).
+/// Throws: Error{input} if the calibration is not finished, was imported, has other sizes than the devices,
+/// or nothing of the picture can be shown; Error{device, disk}; Cancelled.
+ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings,
+                             const std::filesystem::path& cache, Progress& progress);
+
+}  // namespace relucent

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "app/installation.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace relucent {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* unitName = "relucent-show.service";
+
+QString fileOf(Start start, const QString& config) {
+  return config + (start == Start::service ? QString("/systemd/user/") + unitName
+                                           : QString("/autostart/relucent-show.desktop"));
+}
+
+/// What `systemctl --user enable` makes.
+QString switchOf(const QString& config) {
+  return config + "/systemd/user/graphical-session.target.wants/" + unitName;
+}
+
+/// A word of ExecStart= [systemd.service(5), systemd.syntax(7)]. `isProgram`: "$" is a dollar there.
+QString systemdWord(const QString& word, bool isProgram) {
+  QString quoted = "\"";
+  for (QChar c : word) {
+    if (c == '"' || c == '\\')
+      quoted += QString('\\') + c;
+    else if (c == '%')
+      quoted += "%%";
+    else if (c == '$' && !isProgram)
+      quoted += "$$";
+    else if (c.unicode() < 0x20)
+      quoted += QString("\\x%1").arg(c.unicode(), 2, 16, QChar('0'));
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+/// A word of Exec=: quoted by the rules of the Exec key, and then as a string value, where a backslash is
+/// two.
+QString desktopWord(const QString& word) {
+  QString quoted = "\"";
+  for (QChar c : word) {
+    if (c.unicode() < 0x20)
+      throw Error(ErrorKind::input, "an autostart entry cannot name files with control characters",
+                  "rename it, or install the service instead", word.toStdString());
+    if (c == '\\')
+      quoted += "\\\\\\\\";
+    else if (c == '"' || c == '`' || c == '$')
+      quoted += QString("\\\\") + c;
+    else if (c == '%')
+      quoted += "%%";
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+/// A symbolic link, in one step.
+void link(const QString& target, const QString& name) {
+  createFolder(QFileInfo(name).path().toStdString());
+  fs::path temporary = (name + ".new").toStdString();
+  std::error_code error;
+  fs::remove(temporary, error);
+  fs::create_symlink(target.toStdString(), temporary, error);
+  if (!error) fs::rename(temporary, name.toStdString(), error);
+  if (error)
+    throw Error(ErrorKind::disk, fmt::format("the service cannot be switched on ({})", error.message()),
+                "check the folder's permissions", name.toStdString());
+}
+
+bool removed(const QString& name) {
+  std::error_code error;
+  bool there = fs::remove(name.toStdString(), error);
+  if (error)
+    throw Error(ErrorKind::disk, fmt::format("it cannot be removed ({})", error.message()),
+                "check the folder's permissions", name.toStdString());
+  return there;
+}
+
+}  // namespace
+
+QString systemdUnit(const QString& program, const QStringList& arguments) {
+  QStringList words{systemdWord(program, true)};
+  for (const QString& argument : arguments) words.append(systemdWord(argument, false));
+  return QString(
+             "# Written by relucent show --install-service\n"
+             "[Unit]\n"
+             "Description=Relucent show\n"
+             "PartOf=graphical-session.target\n"
+             "After=graphical-session.target\n"
+             "\n"
+             "[Service]\n"
+             "ExecStart=%1\n"
+             "Restart=on-failure\n"
+             "RestartSec=10\n"
+             "\n"
+             "[Install]\n"
+             "WantedBy=graphical-session.target\n")
+      .arg(words.join(' '));
+}
+
+QString autostartEntry(const QString& program, const QStringList& arguments) {
+  QStringList words{desktopWord(program)};
+  for (const QString& argument : arguments) words.append(desktopWord(argument));
+  return QString(
+             "[Desktop Entry]\n"
+             "Type=Application\n"
+             "Name=Relucent show\n"
+             "Comment=Plays a calibrated venue\n"
+             "Exec=%1\n"
+             "Terminal=false\n")
+      .arg(words.join(' '));
+}
+
+QString install(Start start, const QString& config, const QString& program, const QStringList& arguments) {
+  QString file = fileOf(start, config);
+  QString text =
+      start == Start::service ? systemdUnit(program, arguments) : autostartEntry(program, arguments);
+  createFolder(QFileInfo(file).path().toStdString());
+  writeFileAtomically(file.toStdString(), text.toStdString());
+  if (start == Start::service) link(file, switchOf(config));
+  return file;
+}
+
+QString uninstall(Start start, const QString& config) {
+  if (start == Start::service) removed(switchOf(config));
+  return removed(fileOf(start, config)) ? fileOf(start, config) : QString();
+}
+
+}  // namespace relucent

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "app/show_arguments.h"
+
+#include <QCommandLineParser>
+#include <QCoreApplication>
+#include <QFileInfo>
+#include <QStandardPaths>
+
+#include "content/content_address.h"
+
+namespace relucent {
+namespace {
+
+/// Of "1920x1080"; none if it is no size that content can have.
+std::optional<QSize> sizeFrom(const QString& text) {
+  QStringList parts = text.toLower().split('x');
+  if (parts.size() != 2) return std::nullopt;
+  QSize size(parts[0].toInt(), parts[1].toInt());
+  if (size.width() < 8 || size.height() < 8 || size.width() > 8192 || size.height() > 8192)
+    return std::nullopt;
+  return size;
+}
+
+QString fromRoot(const QString& path) {
+  return QFileInfo(path).absoluteFilePath();
+}
+
+QString contentFromRoot(const QString& path) {
+  return addressOf(path).kind == ContentAddress::Kind::file ? fromRoot(path) : path;
+}
+
+const QCommandLineOption content(
+    "content",
+    "What to play: a picture, a film, a folder of numbered pictures, a playlist, "
+    "chart:NAME, screen:CONNECTOR, window:TITLE or camera:NAME.",
+    "PATH");
+const QCommandLineOption loop("loop", "Begin again when it has ended.");
+const QCommandLineOption schedule("schedule", "Play at these hours of the day only; black between them.",
+                                  "HH:MM-HH:MM");
+const QCommandLineOption display("screen",
+                                 "Connector of a projector's display, one for each; else chosen by size.",
+                                 "NAME");
+const QCommandLineOption canvas("canvas", "Size that content is brought to.", "WxH", "1920x1080");
+const QCommandLineOption adaptive("adaptive-range", "Brightness and black follow what the content demands.");
+const QCommandLineOption installService(
+    "install-service", "Start this show at every log-in, and again when it fails: a systemd unit of yours.");
+const QCommandLineOption installAutostart("install-autostart",
+                                          "The same through the desktop, where systemd does not start it.");
+const QCommandLineOption removeService("remove-service", "Take the systemd unit away.");
+const QCommandLineOption removeAutostart("remove-autostart", "Take the desktop's autostart entry away.");
+
+/// Everything that was said, with paths from the root.
+QStringList saidAgain(const QCommandLineParser& parser, const ShowSettings& settings) {
+  QStringList again{"show",      fromRoot(parser.positionalArguments()[1]),
+                    "--content", contentFromRoot(parser.value(content)),
+                    "--log",     fromRoot(settings.folder)};
+  for (const QString& connector : settings.displays) again << "--screen" << connector;
+  for (const QCommandLineOption& option : {schedule, canvas})
+    if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
+  for (const QCommandLineOption& option : {loop, adaptive})
+    if (parser.isSet(option)) again << "--" + option.names().first();
+  return again;
+}
+
+ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder) {
+  if (!parser.isSet(content)) throw WrongArguments("nothing to play; name it with --content");
+  ShowSettings settings;
+  std::optional<QSize> size = sizeFrom(parser.value(canvas));
+  if (!size) throw WrongArguments("the canvas must be WIDTHxHEIGHT of 8 to 8192 pixels, as 1920x1080");
+  settings.canvas.size = *size;
+  if (parser.isSet(schedule)) {
+    settings.hours = dailyHoursFrom(parser.value(schedule));
+    if (!settings.hours)
+      throw WrongArguments("the schedule must be HH:MM-HH:MM with two different times, as 09:30-18:00");
+  }
+  settings.calibration = parser.positionalArguments()[1].toStdString();
+  settings.content = contentOf(parser.value(content));
+  settings.content.loop = settings.content.loop || parser.isSet(loop);
+  settings.displays = parser.values(display);
+  settings.adaptiveRange = parser.isSet(adaptive);
+  settings.folder = folder;
+  return settings;
+}
+
+}  // namespace
+
+ShowArguments parseShowArguments(const QStringList& arguments) {
+  QCommandLineParser parser;
+  parser.setApplicationDescription(
+      "Plays content in a calibrated venue, compensated, until it is asked to end.\n"
+      "Keys at the projector: C compensation on and off, space freeze, B black, T test charts,\n"
+      "O overlay.");
+  QCommandLineOption help = parser.addHelpOption(), version = parser.addVersionOption();
+  parser.addPositionalArgument("show", "Play a calibrated venue.", "show");
+  parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
+  QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
+                         QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
+  parser.addOptions({content, loop, schedule, display, canvas, adaptive, log, installService,
+                     installAutostart, removeService, removeAutostart});
+  if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
+  if (parser.isSet(help)) return PrintText{parser.helpText()};
+  if (parser.isSet(version))
+    return PrintText{QCoreApplication::applicationName() + ' ' + QCoreApplication::applicationVersion() +
+                     '\n'};
+
+  QStringList words = parser.positionalArguments();
+  if (words.value(0) == "show" && words.size() == 1) {
+    if (parser.isSet(removeService)) return UninstallShow{Start::service};
+    if (parser.isSet(removeAutostart)) return UninstallShow{Start::autostart};
+  }
+  if (words.size() != 2 || words[0] != "show")
+    throw WrongArguments("usage: relucent show CALIBRATION --content PATH");
+  ShowSettings settings = settingsOf(parser, parser.value(log));
+  if (parser.isSet(installService)) return InstallShow{Start::service, saidAgain(parser, settings), settings};
+  if (parser.isSet(installAutostart))
+    return InstallShow{Start::autostart, saidAgain(parser, settings), settings};
+  return PlayShow{settings};
+}
+
+}  // namespace relucent

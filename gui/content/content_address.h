@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QString>
+
+namespace relucent {
+
+/// What the path of a playlist's item names: a file or folder, or something that is no file, written as
+/// "kind:which".
+struct ContentAddress {
+  enum class Kind {
+    file,    // anything else: a path
+    chart,   // chart:grid      a test chart
+    screen,  // screen:HDMI-1   the live picture of a screen
+    window,  // window:Slides   the live picture of a window, by a part of its title or its number
+    camera,  // camera:USB      the live picture of a capture device, by a part of its name
+  };
+  Kind kind = Kind::file;
+  QString which;  // the path itself for files
+};
+
+ContentAddress addressOf(const QString& path);
+
+}  // namespace relucent

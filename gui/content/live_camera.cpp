@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "content/live_camera.h"
+
+#include <QCamera>
+#include <QCameraDevice>
+#include <QMediaCaptureSession>
+#include <QMediaDevices>
+#include <QStringList>
+#include <QVideoSink>
+
+#include "base/error.h"
+#include "content/frame_slot.h"
+#include "content/media_thread.h"
+#include "content/video_frame.h"
+
+namespace relucent {
+namespace {
+
+constexpr int patience = 15'000;  // milliseconds for a first picture
+
+/// A device that is open. Lives on a thread with an event loop.
+class Capture {
+ public:
+  Capture(const QString& which, FrameSlot& frames) {
+    QStringList names;
+    for (const QCameraDevice& device : QMediaDevices::videoInputs()) {
+      names.append(device.description());
+      if (!device.description().contains(which, Qt::CaseInsensitive) && device.id() != which.toUtf8())
+        continue;
+      open(device, frames);
+      return;
+    }
+    frames.fail(names.isEmpty()
+                    ? QString("there is no capture device")
+                    : QString("there is no capture device '%1', but %2").arg(which, names.join(", ")));
+  }
+
+ private:
+  void open(const QCameraDevice& device, FrameSlot& frames) {
+    camera_ = std::make_unique<QCamera>(device);
+    QObject::connect(&sink_, &QVideoSink::videoFrameChanged,
+                     [&frames](const QVideoFrame& frame) { frames.put(frame); });
+    QObject::connect(camera_.get(), &QCamera::errorOccurred,
+                     [&frames](QCamera::Error, const QString& reason) { frames.fail(reason); });
+    session_.setVideoSink(&sink_);
+    session_.setCamera(camera_.get());
+    camera_->start();
+  }
+
+  QVideoSink sink_;
+  std::unique_ptr<QCamera> camera_;
+  QMediaCaptureSession session_;
+};
+
+}  // namespace
+
+struct LiveCamera::Session {
+  explicit Session(const QString& which)
+      : capture([&] { return std::make_unique<Capture>(which, frames); }) {}
+  FrameSlot frames;
+  OnMediaThread<Capture> capture;  // uses it, goes first
+};
+
+LiveCamera::LiveCamera(const QString& which, const Canvas& canvas) : canvas_(canvas) {
+  chooseMediaBackend();
+  session_ = std::make_unique<Session>(which);
+  if (!session_->frames.waitForFirst(patience)) {
+    QString reason = session_->frames.failure();
+    throw Error(ErrorKind::device,
+                reason.isEmpty() ? "the capture device gives no picture" : reason.toStdString(),
+                "plug it in, close other programs that use it, and try again");
+  }
+  LiveCamera::at({});
+}
+
+LiveCamera::~LiveCamera() = default;
+
+ContentPicture LiveCamera::at(ContentTime) {
+  FrameSlot::Newest newest = session_->frames.newest();
+  if (newest.number != picture_.number)
+    picture_ = {onCanvas(pictureOf(newest.frame), canvas_), newest.number};
+  return picture_;
+}
+
+}  // namespace relucent

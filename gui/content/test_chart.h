@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "content/canvas.h"
+#include "content/content_source.h"
+
+namespace relucent {
+
+/// Pictures that show what a projection does, drawn for the canvas pixel by pixel, never scaled.
+enum class TestChart {
+  grid,        // white lines of a pixel on black, squares; the border, a circle, both diagonals
+  ramps,       // grey, red, green and blue from black to full, and sixteen steps of grey
+  resolution,  // upright and lying lines of 1, 2, 4 and 8 pixels
+  patches,     // six colours full, half as bright, pale; six greys
+  checker,     // squares as large as those of the grid
+  white,
+};
+inline constexpr std::array allTestCharts{TestChart::grid,    TestChart::ramps,   TestChart::resolution,
+                                          TestChart::patches, TestChart::checker, TestChart::white};
+
+/// As in a playlist: "grid" in "chart:grid".
+QString nameOf(TestChart chart);
+std::optional<TestChart> testChartFromName(const QString& name);
+
+/// Contract: the size is not empty.  Format_RGBX8888.
+QImage drawn(TestChart chart, QSize size);
+
+/// A test chart that stands. Drawn when it is first asked for.
+class TestChartContent : public ContentSource {
+ public:
+  TestChartContent(TestChart chart, const Canvas& canvas) : chart_(chart), size_(canvas.size) {}
+
+  ContentPicture at(ContentTime) override;
+  std::optional<ContentTime> length() const override { return std::nullopt; }
+
+ private:
+  TestChart chart_;
+  QSize size_;
+  ContentPicture frame_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "content/video.h"
+
+#include <QFile>
+#include <QFileInfo>
+
+#include "base/error.h"
+#include "content/media_thread.h"
+#include "content/video_follower.h"
+#include "content/video_frame.h"
+
+namespace relucent {
+namespace {
+
+constexpr int patience = 15'000;  // milliseconds for a first picture, of a disk that wakes up
+
+}  // namespace
+
+struct Video::Playback {
+  explicit Playback(const QString& file)
+      : follower([&] { return std::make_unique<VideoFollower>(file, frames, time); }) {}
+  FrameSlot frames;
+  VideoTime time;
+  OnMediaThread<VideoFollower> follower;  // uses both, goes first
+};
+
+Video::Video(const QString& file, const Canvas& canvas) : canvas_(canvas) {
+  if (QFile probe(file); !probe.open(QIODevice::ReadOnly))
+    throw Error(ErrorKind::disk, fmt::format("cannot read ({})", probe.errorString().toStdString()),
+                "check the path and the disk", file.toStdString());
+  chooseMediaBackend();
+  playback_ = std::make_unique<Playback>(file);
+  if (!playback_->frames.waitForFirst(patience))
+    throw Error(ErrorKind::format,
+                fmt::format("no film that can be played ({})", playback_->frames.failure().toStdString()),
+                "convert it to H.264 in an MP4 file", file.toStdString());
+  playback_->follower.with([this](VideoFollower& follower) { length_ = follower.length(); });
+  show(playback_->frames.newest());  // what cannot be shown is refused now
+}
+
+Video::~Video() = default;
+
+ContentPicture Video::at(ContentTime time) {
+  playback_->time.ask(time);
+  show(playback_->frames.newest());
+  return picture_;
+}
+
+void Video::show(const FrameSlot::Newest& newest) {
+  if (newest.number != picture_.number)
+    picture_ = {onCanvas(pictureOf(newest.frame), canvas_), newest.number};
+}
+
+bool isVideo(const QString& file) {
+  static const QStringList endings{"mp4", "m4v", "mov",  "mkv", "webm", "avi", "mpg",  "mpeg",
+                                   "ts",  "mts", "m2ts", "wmv", "ogv",  "mxf", "mjpeg"};
+  return endings.contains(QFileInfo(file).suffix().toLower());
+}
+
+}  // namespace relucent

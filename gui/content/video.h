@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "content/canvas.h"
+#include "content/content_source.h"
+#include "content/frame_slot.h"
+
+namespace relucent {
+
+/// A film with its sound. It follows the time that it is asked for: picture and sound stand still while that
+/// does, jump when it jumps, and stop when nobody asks. While it plays, both run with the sound's clock, and
+/// are brought back when that has gone astray by more than a seventh of a second.
+class Video : public ContentSource {
+ public:
+  /// Waits until the first picture is there.
+  /// Throws: Error{disk} if the file is unreadable; Error{format} if it holds no film that can be decoded;
+  /// as pictureOf().
+  Video(const QString& file, const Canvas& canvas);
+  ~Video() override;
+
+  ContentPicture at(ContentTime time) override;
+  std::optional<ContentTime> length() const override { return length_; }
+
+ private:
+  struct Playback;
+  void show(const FrameSlot::Newest& newest);
+
+  Canvas canvas_;
+  std::unique_ptr<Playback> playback_;
+  ContentTime length_{0};
+  ContentPicture picture_;  // of the frame of the same number
+};
+
+/// Whether a file's name is that of a film.
+bool isVideo(const QString& file);
+
+}  // namespace relucent

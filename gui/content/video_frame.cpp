@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "content/video_frame.h"
+
+#include <QTransform>
+#include <QVideoFrameFormat>
+#include <optional>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+using Format = QVideoFrameFormat;
+
+/// Unmaps when it goes.
+class Mapped {
+ public:
+  explicit Mapped(const QVideoFrame& frame) : frame_(frame) {
+    if (!frame_.map(QVideoFrame::ReadOnly))
+      throw Error(ErrorKind::format, "a frame of the video cannot be reached",
+                  "set QT_MEDIA_BACKEND=ffmpeg and start again");
+  }
+  ~Mapped() { frame_.unmap(); }
+  Mapped(const Mapped&) = delete;
+  Mapped& operator=(const Mapped&) = delete;
+
+  VideoSamples::Plane plane(int number, int step = 1, int first = 0) const {
+    return {frame_.bits(number) + first, static_cast<std::size_t>(frame_.bytesPerLine(number)), step};
+  }
+
+ private:
+  QVideoFrame frame_;
+};
+
+/// None for formats that are not luma and chroma.
+std::optional<VideoSamples> samplesOf(const Mapped& frame, Format::PixelFormat format) {
+  switch (format) {
+    case Format::Format_YUV420P:
+      return VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 8, 2, 2};
+    case Format::Format_YV12:
+      return VideoSamples{frame.plane(0), frame.plane(2), frame.plane(1), 8, 2, 2};
+    case Format::Format_YUV422P:
+      return VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 8, 2, 1};
+    case Format::Format_YUV420P10:
+      return VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 10, 2, 2};
+    case Format::Format_NV12:
+      return VideoSamples{frame.plane(0), frame.plane(1, 2), frame.plane(1, 2, 1), 8, 2, 2};
+    case Format::Format_NV21:
+      return VideoSamples{frame.plane(0), frame.plane(1, 2, 1), frame.plane(1, 2), 8, 2, 2};
+    case Format::Format_P010:
+    case Format::Format_P016:  // ten bits in the upper part of sixteen
+      return VideoSamples{frame.plane(0), frame.plane(1, 2), frame.plane(1, 2, 2), 16, 2, 2};
+    case Format::Format_YUYV:
+      return VideoSamples{frame.plane(0, 2), frame.plane(0, 4, 1), frame.plane(0, 4, 3), 8, 2, 1};
+    case Format::Format_UYVY:
+      return VideoSamples{frame.plane(0, 2, 1), frame.plane(0, 4), frame.plane(0, 4, 2), 8, 2, 1};
+    case Format::Format_Y8:
+      return VideoSamples{frame.plane(0), {}, {}, 8};
+    case Format::Format_Y16:
+      return VideoSamples{frame.plane(0), {}, {}, 16};
+    default:
+      return std::nullopt;
+  }
+}
+
+/// As it is to be seen: telephones turn films by a note in the file.
+QImage upright(const QImage& picture, const QVideoFrame& frame) {
+#if QT_VERSION >= QT_VERSION_CHECK(6, 7, 0)
+  int turned = static_cast<int>(frame.rotation());
+#else
+  int turned = static_cast<int>(frame.rotationAngle());
+#endif
+  QImage result = frame.mirrored() ? picture.mirrored(true, false) : picture;
+  return turned % 360 == 0 ? result : result.transformed(QTransform().rotate(turned));
+}
+
+[[noreturn]] void refuseRange(const char* what) {
+  throw Error(ErrorKind::input, fmt::format("the video is {}, which projectors cannot show", what),
+              "convert it to BT.709 of standard dynamic range");
+}
+
+}  // namespace
+
+VideoEncoding encodingOf(const QVideoFrameFormat& format) {
+  VideoEncoding encoding;
+  constexpr int linesOfHighDefinition = 720;
+  if (format.colorSpace() == Format::ColorSpace_BT2020) refuseRange("made for BT.2020's colours");
+  bool bt601 =
+      format.colorSpace() == Format::ColorSpace_BT601 ||
+      (format.colorSpace() == Format::ColorSpace_Undefined && format.frameHeight() < linesOfHighDefinition);
+  encoding.matrix = bt601 ? VideoEncoding::Matrix::bt601 : VideoEncoding::Matrix::bt709;
+  bool full = format.colorRange() == Format::ColorRange_Full;
+  encoding.range = full ? VideoEncoding::Range::full : VideoEncoding::Range::video;
+  switch (format.colorTransfer()) {
+    case Format::ColorTransfer_ST2084:
+    case Format::ColorTransfer_STD_B67:
+      refuseRange("of high dynamic range");
+    case Format::ColorTransfer_Linear:
+      encoding.transfer = VideoEncoding::Transfer::linear;
+      break;
+    case Format::ColorTransfer_Gamma22:
+      encoding.transfer = VideoEncoding::Transfer::gamma22;
+      break;
+    case Format::ColorTransfer_Gamma28:
+      encoding.transfer = VideoEncoding::Transfer::gamma28;
+      break;
+    case Format::ColorTransfer_Unknown:
+      encoding.transfer = full ? VideoEncoding::Transfer::srgb : VideoEncoding::Transfer::bt1886;
+      break;
+    default:
+      encoding.transfer = VideoEncoding::Transfer::bt1886;
+  }
+  return encoding;
+}
+
+QImage pictureOf(const QVideoFrame& frame) {
+  Mapped mapped(frame);
+  QVideoFrameFormat format = frame.surfaceFormat();
+  QSize size = format.frameSize();
+  std::optional<VideoSamples> samples = samplesOf(mapped, format.pixelFormat());
+  if (!samples) {
+    QImage::Format known = Format::imageFormatFromPixelFormat(format.pixelFormat());
+    if (known == QImage::Format_Invalid)
+      throw Error(ErrorKind::format,
+                  fmt::format("the video's samples are of an unknown kind ({})",
+                              Format::pixelFormatToString(format.pixelFormat()).toStdString()),
+                  "convert it to H.264 with 4:2:0 chroma");
+    VideoSamples::Plane plane = mapped.plane(0);
+    QImage there(static_cast<const uchar*>(plane.data), size.width(), size.height(),
+                 static_cast<qsizetype>(plane.bytesPerLine), known);
+    // A copy: the frame's memory goes with it.
+    return upright(there.convertToFormat(QImage::Format_RGBX8888).copy(), frame);
+  }
+  QImage picture(size, QImage::Format_RGBX8888);
+  srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format), picture.bits(),
+                static_cast<std::size_t>(picture.bytesPerLine()));
+  return upright(picture, frame);
+}
+
+}  // namespace relucent

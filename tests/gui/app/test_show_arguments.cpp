@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "app/show_arguments.h"
+
+#include <QDir>
+#include <QtTest>
+
+using namespace relucent;
+
+namespace {
+
+std::string refusal(const QStringList& arguments) {
+  try {
+    parseShowArguments(QStringList{"relucent"} + arguments);
+  } catch (const WrongArguments& error) {
+    return error.what();
+  }
+  return {};
+}
+
+template <typename Command>
+Command parsed(const QStringList& arguments) {
+  return std::get<Command>(parseShowArguments(QStringList{"relucent"} + arguments));
+}
+
+}  // namespace
+
+class TestShowArguments : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void everyOptionArrives() {
+    ShowSettings settings = parsed<PlayShow>({"show", "venue", "--content", "a.png", "--schedule",
+                                              "18:00-02:30", "--screen", "HDMI-1", "--screen", "DP-2",
+                                              "--canvas", "1280x720", "--adaptive-range", "--log", "logs"})
+                                .settings;
+    QCOMPARE(settings.calibration, std::filesystem::path("venue"));
+    QCOMPARE(settings.content.items.size(), qsizetype{1});
+    QVERIFY((settings.hours == DailyHours{{18, 0}, {2, 30}}));
+    QCOMPARE(settings.displays, (QStringList{"HDMI-1", "DP-2"}));
+    QCOMPARE(settings.canvas.size, QSize(1280, 720));
+    QVERIFY(settings.adaptiveRange);
+    QCOMPARE(settings.folder, QString("logs"));
+  }
+
+  void theDefaultsAreOff() {
+    ShowSettings settings = parsed<PlayShow>({"show", "venue", "--content", "chart:grid"}).settings;
+    QVERIFY(!settings.adaptiveRange && !settings.hours && settings.displays.isEmpty());
+    QCOMPARE(settings.content.items.front().path, QString("chart:grid"));
+    QCOMPARE(settings.canvas.size, QSize(1920, 1080));
+  }
+
+  /// What is installed says the same again from any folder: paths begin at the root.
+  void whatIsInstalledIsTheSameShow() {
+    QStringList said{"show",     "my venue", "--content", "films/a.mp4", "--schedule",       "09:00-17:00",
+                     "--screen", "HDMI-1",   "--canvas",  "640x480",     "--adaptive-range", "--loop",
+                     "--log",    "logs"};
+    auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
+    QCOMPARE(wanted.start, Start::service);
+    QVERIFY(wanted.arguments.contains(QDir::current().filePath("my venue")));
+    ShowSettings first = parsed<PlayShow>(said).settings, again = parsed<PlayShow>(wanted.arguments).settings;
+    QCOMPARE(again.calibration, std::filesystem::absolute(first.calibration));
+    QVERIFY(again.content == first.content && again.hours == first.hours && again.displays == first.displays);
+    QVERIFY(again.canvas.size == first.canvas.size && again.adaptiveRange &&
+            again.folder == QDir::current().filePath("logs"));
+    QCOMPARE(parsed<InstallShow>(said + QStringList{"--install-autostart"}).start, Start::autostart);
+    QVERIFY(parsed<InstallShow>({"show", "v", "--content", "screen:HDMI-1", "--install-service"})
+                .arguments.contains("screen:HDMI-1"));
+  }
+
+  void isTakenAwayWithoutSayingWhat() {
+    QCOMPARE(parsed<UninstallShow>({"show", "--remove-service"}).start, Start::service);
+    QCOMPARE(parsed<UninstallShow>({"show", "--remove-autostart"}).start, Start::autostart);
+  }
+
+  void helpNamesEveryOption() {
+    QString help = parsed<PrintText>({"--help"}).text;
+    for (const char* option :
+         {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--log",
+          "--install-service", "--install-autostart", "--remove-service"})
+      QVERIFY2(help.contains(option), option);
+  }
+
+  void wrongOnesAreNamed_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("part");
+    QStringList right{"show", "venue", "--content", "a.png"};
+    QTest::newRow("nothing") << QStringList{} << "usage";
+    QTest::newRow("another command") << QStringList{"play", "venue"} << "usage";
+    QTest::newRow("two venues") << right + QStringList{"other"} << "usage";
+    QTest::newRow("no content") << QStringList{"show", "venue"} << "--content";
+    QTest::newRow("unknown option") << right + QStringList{"--fast"} << "fast";
+    QTest::newRow("no size") << right + QStringList{"--canvas", "7x7"} << "WIDTHxHEIGHT";
+    QTest::newRow("no hours") << right + QStringList{"--schedule", "9-5"} << "HH:MM-HH:MM";
+    QTest::newRow("no time between") << right + QStringList{"--schedule", "09:00-09:00"} << "HH:MM-HH:MM";
+  }
+  void wrongOnesAreNamed() {
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, part);
+    std::string said = refusal(arguments);
+    QVERIFY2(said.find(part.toStdString()) != std::string::npos, said.c_str());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestShowArguments)
+#include "test_show_arguments.moc"

@@ -7,12 +7,15 @@
 #include <functional>
 #include <memory>
 
+#include "base/error.h"
 #include "core/engine/engine_scenes.h"
 #include "engine/cpu_backend.h"
+#include "engine/opengl/gl_context.h"
+#include "engine/opengl/opengl_backend.h"
 
 namespace relucent::synthetic {
 
-/// The back ends that this machine has: every test of test_backends runs on each of them.
+/// Every test of test_backends runs on each of the back ends, on those that the machine has.
 struct NamedBackend {
   std::string name;
   std::function<std::unique_ptr<EngineBackend>(const EngineVenue&)> make;
@@ -25,9 +28,26 @@ inline const std::vector<NamedBackend>& backends() {
       list.push_back({kernels.instructions, [&kernels](const EngineVenue& engine) {
                         return std::make_unique<CpuBackend>(engine, &kernels);
                       }});
+    list.push_back({"OpenGL", [](const EngineVenue& engine) {
+                      return std::make_unique<OpenGlBackend>(
+                          engine, std::make_unique<GlContext>(GlContext::Device::any));
+                    }});
     return list;
   }();
   return all;
+}
+
+/// Why a back end cannot run here, empty if it can.
+inline QString missing(const QString& backend) {
+  static const QString openGl = [] {
+    try {
+      GlContext context(GlContext::Device::any);
+      return QString();
+    } catch (const Error& error) {
+      return QString(error.what());
+    }
+  }();
+  return backend == "OpenGL" ? openGl : QString();
 }
 
 inline std::unique_ptr<EngineBackend> backendOf(const QString& name, const EngineVenue& engine) {
@@ -55,6 +75,12 @@ inline ContentFrame frameOf(const Image& linear) {
   return {linear.data().data(), linear.size(), 12 * static_cast<std::size_t>(linear.width()),
           ContentFrame::Format::linearFloat};
 }
+
+/// Skips the row of a back end that cannot run here, and says why.
+#define SKIP_WHERE_MISSING(backend)      \
+  if (!missing(backend).isEmpty()) {     \
+    QSKIP(qPrintable(missing(backend))); \
+  }
 
 /// Undithered, so that a value has one right code.
 inline EngineSettings plain() {

@@ -296,8 +296,10 @@ class Parser {
     CLI::App* sub = add("bench", "Time the parts that decide how fast everything is", command);
     sub->add_option(
         "NAME", command->name,
-        "Only benchmarks with this in their name; `inverse` (minutes): all ways to invert, and how "
-        "well each compensates, beside the paper's figures");
+        "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all ways "
+        "to invert, and how well each compensates, beside the paper's figures");
+    sub->add_option("--backend", command->backend, "What `engine` runs on")
+        ->transform(CLI::CheckedTransformer(backendChoices()));
     addCache(sub, command->cache);
   }
 

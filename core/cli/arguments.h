@@ -70,6 +70,7 @@ struct Report {
 };
 struct Bench {
   std::string name;
+  BackendChoice backend = BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, ImportPictures, Plan,

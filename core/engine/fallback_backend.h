@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,8 @@ enum class BackendChoice {
   cpu,
   openGl,  // also where the processor only pretends to be a graphics card
 };
+/// As people write them: automatic, cpu, opengl.
+const std::map<std::string, BackendChoice>& backendChoices();
 
 /// A back end that goes over to another one when it is lost: the frame in which that happens is rendered once
 /// more by the other, so none is missing. It never goes back: a device that was lost once is not to be

@@ -16,14 +16,14 @@ constexpr double shareOfBudget = 0.7;
 }  // namespace
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
-                               Progress& progress) {
+                               Progress& progress, BackendChoice choice) {
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
   calibration_ = loadCalibration(folder, progress);
   EngineSettings settings;
   venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
                               settings));
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
-  backend_ = std::make_unique<CpuBackend>(*venue_);
+  backend_ = makeBackend(*venue_, choice, [](const std::string& what) { qWarning("%s", what.c_str()); });
   backend_->setContent(*content_);
   words_.resize(calibration_.venue.transport.projectors().count());
 }

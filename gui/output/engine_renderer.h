@@ -7,8 +7,8 @@
 
 #include "base/progress.h"
 #include "content/canvas.h"
-#include "engine/cpu_backend.h"
 #include "engine/engine_plan.h"
+#include "engine/fallback_backend.h"
 #include "engine/step_budget.h"
 #include "output/frame_renderer.h"
 #include "pipeline/measured_venue.h"
@@ -20,7 +20,8 @@ class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds.
   /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
-  EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, Progress& progress);
+  EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, Progress& progress,
+                 BackendChoice choice = BackendChoice::automatic);
 
   std::vector<QSize> projectors() const override;
   QString name() const override;

@@ -27,12 +27,15 @@ uint placeOf(uvec2 leaf) {
   return leaf.y >> 16;
 }
 
-/// Light between 0 and 1, 16 bits a channel.
+/// Light between 0 and 1 in 8 bytes, 21 bits a channel: where little light comes back, C blows roundings up.
+const float largestLight = 2097151.0;
 uvec2 packLight(vec3 light) {
-  return uvec2(packUnorm2x16(light.xy), packUnorm2x16(vec2(light.z, 0.0)));
+  uvec3 bits = uvec3(light * largestLight + 0.5);
+  return uvec2(bits.x | (bits.z << 21), bits.y | ((bits.z >> 11) << 21));
 }
 vec3 unpackLight(uvec2 code) {
-  return vec3(unpackUnorm2x16(code.x), unpackUnorm2x16(code.y).x);
+  uvec3 bits = uvec3(code.x & 0x1fffffu, code.y & 0x1fffffu, (code.x >> 21) | ((code.y >> 21) << 11));
+  return vec3(bits) * (1.0 / largestLight);
 }
 
 /// Three floats of 21 bits in 8 bytes: the whole range of a float, which half floats lack, and more digits.

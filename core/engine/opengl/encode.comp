@@ -12,7 +12,11 @@ layout(location = 1) uniform uvec2 size;
 layout(location = 2) uniform uint bits;
 layout(location = 3) uniform bool dithered;
 
-const uint steps = 4096u;
+layout(location = 4) uniform uint steps;
+layout(location = 5) uniform float knee;
+layout(location = 6) uniform uint shift;
+layout(location = 7) uniform uint mostPerStep;
+
 const uint side = 64u;
 const uvec2 offsets[3] = uvec2[3](uvec2(0u, 0u), uvec2(21u, 43u), uvec2(43u, 21u));
 
@@ -27,10 +31,8 @@ void main() {
   for (uint c = 0u; c < 3u; ++c) {
     float value = values[c];
     uint lights = c * (last + 2u);
-    uint k = firstLevel[c * (steps + 1u) + uint(sqrt(value) * float(steps))];
-    // Square roots of graphics cards may round up.
-    while (k > 0u && lightOf[lights + k] > value) --k;
-    while (lightOf[lights + k + 1u] <= value) ++k;
+    uint k = firstLevel[c * steps + ((floatBitsToUint(value + knee) - floatBitsToUint(knee)) >> shift)];
+    for (uint i = 0u; i < mostPerStep; ++i) k += uint(lightOf[lights + k + 1u] <= value);
     float next;
     if (dithered) {
       uvec2 at = (place + offsets[c]) % side;

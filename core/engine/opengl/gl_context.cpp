@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/opengl/gl_context.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -22,6 +24,13 @@ bool holds(const char* extensions, std::string_view name) {
     if ((at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ')) return true;
   }
   return false;
+}
+
+/// The function loader ends the program where there is no library to load from.
+bool libraryExists(const char* name) {
+  void* library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+  if (library != nullptr) dlclose(library);
+  return library != nullptr;
 }
 
 /// Displays that need no screen, graphics cards before software.
@@ -91,8 +100,9 @@ bool isSoftwareRenderer(const std::string& name) {
 }
 
 GlContext::GlContext(Device wanted) {
-  if (!epoxy_has_egl())
-    throw Error(ErrorKind::device, "there is no EGL, which opens graphics cards without a display", advice);
+  if (!libraryExists("libEGL.so.1") || !(libraryExists("libOpenGL.so.0") || libraryExists("libGL.so.1")))
+    throw Error(ErrorKind::device,
+                "there is no libEGL or no libOpenGL, which open graphics cards without a display", advice);
   std::string found;
   for (EGLDisplay display : displays(wanted))
     if (open(display, wanted, found)) return;

@@ -25,9 +25,9 @@ class OpenGlBackend : public EngineBackend {
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
 
-  /// The parts of a frame, for benchmarks, and waiting until they are done: p = clamp(M u) and one step.
-  void applyWindows() noexcept;
-  void takeStep(float length) noexcept;
+  /// The parts of a frame, for benchmarks: p = clamp(M u) and one step. Return seconds on the device's clock.
+  double applyWindows() noexcept;
+  double takeStep(float length) noexcept;
   /// Bytes of T that a step reads: by camera pixels and by nodes.
   std::size_t transportBytes() const;
   /// Bytes read and written per second when the device copies its memory. Throws: Error{device}.

@@ -187,20 +187,28 @@ void OpenGlBackend::Objects::encode() noexcept {
     encoding.set(1, unsignedOf(size.width), unsignedOf(size.height));
     encoding.set(2, unsignedOf(encoder.bits()));
     encoding.set(3, !encoder.thresholds().empty());
+    encoding.set(4, DriveEncoder::steps);
+    encoding.set(5, DriveEncoder::knee);
+    encoding.set(6, unsignedOf(DriveEncoder::shift));
+    encoding.set(7, unsignedOf(encoder.mostPerStep()));
     encoding.run(size.count());
   }
 }
 
-void OpenGlBackend::applyWindows() noexcept {
+double OpenGlBackend::applyWindows() noexcept {
   GlContext::Current current(*context_);
+  objects_->refining.take();
   objects_->invert(false);
-  glFinish();
+  objects_->refined.take();
+  return objects_->refined.seconds() - objects_->refining.seconds();
 }
 
-void OpenGlBackend::takeStep(float length) noexcept {
+double OpenGlBackend::takeStep(float length) noexcept {
   GlContext::Current current(*context_);
+  objects_->refining.take();
   objects_->takeStep(length);
-  glFinish();
+  objects_->refined.take();
+  return objects_->refined.seconds() - objects_->refining.seconds();
 }
 
 std::size_t OpenGlBackend::transportBytes() const {

@@ -100,8 +100,8 @@ inline std::vector<std::uint32_t> rendered(EngineBackend& backend, const EngineV
   return words;
 }
 
-inline int codeOf(std::uint32_t word, std::size_t channel) {
-  return static_cast<int>(word >> (8 * channel) & 255u);
+inline int codeOf(std::uint32_t word, std::size_t channel, int bits = 8) {
+  return static_cast<int>(word >> (static_cast<unsigned>(bits) * channel) & ((1u << bits) - 1u));
 }
 
 /// The largest difference between 8-bit words and linear drive under a linear response, in codes.
@@ -112,11 +112,12 @@ inline double mostCodesApart(const std::vector<std::uint32_t>& words, const Stac
   return most;
 }
 
-inline int mostApart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-  if (a.size() != b.size()) return 256;
+inline int mostApart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, int bits = 8) {
+  if (a.size() != b.size()) return 1 << bits;
   int most = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(codeOf(a[i], c) - codeOf(b[i], c)));
+    for (std::size_t c = 0; c < 3; ++c)
+      most = std::max(most, std::abs(codeOf(a[i], c, bits) - codeOf(b[i], c, bits)));
   return most;
 }
 

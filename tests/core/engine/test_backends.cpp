@@ -101,6 +101,34 @@ class TestBackends : public QObject {
     }
   }
 
+  void agrees_data() { everyBackendInEveryScene(); }
+  /// Back ends differ in roundings only, which change a code by one at the most, dithered or not.
+  void agrees() {
+    QFETCH(QString, backend);
+    QFETCH(QString, scene);
+    SKIP_WHERE_MISSING(backend);
+    EngineScene made = engineSceneOf(scene.toStdString());
+    for (int bits : {8, 10}) {
+      EngineSettings settings;
+      settings.bits = bits;
+      settings.dither = bits == 8 ? Dither::blueNoise : Dither::ordered;
+      settings.patchSide = 16;
+      EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, settings);
+      CpuBackend reference(engine, &engineKernels().front());
+      std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
+      Image content = makeContent(Content::saturated, {53, 31}, 6);
+      for (int steps : {-1, 0, 1, 2}) {
+        const FrameRequest request{steps >= 0, steps, 0.9f, 0.05f};
+        FrameReport report, expected;
+        auto words = rendered(*device, engine, frameOf(content), request, &report);
+        int apart = mostApart(words, rendered(reference, engine, frameOf(content), request, &expected), bits);
+        QVERIFY2(apart <= 1, qPrintable(QString("%1 bits, K = %2: %3").arg(bits).arg(steps).arg(apart)));
+        // A value that lies on the border of what is visibly cut may fall to either side.
+        QVERIFY(std::abs(report.clipped - expected.clipped) < 0.01);
+      }
+    }
+  }
+
   void qualityOfTheMethods_data() { everyBackendInEveryScene(); }
   /// What T makes of the engine's picture is as near to what was wanted as what it makes of the method's.
   void qualityOfTheMethods() {

@@ -93,7 +93,7 @@ class TestSlicedTransport : public QObject {
 
   /// A node that every camera pixel sees is cut into segments that no invocation works on for long.
   void longNodes() {
-    const Rasters cameras({{120, 100}}), projectors({{8, 8}});
+    const Rasters cameras(Size{120, 100}), projectors(Size{8, 8});
     const NodeLayout layout(projectors);
     BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
     const std::size_t all = layout.index({0, 3, 0, 0});

@@ -116,7 +116,7 @@ class TestBackends : public QObject {
       EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, settings);
       CpuBackend reference(engine, &engineKernels().front());
       std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
-      Image content = makeContent(Content::saturated, {53, 31}, 6);
+      Image content = makeContent(Content::saturated, {53, 40}, 6);
       for (int steps : {-1, 0, 1, 2}) {
         const FrameRequest request{steps >= 0, steps, 0.9f, 0.05f};
         FrameReport report, expected;

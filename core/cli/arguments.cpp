@@ -318,9 +318,12 @@ class Parser {
     CLI::App* sub = add("bench", "Time the parts that decide how fast everything is", command);
     sub->add_option(
         "NAME", command->name,
-        "Only benchmarks with this in their name; `inverse` (minutes): all ways to invert, and how "
+        "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all ways "
+        "to invert, and how "
         "well each compensates, beside the paper's figures; `acquisition` (an hour): every way to measure, "
         "what it costs and how near it comes to the truth");
+    sub->add_option("--backend", command->backend, "What `engine` runs on")
+        ->transform(CLI::CheckedTransformer(backendChoices()));
     CLI::Option_group* measuring = sub->add_option_group("acquisition", "What `acquisition` measures");
     measuring
         ->add_option("--venue", command->acquisition.venues,

@@ -78,6 +78,7 @@ struct Report {
 struct Bench {
   std::string name;
   AcquisitionBenchSettings acquisition;
+  BackendChoice backend = BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, Prove, ImportPictures, Plan,

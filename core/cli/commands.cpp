@@ -121,6 +121,7 @@ struct Executor {
 
   Outcome operator()(const Bench& command) const {
     if (command.name == "inverse") return outcomeOf(benchInverse(command.cache, progress));
+    if (command.name == "engine") return outcomeOf(benchEngine(command.backend, progress));
     if (command.name == "acquisition") {
       refuse(problems(command.acquisition));
       return outcomeOf(benchAcquisition(command.acquisition, command.cache, progress));

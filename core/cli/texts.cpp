@@ -116,8 +116,10 @@ std::string textOf(const DifferenceResult& result) {
 }
 
 std::string textOf(const BenchResult& result) {
-  std::string text = fmt::format("{}, {} threads, copies {:.1f} GB/s\n", result.machine.processor,
-                                 result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
+  std::string text =
+      fmt::format("{}, {} threads, copies {:.1f} GB/s\n",
+                  result.machine.device.empty() ? result.machine.processor : result.machine.device,
+                  result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
   for (const Benchmark& benchmark : result.benchmarks)
     text += fmt::format("{:<32} {:>10.3f} ms {:>8.1f} MB {:>5.0f} % of copying\n", benchmark.name,
                         1e3 * benchmark.seconds, benchmark.bytes / 1e6, 100.0 * benchmark.shareOfCopy);

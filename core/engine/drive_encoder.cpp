@@ -2,7 +2,7 @@
 #include "engine/drive_encoder.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "base/error.h"
 #include "engine/blue_noise.h"
@@ -23,6 +23,12 @@ std::vector<float> orderedThresholds(int side) {
   return thresholds;
 }
 
+/// Light plus knee where a step begins.
+float shiftedAt(std::size_t step) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(DriveEncoder::knee) +
+                              (static_cast<std::uint32_t>(step) << DriveEncoder::shift));
+}
+
 }  // namespace
 
 DriveEncoder::DriveEncoder(const ProjectorResponse& response, int bits, Dither dither) : bits_(bits) {
@@ -36,10 +42,14 @@ DriveEncoder::DriveEncoder(const ProjectorResponse& response, int bits, Dither d
           k < last ? static_cast<float>(curve((static_cast<double>(k) + 0.5) / static_cast<double>(last)))
                    : 2.0f);
     }
-    std::size_t level = 0;
-    for (int step = 0; step <= steps; ++step) {
-      float root = static_cast<float>(step) / steps;
-      while (level < last && light[level + 1] <= root * root) ++level;
+    // From just below a step's least light to just above its largest: rounding may put light into either.
+    constexpr float below = 1.0f - 0x1p-23f, above = 1.0f + 0x1p-23f;
+    std::size_t level = 0, reached = 0;
+    for (std::size_t step = 0; step < steps; ++step) {
+      const float least = shiftedAt(step) * below - knee, largest = shiftedAt(step + 1) * above - knee;
+      while (level < last && light[level + 1] <= least) ++level;
+      while (reached < last && light[reached + 1] <= largest) ++reached;
+      mostPerStep_ = std::max(mostPerStep_, static_cast<int>(reached - level));
       first_.push_back(static_cast<std::uint16_t>(level));
     }
     light_.insert(light_.end(), light.begin(), light.end());
@@ -49,29 +59,52 @@ DriveEncoder::DriveEncoder(const ProjectorResponse& response, int bits, Dither d
   if (dither == Dither::blueNoise) threshold_ = blueNoise(side);
 }
 
-void DriveEncoder::encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept {
-  const auto last = static_cast<std::uint32_t>(levels() - 1);
-  std::fill(words, words + width, bits_ == 8 ? 0xff000000u : 0xc0000000u);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::uint16_t* const first = first_.data() + c * (steps + 1);
-    const float* const lights = light_.data() + c * (last + 2);
-    const float* const middles = middle_.data() + c * (last + 1);
-    const float* const thresholds =
-        threshold_.empty() ? nullptr : threshold_.data() + (y + ditherOffsets[c][1]) % side * side;
-    const auto shift = static_cast<std::uint32_t>(bits_) * static_cast<std::uint32_t>(c);
-    for (int x = 0; x < width; ++x) {
-      float value = light[3 * static_cast<std::size_t>(x) + c];
-      value = value > 0.0f ? value : 0.0f;
-      value = value < 1.0f ? value : 1.0f;
-      std::uint32_t k = first[static_cast<int>(std::sqrt(value) * static_cast<float>(steps))];
-      while (lights[k + 1] <= value) ++k;
-      const float next = thresholds == nullptr ? middles[k]
-                                               : lights[k] + thresholds[(x + ditherOffsets[c][0]) % side] *
-                                                                 (lights[k + 1] - lights[k]);
-      k += static_cast<std::uint32_t>(value >= next) & static_cast<std::uint32_t>(k < last);
-      words[x] |= k << shift;
-    }
+/// What encoding looks up for one channel of one line.
+struct DriveEncoder::Channel {
+  const std::uint16_t* first;
+  const float *lights, *middles, *thresholds;
+  std::size_t offset;  // of the thresholds
+
+  Channel(const DriveEncoder& encoder, std::size_t c, int y)
+      : first(encoder.first_.data() + c * steps),
+        lights(encoder.light_.data() + c * (encoder.levels() + 1)),
+        middles(encoder.middle_.data() + c * encoder.levels()),
+        thresholds(encoder.threshold_.empty()
+                       ? nullptr
+                       : encoder.threshold_.data() + (y + ditherOffsets[c][1]) % side * side),
+        offset(static_cast<std::size_t>(ditherOffsets[c][0])) {}
+
+  /// Without a branch that depends on the light: they are what would take the time.
+  template <bool dithered>
+  std::uint32_t level(float value, std::size_t x, std::uint32_t last, int mostPerStep) const noexcept {
+    value = value > 0.0f ? value : 0.0f;
+    value = value < 1.0f ? value : 1.0f;
+    std::uint32_t k = first[stepOf(value)];
+    k += static_cast<std::uint32_t>(lights[k + 1] <= value);
+    for (int i = 1; i < mostPerStep; ++i) k += static_cast<std::uint32_t>(lights[k + 1] <= value);
+    const float next =
+        dithered ? lights[k] + thresholds[(x + offset) % side] * (lights[k + 1] - lights[k]) : middles[k];
+    return k + (static_cast<std::uint32_t>(value >= next) & static_cast<std::uint32_t>(k < last));
   }
+};
+
+template <bool dithered>
+void DriveEncoder::encode(const float* light, std::size_t width, int y, std::uint32_t* words) const noexcept {
+  const auto last = static_cast<std::uint32_t>(levels() - 1);
+  const std::uint32_t opaque = bits_ == 8 ? 0xff000000u : 0xc0000000u;
+  const Channel red(*this, 0, y), green(*this, 1, y), blue(*this, 2, y);
+  for (std::size_t x = 0; x < width; ++x, light += 3)
+    words[x] = opaque | red.level<dithered>(light[0], x, last, mostPerStep_) |
+               green.level<dithered>(light[1], x, last, mostPerStep_) << bits_ |
+               blue.level<dithered>(light[2], x, last, mostPerStep_) << 2 * bits_;
+}
+
+void DriveEncoder::encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept {
+  const auto count = static_cast<std::size_t>(width);
+  if (threshold_.empty())
+    encode<false>(light, count, y, words);
+  else
+    encode<true>(light, count, y, words);
 }
 
 }  // namespace relucent

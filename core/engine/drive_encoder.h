@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,16 +24,25 @@ enum class Dither {
 /// One 32-bit word a pixel, red lowest: 8 bits a channel and 255 (GL_RGBA8), or 10 bits and 3 (GL_RGB10_A2).
 class DriveEncoder {
  public:
-  static constexpr int steps = 4096;  // of the tables over sqrt(light)
-  static constexpr int side = 64;     // of the thresholds
+  // Steps of the tables: the upper bits of light + knee as a float, finer in the dark as levels are.
+  static constexpr float knee = 0x1p-6f;
+  static constexpr int shift = 13;
+  static constexpr std::size_t stepOf(float light) {
+    return (std::bit_cast<std::uint32_t>(light + knee) - std::bit_cast<std::uint32_t>(knee)) >> shift;
+  }
+  static constexpr std::size_t steps =
+      ((std::bit_cast<std::uint32_t>(1.0f + knee) - std::bit_cast<std::uint32_t>(knee)) >> shift) + 1;
+  static constexpr int side = 64;  // of the thresholds
 
   DriveEncoder() = default;
   /// Contract: bits is 8 or 10.
   DriveEncoder(const ProjectorResponse& response, int bits, Dither dither);
 
   int bits() const { return bits_; }
-  /// [channel][step]: a level whose light is not above that at the step; steps + 1 a channel.
+  /// [channel][step]: a level whose light is not above that at the step; `steps` a channel.
   std::span<const std::uint16_t> firstLevels() const { return first_; }
+  /// How many levels begin between two steps, at the most.
+  int mostPerStep() const { return mostPerStep_; }
   /// [channel][level]: its light; levels + 1 a channel, the last one beyond every light.
   std::span<const float> lights() const { return light_; }
   /// [channel][level]: from which light on the next level is nearer in drive. Without dither only.
@@ -45,7 +55,12 @@ class DriveEncoder {
   void encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept;
 
  private:
+  struct Channel;
+  template <bool dithered>
+  void encode(const float* light, std::size_t width, int y, std::uint32_t* words) const noexcept;
+
   int bits_ = 8;
+  int mostPerStep_ = 1;
   std::vector<std::uint16_t> first_;
   std::vector<float> light_, middle_, threshold_;
 };

@@ -11,6 +11,8 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "compensation/ridge_choice.h"
+#include "engine/bench/bench_transport.h"
+#include "engine/bench/engine_bench.h"
 #include "pipeline/pipeline.h"
 
 namespace relucent {
@@ -56,41 +58,6 @@ std::string processorName() {
   return "unknown";
 }
 
-/// A transport matrix of the shape that measured venues have at full scale: a footprint of 4x4 projector
-/// pixels a camera pixel, and three dozen coarse leaves of light that comes from elsewhere.
-TransportMatrix fullScaleTransport() {
-  const Size camera{640, 480};
-  const Size projector{1024, 768};
-  NodeLayout layout{Rasters(projector)};
-  BlockSparseBuilder builder(layout.count(), std::vector<float>(camera.count(), 1.0f));
-  Random random{20071028};
-  for (std::size_t row = 0; row < camera.count(); ++row) {
-    Pixel place = pixelAt(camera, row);
-    double u = (place.x + 0.5) * projector.width / camera.width - 0.5;
-    double v = (place.y + 0.5) * projector.height / camera.height - 0.5;
-    float reflectance = 0.3f + 0.6f * random.uniformFloat();
-    int left = std::clamp(static_cast<int>(u) - 1, 0, projector.width - 4);
-    int top = std::clamp(static_cast<int>(v) - 1, 0, projector.height - 4);
-    for (int y = top; y < top + 4; ++y) {
-      for (int x = left; x < left + 4; ++x) {
-        double distance = (x - u) * (x - u) + (y - v) * (y - v);
-        float value = reflectance * static_cast<float>(std::exp(-distance / 2.0) / 6.3);
-        ColourBlock block = ColourBlock::Constant(0.05f * value);
-        block.diagonal().array() += 0.85f * value;
-        builder.add(row, indexOf(projector, {x, y}), block);
-      }
-    }
-    for (int i = 0; i < 36; ++i) {
-      int level = 4 + static_cast<int>(random.below(3));
-      Size grid = layout.gridSize(0, level);
-      Node node{0, level, static_cast<int>(random.below(static_cast<std::uint64_t>(grid.width))),
-                static_cast<int>(random.below(static_cast<std::uint64_t>(grid.height)))};
-      builder.add(row, layout.index(node), ColourBlock::Identity() * (0.004f * random.uniformFloat()));
-    }
-  }
-  return TransportMatrix(Rasters(camera), Rasters(projector), builder.build());
-}
-
 Stack randomStack(std::size_t values, std::uint64_t seed) {
   Random random{seed};
   Stack stack(values);
@@ -107,6 +74,17 @@ struct Case {
 
 }  // namespace
 
+BenchResult benchEngine(BackendChoice backend, Progress& progress) {
+  EngineBenchSettings settings;
+  settings.backend = backend;
+  const EngineBenchResult engine = benchEngine(settings, progress);
+  BenchResult result;
+  result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
+  for (const EngineBenchLine& line : engine.lines)
+    result.benchmarks.push_back({line.name, line.seconds, line.bytes, line.shareOfCopy});
+  return result;
+}
+
 BenchResult bench(const std::string& name, Progress& progress) {
   BenchResult result;
   result.machine.processor = processorName();
@@ -115,7 +93,7 @@ BenchResult bench(const std::string& name, Progress& progress) {
   result.machine.copyBytesPerSecond = copyBandwidth();
   preparing.report(0.3);
 
-  TransportMatrix transport = fullScaleTransport();
+  const TransportMatrix transport = benchTransport({1024, 768}, {640, 480});
   preparing.report(0.8);
   auto cameraValues = transport.cameras().count() * 3;
   auto projectorValues = transport.projectors().count() * 3;

@@ -184,11 +184,11 @@ Json toJson(const BenchResult& result) {
                           {"seconds", benchmark.seconds},
                           {"bytes", benchmark.bytes},
                           {"share_of_copy", benchmark.shareOfCopy}});
-  return {{"machine",
-           {{"processor", result.machine.processor},
-            {"threads", result.machine.threads},
-            {"copy_bytes_per_second", result.machine.copyBytesPerSecond}}},
-          {"benchmarks", std::move(benchmarks)}};
+  Json machine{{"processor", result.machine.processor},
+               {"threads", result.machine.threads},
+               {"copy_bytes_per_second", result.machine.copyBytesPerSecond}};
+  if (!result.machine.device.empty()) machine["device"] = result.machine.device;
+  return {{"machine", std::move(machine)}, {"benchmarks", std::move(benchmarks)}};
 }
 
 Json toJson(const ImportResult& result) {

@@ -18,6 +18,7 @@
 #include "compensation/method.h"
 #include "compensation/methods.h"
 #include "compensation/target.h"
+#include "engine/fallback_backend.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
 #include "venue/venue.h"
@@ -328,6 +329,7 @@ struct BenchResult {
     std::string processor;
     int threads = 0;
     double copyBytesPerSecond = 0.0;
+    std::string device;  // what the engine ran on; empty: not the engine was timed
   } machine;
   std::vector<Benchmark> benchmarks;
 };
@@ -335,5 +337,9 @@ struct BenchResult {
 /// Times the parts that decide how fast everything else is. `name`: only those that contain it; empty: all.
 /// Throws: Error{input} if no benchmark has such a name, naming what there is.
 BenchResult bench(const std::string& name, Progress& progress);
+
+/// Times the real-time engine at full scale, see benchEngine(const EngineBenchSettings&, Progress&); the copy
+/// bandwidth is that of the device. Throws: Error{device} if OpenGL was asked for and there is none.
+BenchResult benchEngine(BackendChoice backend, Progress& progress);
 
 }  // namespace relucent

@@ -9,8 +9,8 @@
 #include "base/progress.h"
 #include "content/canvas.h"
 #include "engine/adaptive_range.h"
-#include "engine/cpu_backend.h"
 #include "engine/engine_plan.h"
+#include "engine/fallback_backend.h"
 #include "engine/step_budget.h"
 #include "output/frame_renderer.h"
 #include "pipeline/measured_venue.h"
@@ -24,7 +24,7 @@ class EngineRenderer : public FrameRenderer {
   /// offset follow the content, see AdaptiveRange.
   /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
-                 Progress& progress);
+                 Progress& progress, BackendChoice choice = BackendChoice::automatic);
 
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }

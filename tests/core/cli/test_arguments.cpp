@@ -126,6 +126,7 @@ class TestArguments : public QObject {
     QVERIFY(parsed<Report>("report d").settings.evaluate);
     QVERIFY(!parsed<Report>("report d --no-evaluate").settings.evaluate);
     QCOMPARE(parsed<Bench>("bench windows").name, std::string("windows"));
+    QVERIFY(parsed<Bench>("bench engine --backend opengl").backend == BackendChoice::openGl);
     QCOMPARE(parsed<Resume>("resume d").calibration, std::filesystem::path("d"));
     Prove prove = parsed<Prove>("prove d --image a.png --out o --method mix --black-lift 0.02");
     QCOMPARE(prove.settings.method, std::string("mix"));

@@ -7,12 +7,15 @@
 #include <functional>
 #include <memory>
 
+#include "base/error.h"
 #include "core/engine/engine_scenes.h"
 #include "engine/cpu_backend.h"
+#include "engine/opengl/gl_context.h"
+#include "engine/opengl/opengl_backend.h"
 
 namespace relucent::synthetic {
 
-/// The back ends that this machine has: every test of test_backends runs on each of them.
+/// Every test of test_backends runs on each of the back ends, on those that the machine has.
 struct NamedBackend {
   std::string name;
   std::function<std::unique_ptr<EngineBackend>(const EngineVenue&)> make;
@@ -25,9 +28,26 @@ inline const std::vector<NamedBackend>& backends() {
       list.push_back({kernels.instructions, [&kernels](const EngineVenue& engine) {
                         return std::make_unique<CpuBackend>(engine, &kernels);
                       }});
+    list.push_back({"OpenGL", [](const EngineVenue& engine) {
+                      return std::make_unique<OpenGlBackend>(
+                          engine, std::make_unique<GlContext>(GlContext::Device::any));
+                    }});
     return list;
   }();
   return all;
+}
+
+/// Why a back end cannot run here, empty if it can.
+inline QString missing(const QString& backend) {
+  static const QString openGl = [] {
+    try {
+      GlContext context(GlContext::Device::any);
+      return QString();
+    } catch (const Error& error) {
+      return QString(error.what());
+    }
+  }();
+  return backend == "OpenGL" ? openGl : QString();
 }
 
 inline std::unique_ptr<EngineBackend> backendOf(const QString& name, const EngineVenue& engine) {
@@ -56,6 +76,12 @@ inline ContentFrame frameOf(const Image& linear) {
           ContentFrame::Format::linearFloat};
 }
 
+/// Skips the row of a back end that cannot run here, and says why.
+#define SKIP_WHERE_MISSING(backend)      \
+  if (!missing(backend).isEmpty()) {     \
+    QSKIP(qPrintable(missing(backend))); \
+  }
+
 /// Undithered, so that a value has one right code.
 inline EngineSettings plain() {
   EngineSettings settings;
@@ -74,8 +100,8 @@ inline std::vector<std::uint32_t> rendered(EngineBackend& backend, const EngineV
   return words;
 }
 
-inline int codeOf(std::uint32_t word, std::size_t channel) {
-  return static_cast<int>(word >> (8 * channel) & 255u);
+inline int codeOf(std::uint32_t word, std::size_t channel, int bits = 8) {
+  return static_cast<int>(word >> (static_cast<unsigned>(bits) * channel) & ((1u << bits) - 1u));
 }
 
 /// The largest difference between 8-bit words and linear drive under a linear response, in codes.
@@ -86,11 +112,12 @@ inline double mostCodesApart(const std::vector<std::uint32_t>& words, const Stac
   return most;
 }
 
-inline int mostApart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-  if (a.size() != b.size()) return 256;
+inline int mostApart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, int bits = 8) {
+  if (a.size() != b.size()) return 1 << bits;
   int most = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(codeOf(a[i], c) - codeOf(b[i], c)));
+    for (std::size_t c = 0; c < 3; ++c)
+      most = std::max(most, std::abs(codeOf(a[i], c, bits) - codeOf(b[i], c, bits)));
   return most;
 }
 

@@ -74,15 +74,44 @@ inline MeasuredVenue severalDevices(std::uint64_t seed) {
   return venue;
 }
 
+/// Sizes that nothing divides, a node that every camera pixel sees, and camera pixels that see nothing at
+/// all, every other of them unusable.
+inline MeasuredVenue holes(std::uint64_t seed) {
+  const Rasters cameras(Size{37, 23}), projectors(Size{29, 31});
+  NodeLayout layout(projectors);
+  BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
+  MeasuredVenue venue;
+  for (std::size_t row = 0; row < cameras.count(); ++row) {
+    const Pixel place = pixelAt(cameras.size(0), row);
+    const bool empty = place.x > 25;
+    venue.usable.push_back(!empty || row % 2 == 0);
+    if (empty) continue;
+    Random random{seed, row};
+    ColourBlock mixing;
+    for (int i = 0; i < 9; ++i)
+      mixing.data()[i] = (0.3f + 0.4f * random.uniformFloat()) * (i % 4 == 0 ? 1.0f : 0.1f);
+    int cx = place.x * 29 / 37, cy = place.y * 31 / 23;
+    for (int y = std::max(0, cy - 1); y <= std::min(cy + 1, 30); ++y)
+      for (int x = std::max(0, cx - 1); x <= std::min(cx + 1, 28); ++x)
+        builder.add(row, layout.index({0, 0, x, y}), ((x == cx && y == cy ? 0.5f : 0.05f) * mixing).eval());
+    builder.add(row, layout.index({0, 5, 0, 0}), (0.1f * mixing).eval());
+  }
+  venue.transport = TransportMatrix(cameras, projectors, builder.build());
+  venue.flood = venue.transport.floodlight();
+  venue.black.assign(venue.flood.size(), 0.002f);
+  return venue;
+}
+
 /// Scenes by name, for data-driven tests.
 inline const std::vector<std::string>& engineSceneNames() {
-  static const std::vector<std::string> names{"wall", "defocus", "coarse tiles", "several devices",
-                                              "single pixel"};
+  static const std::vector<std::string> names{"wall",         "defocus", "coarse tiles", "several devices",
+                                              "single pixel", "holes"};
   return names;
 }
 
 inline EngineScene engineSceneOf(const std::string& name) {
   if (name == "several devices") return engineScene(severalDevices(3));
+  if (name == "holes") return engineScene(holes(4));
   SceneSettings settings;
   if (name == "defocus") settings = {{50, 37}, {41, 29}, 2, 0.8, 2.0};
   if (name == "coarse tiles") return engineScene(venueOf(makeScene({{33, 30}, {24, 20}, 5})), 8);

@@ -81,7 +81,7 @@ class TestJson : public QObject {
   }
 
   void benchDocument() {
-    BenchResult result{{"a processor", 2, 1e10}, {{"T p", 0.01, 1e8, 0.5}}};
+    BenchResult result{{"a processor", 2, 1e10, ""}, {{"T p", 0.01, 1e8, 0.5}}};
     QCOMPARE(
         toJson(result).dump(),
         std::string(

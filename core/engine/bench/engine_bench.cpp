@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include "engine/bench/engine_bench.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <optional>
+#include <thread>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "engine/bench/bench_transport.h"
+#include "engine/cpu_backend.h"
+#include "engine/opengl/gl_context.h"
+#include "engine/opengl/opengl_backend.h"
+#include "transport/files.h"
+
+namespace relucent {
+namespace {
+
+/// Seconds on the wall.
+double wallClock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Seconds of this thread on a processor: on a machine that is shared, with one thread, what a part costs and
+/// not how long it waits.
+double threadClock() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Collects lines and knows what they are measured by.
+class Bench {
+ public:
+  Bench(double (*seconds)(), Progress& progress) : clock_(seconds), progress_(progress) {}
+
+  EngineBenchResult result;
+  std::function<double()> clock() const { return clock_; }
+
+  /// `run` takes the time that the clock says.
+  void time(const std::string& name, double bytes, const std::function<void()>& run) {
+    timeItself(name, bytes, [&] {
+      const double begin = clock_();
+      run();
+      return clock_() - begin;
+    });
+  }
+  /// `run` says what it took.
+  void timeItself(const std::string& name, double bytes, const std::function<double()>& run) {
+    progress_.checkpoint();
+    EngineBenchTiming timing = timedRuns(run);
+    add({name, timing.median, timing.best, bytes, 0.0});
+  }
+  void add(EngineBenchLine line) {
+    line.shareOfCopy = line.bytes / line.best / result.copyBytesPerSecond;
+    result.lines.push_back(std::move(line));
+  }
+
+ private:
+  double (*clock_)();
+  Progress& progress_;
+};
+
+/// Bytes read and written per second by a plain copy, timed as everything else here is.
+double copied(const std::function<double()>& clock) {
+  constexpr std::size_t bytes = std::size_t{1} << 28;
+  std::vector<char> from(bytes, 1), to(bytes, 2);
+  EngineBenchTiming timing = timedRuns([&] {
+    const double begin = clock();
+    parallelChunks(0, bytes, 64, [&](std::size_t, std::size_t first, std::size_t end) {
+      std::memcpy(&to[first], &from[first], end - first);
+    });
+    return clock() - begin;
+  });
+  return 2.0 * static_cast<double>(bytes) / timing.best;
+}
+
+/// Content of no meaning, all of whose bytes differ.
+class Noise {
+ public:
+  explicit Noise(Size size) : pixels_(4 * size.count()), size_(size) {
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      pixels_[i] = static_cast<std::uint8_t>(i * 2654435761u >> 24);
+  }
+  ContentFrame frame() const {
+    return {pixels_.data(), size_, 4 * static_cast<std::size_t>(size_.width), ContentFrame::Format::rgba8};
+  }
+
+ private:
+  std::vector<std::uint8_t> pixels_;
+  Size size_;
+};
+
+void timeFrames(Bench& bench, EngineBackend& backend, const EngineVenue& engine, Size size,
+                double transportBytes) {
+  const Noise content(size);
+  std::vector<std::uint32_t> words(engine.brightest.size());
+  FrameReport report;
+  const auto windows = static_cast<double>(engine.inverse.bytes());
+  for (int steps : {0, 1, 2})
+    bench.time(fmt::format("{}: frame, K = {}", backend.name(), steps),
+               2 * windows + (1 + steps) * transportBytes, [&] {
+                 if (!backend.render(content.frame(), {true, steps, 1.0f, 0.0f}, words, report))
+                   throw Error(ErrorKind::device, "the device was lost while it was timed", "try again");
+               });
+}
+
+void timeCpu(Bench& bench, const EngineVenue& engine, const EngineContent& content, Size size) {
+  bench.result.copyBytesPerSecond = copied(bench.clock());
+  const auto transport = static_cast<double>(engine.transport.bytes());
+  for (std::size_t i = engineKernels().size(); i-- > 0;) {
+    CpuBackend backend(engine, &engineKernels()[i]);
+    const std::string name(backend.name());
+    if (bench.result.device.empty()) bench.result.device = name;
+    backend.setContent(content);
+    const Noise noise(size);
+    std::vector<std::uint32_t> words(engine.brightest.size());
+    FrameReport report;
+    backend.render(noise.frame(), {}, words, report);
+    bench.time(name + ": M", static_cast<double>(engine.inverse.bytes()), [&] { backend.applyWindows(); });
+    bench.time(name + ": step", transport, [&] { backend.takeStep(1.2f); });
+    timeFrames(bench, backend, engine, size, transport);
+  }
+}
+
+void timeOpenGl(Bench& bench, const EngineVenue& engine, const EngineContent& content, Size size,
+                std::unique_ptr<GlContext> context) {
+  OpenGlBackend backend(engine, std::move(context));
+  const std::string name(backend.name());
+  bench.result.device = name;
+  bench.result.copyBytesPerSecond = backend.copyBandwidth();
+  backend.setContent(content);
+  const Noise noise(size);
+  std::vector<std::uint32_t> words(engine.brightest.size());
+  FrameReport report;
+  backend.render(noise.frame(), {}, words, report);
+  const auto transport = static_cast<double>(backend.transportBytes());
+  bench.timeItself(name + ": M", static_cast<double>(engine.inverse.bytes()),
+                   [&] { return backend.applyWindows(); });
+  bench.timeItself(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
+  timeFrames(bench, backend, engine, size, transport);
+}
+
+Stack randomStack(std::size_t pixels, std::uint64_t seed) {
+  Random random{seed};
+  Stack stack(3 * pixels);
+  for (float& value : stack) value = random.uniformFloat();
+  return stack;
+}
+
+void timeReferences(Bench& bench, const EngineVenue& engine) {
+  const TransportMatrix& transport = engine.venue.transport;
+  const Stack projector = randomStack(transport.projectors().count(), 1);
+  const Stack camera = randomStack(transport.cameras().count(), 2);
+  bench.time("WindowInverse::apply", static_cast<double>(engine.inverse.bytes()),
+             [&] { engine.inverse.apply(camera); });
+  bench.time("TransportMatrix: T p and adjoint", 2.0 * static_cast<double>(transport.leaves().bytes()),
+             [&] { transport.applyTransposed(transport.apply(projector)); });
+  for (EngineBenchLine& line : benchEigen(engine, bench.clock())) bench.add(std::move(line));
+}
+
+MeasuredVenue venueOf(const EngineBenchSettings& settings) {
+  MeasuredVenue venue;
+  venue.transport = settings.transport.empty() ? benchTransport(settings.projector, settings.camera)
+                                               : loadTransport(settings.transport);
+  venue.flood = venue.transport.floodlight();
+  venue.black.assign(venue.flood.size(), 0.001f);
+  venue.usable.assign(venue.transport.cameras().count(), 1);
+  return venue;
+}
+
+/// None: the processor is to do it.
+std::unique_ptr<GlContext> contextFor(BackendChoice choice) {
+  if (choice == BackendChoice::cpu) return nullptr;
+  if (choice == BackendChoice::openGl) return std::make_unique<GlContext>(GlContext::Device::any);
+  try {
+    return std::make_unique<GlContext>(GlContext::Device::graphics);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const EngineBenchSettings& settings) {
+  constexpr int least = 8;
+  std::vector<std::string> found;
+  for (Size size : {settings.projector, settings.camera, settings.content})
+    if (size.width < least || size.height < least)
+      found.push_back(fmt::format("{}x{} is too small to be timed", size.width, size.height));
+  return found;
+}
+
+EngineBenchTiming timedRuns(const std::function<double()>& run) {
+  constexpr std::size_t fewest = 5, most = 60;
+  constexpr double enough = 0.5;
+  run();
+  std::vector<double> seconds;
+  double sum = 0.0;
+  while (seconds.size() < fewest || (sum < enough && seconds.size() < most)) {
+    seconds.push_back(run());
+    sum += seconds.back();
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return {seconds[seconds.size() / 2], seconds.front()};
+}
+
+EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& progress) {
+  auto wrong = problems(settings);
+  require(wrong.empty(), "engine benchmark: {}", fmt::join(wrong, "; "));
+  std::unique_ptr<GlContext> context = contextFor(settings.backend);
+  const bool oneThread = settings.oneThread && context == nullptr;
+
+  Progress preparing = progress.part(0.5, "Preparing the engine");
+  const MeasuredVenue venue = venueOf(settings);
+  preparing.report(0.3);
+  Progress computing = preparing.part(0.6, "Windows");
+  const WindowInverse inverse = computeWindows(venue.transport, venue.usable, {}, computing);
+  EngineSettings plan;
+  plan.patchSide = settings.patchSide;
+  const std::vector<ProjectorResponse> responses(venue.transport.projectors().devices());
+  const EngineVenue engine = prepareVenue(venue, inverse, responses, plan);
+  const EngineContent content = prepareContent(engine, settings.content);
+
+  Progress timing = progress.part(0.5, "Timing the engine");
+  Bench bench(oneThread ? threadClock : wallClock, timing);
+  bench.result.threads = oneThread ? 1 : static_cast<int>(std::thread::hardware_concurrency());
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<std::size_t>(bench.result.threads));
+  const bool onProcessor = context == nullptr;
+  if (onProcessor)
+    timeCpu(bench, engine, content, settings.content);
+  else
+    timeOpenGl(bench, engine, content, settings.content, std::move(context));
+  if (settings.references && onProcessor) timeReferences(bench, engine);
+  progress.report(1.0);
+  return std::move(bench.result);
+}
+
+}  // namespace relucent

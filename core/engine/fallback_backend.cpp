@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "engine/fallback_backend.h"
+
+#include <exception>
+#include <utility>
+
+#include "base/error.h"
+#include "engine/cpu_backend.h"
+#include "engine/opengl/gl_context.h"
+#include "engine/opengl/opengl_backend.h"
+
+namespace relucent {
+
+const std::map<std::string, BackendChoice>& backendChoices() {
+  static const std::map<std::string, BackendChoice> choices{{"automatic", BackendChoice::automatic},
+                                                            {"cpu", BackendChoice::cpu},
+                                                            {"opengl", BackendChoice::openGl}};
+  return choices;
+}
+
+FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Told told)
+    : backend_(std::move(first)), makeOther_(std::move(makeOther)), told_(std::move(told)) {
+  require(backend_ != nullptr && makeOther_ != nullptr, "a fallback needs two back ends");
+}
+
+void FallbackBackend::goOver(const std::string& why) {
+  const std::string before(backend_->name());
+  backend_ = std::exchange(makeOther_, nullptr)();
+  if (content_ != nullptr) backend_->setContent(*content_);
+  if (told_) told_(fmt::format("{}: {}; going on with {}", before, why, backend_->name()));
+}
+
+void FallbackBackend::setContent(const EngineContent& content) {
+  content_ = &content;
+  if (!makeOther_) return backend_->setContent(content);
+  try {
+    backend_->setContent(content);
+  } catch (const Error& error) {
+    goOver(error.summary());
+  }
+}
+
+bool FallbackBackend::render(const ContentFrame& frame, const FrameRequest& request,
+                             std::span<std::uint32_t> words, FrameReport& report) noexcept {
+  if (backend_->render(frame, request, words, report)) return true;
+  if (!makeOther_) return false;
+  try {
+    goOver("the device was lost");
+    return backend_->render(frame, request, words, report);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
+                                           const FallbackBackend::Told& told) {
+  auto cpu = [&engine]() -> std::unique_ptr<EngineBackend> { return std::make_unique<CpuBackend>(engine); };
+  if (choice == BackendChoice::cpu) return cpu();
+
+  std::unique_ptr<GlContext> context;
+  const bool automatic = choice == BackendChoice::automatic;
+  try {
+    context = std::make_unique<GlContext>(automatic ? GlContext::Device::graphics : GlContext::Device::any);
+  } catch (const Error&) {
+    if (!automatic) throw;
+    return cpu();
+  }
+  try {
+    auto openGl = std::make_unique<OpenGlBackend>(engine, std::move(context));
+    return std::make_unique<FallbackBackend>(std::move(openGl), cpu, told);
+  } catch (const Error& error) {
+    if (!automatic) throw;
+    if (told) told(error.what());
+    return cpu();
+  }
+}
+
+}  // namespace relucent

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "engine/opengl/gl_objects.h"
+#include "engine/opengl/opengl_backend.h"
+#include "engine/opengl/shaders.h"
+#include "engine/opengl/sliced_transport.h"
+
+namespace relucent {
+
+/// What a frame on a graphics card works with, and its stages. All calls while the context is current.
+struct OpenGlBackend::Objects {
+  explicit Objects(const EngineVenue& engine);
+
+  void setContent(const EngineContent& content);
+  void render(const ContentFrame& frame, const FrameRequest& request, int steps) noexcept;
+  void place(const ContentFrame& frame, const FrameRequest& request) noexcept;
+  void upload(const ContentFrame& frame) noexcept;
+  void showPlaced() noexcept;
+  /// p = clamp(M u), or with the correction.
+  void invert(bool correction) noexcept;
+  /// The residual and the sums of what goes back, of all nodes.
+  void passThrough(bool correction) noexcept;
+  /// What coarser nodes got back goes to their pixels; a step ends there, by an update of p.
+  void spread(bool correction, float length) noexcept;
+  void takeStep(float length) noexcept;
+  void encode() noexcept;
+  std::size_t transportBytes() const {
+    return forward.leaves.bytes() + forward.slices.bytes() + rows.bytes() + backward.leaves.bytes() +
+           backward.slices.bytes() + nodes.bytes() + nodeStart.bytes() + segments.bytes();
+  }
+
+  /// Part of a buffer that a shader can reach at once.
+  struct Batch {
+    std::size_t first, count;  // tiles or slices
+    std::size_t begin, bytes;  // of the buffer that is bound in parts
+    std::size_t projector = 0;
+  };
+  struct Slices {
+    Slices() = default;
+    explicit Slices(const LeafSlices& from);
+    GlBuffer slices, leaves;
+    std::vector<Batch> batches;
+  };
+  struct Encoder {
+    GlBuffer first, lights, middles, thresholds;
+  };
+
+  const EngineVenue& engine;
+  const EngineContent* content = nullptr;
+
+  GlProgram placing{shaders::place};
+  GlProgram windows{shaders::windows}, windowsCorrected{shaders::windows, {"CORRECTION"}};
+  GlProgram means{shaders::means}, gather{shaders::gather};
+  GlProgram forwardStep{shaders::forward}, forwardCorrected{shaders::forward, {"CORRECTION"}};
+  GlProgram backwardStep{shaders::backward}, backwardCorrected{shaders::backward, {"CORRECTION"}};
+  GlProgram sumStep{shaders::sum_nodes}, sumCorrected{shaders::sum_nodes, {"CORRECTION"}};
+  GlProgram sumLongStep{shaders::sum_nodes, {"LONG"}},
+      sumLongCorrected{shaders::sum_nodes, {"LONG", "CORRECTION"}};
+  GlProgram spreadStep{shaders::spread}, spreadCorrected{shaders::spread, {"CORRECTION"}};
+  GlProgram brightness{shaders::brightness}, brightnessLast{shaders::brightness, {"LAST"}};
+  GlProgram showing{shaders::show_placed}, encoding{shaders::encode};
+
+  GlBuffer tiles, windowRows, windowWeights;
+  std::vector<Batch> tileBatches;
+  Slices forward, backward;
+  GlBuffer rows, nodes, nodeStart, segments, longNodes;
+  std::size_t columns = 0, longCount = 0, nodeCount = 0, cameraPixels = 0, projectorPixels = 0;
+  std::size_t freeValues = 0;
+
+  // Six vectors a camera pixel, see common.glsl; `known` is what is in `camera`.
+  std::vector<float> known;
+  GlBuffer camera, wanted, unmixed, placed;
+  GlBuffer light, nodeLight, columnLight, back, segmentSums, sums;
+  GlBuffer counters, brightnessParts, brightest, words, linearOfSrgb;
+  GlBuffer frame, footprints, weights;
+  std::vector<Encoder> encoders;
+  GlTimestamp refining = GlTimestamp::make(), refined = GlTimestamp::make();
+};
+
+}  // namespace relucent

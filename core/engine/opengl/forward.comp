@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// One camera pixel an invocation: its residual W (wanted - T p), and what of that goes back to each node,
+// mixing included. With CORRECTION the light wanted is held to what there is, W T 1 goes back beside it, and
+// the residual is unmixed for the windows.
+layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first column
+layout(std430, binding = 1) readonly buffer Leaves { uvec2 leaf[]; };
+layout(std430, binding = 2) readonly buffer ColumnLight { uvec2 columnLight[]; };
+layout(std430, binding = 3) readonly buffer Rows { uint row[]; };  // camera pixel, 9 of its mixing
+layout(std430, binding = 4) readonly buffer Wanted { vec4 wanted[]; };
+#ifdef CORRECTION
+layout(std430, binding = 5) writeonly buffer Back { uvec4 back[]; };
+layout(std430, binding = 6) readonly buffer Camera { vec4 camera[]; };
+layout(std430, binding = 7) writeonly buffer Unmixed { vec4 unmixed[]; };
+#else
+layout(std430, binding = 5) writeonly buffer Back { uvec2 back[]; };
+#endif
+
+layout(location = 0) uniform uint firstSlice;
+layout(location = 1) uniform uint slices;
+layout(location = 2) uniform uint leavesBefore;  // / 32: those of the slices before what is bound
+
+void main() {
+  uint index = invocation() / 32u;
+  uint lane = gl_LocalInvocationID.x % 32u;
+  if (index >= slices) return;
+  uvec2 here = slice[firstSlice + index];
+  uint end = slice[firstSlice + index + 1u].x - leavesBefore;
+  vec3 seen = vec3(0.0);
+  for (uint k = here.x - leavesBefore; k < end; ++k) {
+    uvec2 one = leaf[32u * k + lane];
+    seen += codesOf(one) * unpackLight(columnLight[here.y + placeOf(one)]);
+  }
+
+  uint slot = 32u * (firstSlice + index) + lane;
+  uint pixel = row[10u * slot];
+  if (pixel == 0xffffffffu) return;
+  mat3 mixing;  // its columns are the mixing's rows
+  for (uint i = 0u; i < 3u; ++i)
+    mixing[i] = uintBitsToFloat(
+        uvec3(row[10u * slot + 3u * i + 1u], row[10u * slot + 3u * i + 2u], row[10u * slot + 3u * i + 3u]));
+  vec4 want = wanted[pixel];
+  if (want.w == 0.0) {
+#ifdef CORRECTION
+    back[slot] = uvec4(0u);
+    unmixed[pixel] = vec4(0.0);
+#else
+    back[slot] = uvec2(0u);
+#endif
+    return;
+  }
+#ifdef CORRECTION
+  uint c = cameraStride * pixel;
+  vec3 held = clamp(want.xyz, vec3(0.0), max(camera[c + cameraFlood].xyz, vec3(0.0)));
+  vec3 residual = want.w * (held - seen * mixing);
+  vec3 lit = want.w * camera[c + cameraLit].xyz;
+  back[slot] = uvec4(packFloats(mixing * residual), packFloats(mixing * lit));
+  mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
+  unmixed[pixel] = vec4(unmix * residual, 0.0);
+#else
+  back[slot] = packFloats(mixing * (want.w * (want.xyz - seen * mixing)));
+#endif
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <string>
+
+namespace relucent {
+
+/// An OpenGL 4.3 context without a window and without a display, for compute shaders. It is current only
+/// while a Current lives, on one thread at a time.
+class GlContext {
+ public:
+  enum class Device {
+    any,       // a graphics card if there is one, else the processor pretends to be one
+    graphics,  // a graphics card
+  };
+
+  /// Throws: Error{device} if there is no such device with OpenGL 4.3, saying what was found.
+  explicit GlContext(Device wanted);
+  ~GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  /// The driver's name of its device.
+  const std::string& renderer() const { return renderer_; }
+  /// The processor does the work: slower than a back end made for it.
+  bool software() const { return software_; }
+  /// The driver has reset the device, or gave an error since the last question. Contract: current.
+  bool failed() const noexcept;
+
+  /// Makes the context current, and what was current before when it ends. OpenGL contexts of GLX must not be
+  /// current on the same thread.
+  class Current {
+   public:
+    explicit Current(const GlContext& context) noexcept;
+    ~Current();
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+    explicit operator bool() const { return made_; }
+
+   private:
+    const GlContext& context_;
+    EGLenum api_;  // the one that the thread had chosen
+    EGLDisplay display_;
+    EGLContext before_;
+    EGLSurface draw_, read_;
+    bool made_;
+  };
+
+ private:
+  bool open(EGLDisplay display, Device wanted, std::string& found);
+
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+  std::string renderer_;
+  bool software_ = false;
+  bool reportsReset_ = false;
+};
+
+/// A driver's name for a renderer that runs on the processor.
+bool isSoftwareRenderer(const std::string& name);
+
+}  // namespace relucent

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace relucent {
+
+/// A shader storage buffer. Like all objects of OpenGL it is made, used and destroyed while the context that
+/// it belongs to is current.
+class GlBuffer {
+ public:
+  GlBuffer() = default;
+  /// Zeros, or a copy of `data`. Throws: Error{device} if the device's memory does not hold it, or more than
+  /// a shader can reach is wanted: `inParts` is for buffers of which only parts are bound.
+  explicit GlBuffer(std::size_t bytes, const void* data = nullptr, bool inParts = false);
+  template <typename T>
+  explicit GlBuffer(const std::vector<T>& values, bool inParts = false)
+      : GlBuffer(values.size() * sizeof(T), values.data(), inParts) {}
+  ~GlBuffer();
+  GlBuffer(GlBuffer&& other) noexcept { *this = std::move(other); }
+  GlBuffer& operator=(GlBuffer&& other) noexcept {
+    std::swap(name_, other.name_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+
+  std::size_t bytes() const { return bytes_; }
+  void bind(unsigned binding) const noexcept { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+  /// Bytes [begin, begin + count). Contract: `begin` is a multiple of alignment().
+  void bind(unsigned binding, std::size_t begin, std::size_t count) const noexcept;
+  void write(std::size_t begin, const void* data, std::size_t bytes) noexcept;
+  void read(std::size_t begin, void* data, std::size_t bytes) const noexcept;
+  void clear() noexcept { clear(0, bytes_); }
+  void clear(std::size_t begin, std::size_t bytes) noexcept;
+  /// The old content need not be kept: spares waiting for whoever still reads it.
+  void forget() noexcept { glInvalidateBufferData(name_); }
+
+  /// What a shader can reach of one buffer, and where a bound part of a buffer may begin.
+  static std::size_t largest();
+  static std::size_t alignment();
+
+ private:
+  GLuint name_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+/// A compute shader of 64 invocations a group.
+class GlProgram {
+ public:
+  static constexpr std::size_t group = 64;
+
+  GlProgram() = default;
+  /// `defines`: names for its conditional parts. Throws: Error{device} with the compiler's words.
+  explicit GlProgram(std::string_view source, std::initializer_list<const char*> defines = {});
+  ~GlProgram();
+  GlProgram(GlProgram&& other) noexcept { *this = std::move(other); }
+  GlProgram& operator=(GlProgram&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+
+  void set(int location, std::uint32_t value) const noexcept { glProgramUniform1ui(name_, location, value); }
+  void set(int location, std::size_t value) const noexcept {
+    set(location, static_cast<std::uint32_t>(value));
+  }
+  void set(int location, bool value) const noexcept { glProgramUniform1i(name_, location, value); }
+  void set(int location, float value) const noexcept { glProgramUniform1f(name_, location, value); }
+  void set(int location, std::uint32_t x, std::uint32_t y) const noexcept {
+    glProgramUniform2ui(name_, location, x, y);
+  }
+  void setPairs(int location, std::span<const std::uint32_t> values) const noexcept {
+    glProgramUniform2uiv(name_, location, static_cast<GLsizei>(values.size() / 2), values.data());
+  }
+  void setMatrix(int location, const float* rowMajor) const noexcept {
+    glProgramUniformMatrix3fv(name_, location, 1, GL_TRUE, rowMajor);
+  }
+
+  /// Runs it over so many invocations or a few more, after everything before has been written.
+  void run(std::size_t invocations) const noexcept;
+
+ private:
+  GLuint name_ = 0;
+};
+
+/// The moment when the device comes by, on its own clock.
+class GlTimestamp {
+ public:
+  GlTimestamp() = default;
+  static GlTimestamp make();
+  ~GlTimestamp();
+  GlTimestamp(GlTimestamp&& other) noexcept { *this = std::move(other); }
+  GlTimestamp& operator=(GlTimestamp&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  void take() const noexcept { glQueryCounter(name_, GL_TIMESTAMP); }
+  /// Waits for it.
+  double seconds() const noexcept;
+
+ private:
+  GLuint name_ = 0;
+};
+
+}  // namespace relucent

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "engine/opengl/opengl_backend.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/error.h"
+#include "engine/opengl/backend_objects.h"
+#include "engine/opengl/gl_context.h"
+#include "image/color.h"
+
+namespace relucent {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t vector = 4 * sizeof(float);
+constexpr std::size_t knownFloats = 24;  // six vectors a camera pixel
+
+/// Tiles as their shader reads them: the first row of the window and the scales of its weights.
+std::vector<std::array<std::uint32_t, 4>> tilesOf(const WindowArrays& windows) {
+  std::size_t count = windows.tiles->count();
+  std::vector<std::array<std::uint32_t, 4>> tiles(count + 1);
+  for (std::size_t tile = 0; tile <= count; ++tile) {
+    tiles[tile][0] = static_cast<std::uint32_t>(windows.start[tile]);
+    for (std::size_t c = 0; c < 3 && tile < count; ++c)
+      tiles[tile][c + 1] = std::bit_cast<std::uint32_t>(windows.scale[3 * tile + c]);
+  }
+  return tiles;
+}
+
+/// What does not change with the content.
+std::vector<float> knownOf(const MeasuredVenue& venue, const WindowArrays& windows) {
+  std::vector<float> known(knownFloats * venue.usable.size());
+  for (std::size_t i = 0; i < venue.usable.size(); ++i) {
+    float* to = &known[knownFloats * i];
+    std::copy_n(&venue.black[3 * i], 3, to);
+    to[3] = venue.usable[i] ? 1.0f : 0.0f;
+    std::copy_n(&venue.flood[3 * i], 3, to + 4);
+    std::copy_n(windows.unmix + 9 * i, 9, to + 12);
+  }
+  return known;
+}
+
+std::vector<std::uint32_t> wordsOf(std::span<const std::uint16_t> levels) {
+  return {levels.begin(), levels.end()};
+}
+
+GlBuffer bufferOf(std::span<const float> values) {
+  return GlBuffer(values.size_bytes(), values.data());
+}
+
+/// The ranges of tiles whose weights a shader can reach at once.
+template <typename Batch>
+std::vector<Batch> batchesOf(const WindowArrays& windows) {
+  const std::size_t bytesOfARow = 6 * static_cast<std::size_t>(windows.tile * windows.tile);
+  const std::size_t alignment = GlBuffer::alignment(), most = GlBuffer::largest();
+  std::vector<Batch> batches;
+  for (std::size_t projector = 0; projector < windows.tiles->devices(); ++projector) {
+    std::size_t tile = windows.tiles->offset(projector);
+    const std::size_t last = tile + windows.tiles->size(projector).count();
+    while (tile < last) {
+      const std::size_t begin = bytesOfARow * windows.start[tile] / alignment * alignment;
+      std::size_t end = tile + 1;
+      while (end < last && bytesOfARow * windows.start[end + 1] - begin <= most) ++end;
+      // One byte at the least: windows may be empty.
+      const std::size_t bytes = std::max<std::size_t>(bytesOfARow * windows.start[end] - begin, 4);
+      batches.push_back({tile, end - tile, begin, bytes, projector});
+      tile = end;
+    }
+  }
+  return batches;
+}
+
+}  // namespace
+
+OpenGlBackend::Objects::Slices::Slices(const LeafSlices& from)
+    : slices(from.slices), leaves(from.leaves, true) {
+  constexpr std::size_t bytesOfAUnit = LeafSlices::lanes * sizeof(PackedLeaf);
+  const std::size_t most = GlBuffer::largest() / bytesOfAUnit;
+  for (std::size_t first = 0; first < from.count();) {
+    std::size_t end = first + 1;
+    while (end < from.count() && from.slices[end + 1].leaf - from.slices[first].leaf <= most) ++end;
+    const std::size_t units = from.slices[end].leaf - from.slices[first].leaf;
+    batches.push_back({first, end - first, bytesOfAUnit * from.slices[first].leaf,
+                       bytesOfAUnit * std::max<std::size_t>(units, 1)});
+    first = end;
+  }
+}
+
+OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
+  const WindowArrays arrays = engine.inverse.view();
+  const std::size_t pixels = static_cast<std::size_t>(arrays.tile * arrays.tile);
+  const std::size_t windowCount = arrays.start[arrays.tiles->count()];
+  tiles = GlBuffer(tilesOf(arrays));
+  windowRows = GlBuffer(windowCount * sizeof(std::uint32_t), arrays.row);
+  windowWeights = GlBuffer(3 * pixels * windowCount * sizeof(std::int16_t), arrays.weight, true);
+  tileBatches = batchesOf<Batch>(arrays);
+
+  nodeCount = engine.venue.transport.layout().count();
+  const SlicedTransport sliced = slicedTransport(engine.transport, nodeCount);
+  forward = Slices(sliced.forward);
+  backward = Slices(sliced.backward);
+  rows = GlBuffer(sliced.rows);
+  nodes = GlBuffer(engine.transport.nodes());
+  nodeStart = GlBuffer(sliced.nodeStart);
+  segments = GlBuffer(sliced.segments);
+  longNodes = GlBuffer(sliced.longNodes);
+  columns = engine.transport.nodes().size();
+  longCount = sliced.longNodes.size();
+
+  cameraPixels = engine.venue.usable.size();
+  known = knownOf(engine.venue, arrays);
+  camera = GlBuffer(known);
+  wanted = GlBuffer(vector * cameraPixels);
+  unmixed = GlBuffer(vector * cameraPixels);
+  placed = GlBuffer(vector * cameraPixels);
+  projectorPixels = engine.brightest.size();
+  light = GlBuffer(vector * projectorPixels);
+  nodeLight = GlBuffer(2 * sizeof(std::uint32_t) * nodeCount);
+  columnLight = GlBuffer(2 * sizeof(std::uint32_t) * columns);
+  back = GlBuffer(vector * sliced.rows.size());
+  segmentSums = GlBuffer(2 * vector * LeafSlices::lanes * sliced.backward.count());
+  sums = GlBuffer(2 * vector * nodeCount);
+  counters = GlBuffer(vector);
+  brightnessParts = GlBuffer(65 * 2 * sizeof(float));
+  brightest = GlBuffer(engine.brightest);
+  words = GlBuffer(sizeof(std::uint32_t) * projectorPixels);
+
+  std::vector<float> linear;
+  for (int code = 0; code < 256; ++code) linear.push_back(static_cast<float>(srgbDecode(code / 255.0)));
+  linearOfSrgb = GlBuffer(linear);
+  for (const DriveEncoder& encoder : engine.encoders)
+    encoders.push_back({GlBuffer(wordsOf(encoder.firstLevels())), bufferOf(encoder.lights()),
+                        bufferOf(encoder.middles()), bufferOf(encoder.thresholds())});
+}
+
+void OpenGlBackend::Objects::setContent(const EngineContent& next) {
+  const ContentWarp& warp = next.warp;
+  // Lines of any format begin at whole words.
+  const Size size = warp.content();
+  frame = {};
+  footprints = {};
+  weights = {};
+  frame = GlBuffer(bytesPerPixel(ContentFrame::Format::linearFloat) * size.count() + 4 * size.count());
+  static_assert(sizeof(ContentWarp::Footprint) == 20);
+  std::vector<ContentWarp::Footprint> all = warp.footprints();
+  // Only the first camera is looked at; the others see nothing of the content.
+  all.resize(cameraPixels);
+  footprints = GlBuffer(all);
+  weights = GlBuffer(warp.weights());
+  for (std::size_t i = 0; i < cameraPixels; ++i)
+    std::copy_n(&next.lit[3 * i], 3, &known[knownFloats * i + 8]);
+  camera.write(0, known.data(), known.size() * sizeof(float));
+
+  std::vector<float> free(4 * projectorPixels);
+  for (std::size_t j = 0; j < projectorPixels; ++j) free[4 * j + 3] = next.free[j] ? 1.0f : 0.0f;
+  light.write(0, free.data(), free.size() * sizeof(float));
+  freeValues = 3 * static_cast<std::size_t>(std::count(next.free.begin(), next.free.end(), 1));
+  for (GlBuffer* buffer : {&wanted, &unmixed, &placed, &nodeLight}) buffer->clear();
+  content = &next;
+}
+
+OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context)
+    : context_(std::move(context)), name_(fmt::format("OpenGL, {}", context_->renderer())) {
+  GlContext::Current current(*context_);
+  if (!current)
+    throw Error(ErrorKind::device, "the graphics card cannot be used", "let the processor do the work",
+                context_->renderer());
+  objects_ = std::make_unique<Objects>(engine);
+}
+
+OpenGlBackend::~OpenGlBackend() {
+  GlContext::Current current(*context_);
+  objects_.reset();
+}
+
+void OpenGlBackend::setContent(const EngineContent& content) {
+  GlContext::Current current(*context_);
+  if (current && !lost_) {
+    objects_->setContent(content);
+    if (!context_->failed()) return;
+  }
+  throw Error(ErrorKind::device, "the graphics card was lost", "let the processor do the work", name_);
+}
+
+bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& request,
+                           std::span<std::uint32_t> words, FrameReport& report) noexcept {
+  report = {};
+  const Clock::time_point begin = Clock::now();
+  GlContext::Current current(*context_);
+  if (!current || lost_) return false;
+  const std::size_t lengths = objects_->engine.settings.compensator.steps.size();
+  if (request.compensated) report.steps = std::clamp(request.steps, 0, static_cast<int>(lengths));
+  objects_->render(frame, request, report.steps);
+
+  std::uint32_t clipped = 0;
+  objects_->words.read(0, words.data(), words.size_bytes());
+  objects_->counters.read(0, &clipped, sizeof clipped);
+  if (context_->failed()) return false;
+  if (request.compensated)
+    report.stepSeconds =
+        std::chrono::duration<double>(objects_->refined.seconds() - objects_->refining.seconds());
+  if (objects_->freeValues > 0)
+    report.clipped = static_cast<double>(clipped) / static_cast<double>(objects_->freeValues);
+  report.seconds = Clock::now() - begin;
+  return true;
+}
+
+}  // namespace relucent

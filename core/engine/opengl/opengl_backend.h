@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/backend.h"
+
+namespace relucent {
+
+class GlContext;
+
+/// The engine on a graphics card, in compute shaders of OpenGL 4.3. The same bits every time on the same
+/// device and driver. A frame allocates nothing here; what drivers do is theirs. May be used by any thread,
+/// one at a time.
+class OpenGlBackend : public EngineBackend {
+ public:
+  /// `engine` must outlive it.
+  /// Throws: Error{device} if the driver refuses the shaders, or the device's memory does not hold T and M.
+  OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context);
+  ~OpenGlBackend() override;
+
+  std::string_view name() const override { return name_; }
+  void setContent(const EngineContent& content) override;
+  bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
+              FrameReport& report) noexcept override;
+
+  /// The parts of a frame, for benchmarks: p = clamp(M u) and one step. Return seconds on the device's clock.
+  double applyWindows() noexcept;
+  double takeStep(float length) noexcept;
+  /// Bytes of T that a step reads: by camera pixels and by nodes.
+  std::size_t transportBytes() const;
+  /// Bytes read and written per second when the device copies its memory. Throws: Error{device}.
+  double copyBandwidth();
+
+  /// From now on as if the device were gone. For tests.
+  void loseDevice() { lost_ = true; }
+
+ private:
+  struct Objects;
+
+  std::unique_ptr<GlContext> context_;
+  std::string name_;
+  std::unique_ptr<Objects> objects_;  // of OpenGL: made and destroyed while the context is current
+  bool lost_ = false;
+};
+
+}  // namespace relucent

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// The stages of a frame, as dispatches.
+#include <algorithm>
+#include <array>
+
+#include "engine/opengl/backend_objects.h"
+#include "engine/opengl/gl_context.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::size_t group = GlProgram::group;
+
+void bindAll(std::initializer_list<const GlBuffer*> buffers) noexcept {
+  unsigned binding = 0;
+  for (const GlBuffer* buffer : buffers) buffer->bind(binding++);
+}
+
+std::uint32_t unsignedOf(int value) {
+  return static_cast<std::uint32_t>(value);
+}
+
+}  // namespace
+
+void OpenGlBackend::Objects::render(const ContentFrame& picture, const FrameRequest& request,
+                                    int steps) noexcept {
+  place(picture, request);
+  if (request.compensated) {
+    invert(false);
+    passThrough(true);
+    spread(true, 0.0f);
+    invert(true);
+    refining.take();
+    for (int step = 0; step < steps; ++step)
+      takeStep(engine.settings.compensator.steps[static_cast<std::size_t>(step)]);
+    refined.take();
+  } else {
+    showPlaced();
+  }
+  encode();
+}
+
+void OpenGlBackend::Objects::upload(const ContentFrame& picture) noexcept {
+  const std::size_t line = static_cast<std::size_t>(picture.size.width) * bytesPerPixel(picture.format);
+  const auto* from = static_cast<const unsigned char*>(picture.data);
+  const auto height = static_cast<std::size_t>(picture.size.height);
+  frame.forget();
+  if (picture.bytesPerLine == line) {
+    frame.write(0, from, line * height);
+    return;
+  }
+  for (std::size_t y = 0; y < height; ++y) frame.write(line * y, from + picture.bytesPerLine * y, line);
+}
+
+void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameRequest& request) noexcept {
+  upload(picture);
+  bindAll({&frame, &footprints, &weights, &camera, &wanted, &unmixed, &placed, &linearOfSrgb});
+  placing.set(0, cameraPixels);
+  placing.set(1, static_cast<std::uint32_t>(picture.format));
+  placing.set(2, static_cast<std::size_t>(picture.size.width) * bytesPerPixel(picture.format));
+  placing.set(3, content->white * request.brightness);
+  placing.set(4, request.blackLift);
+  placing.set(5, static_cast<float>(engine.settings.target.unreachableWeight));
+  placing.setMatrix(6, engine.mixing.data());
+  placing.run(cameraPixels);
+}
+
+void OpenGlBackend::Objects::showPlaced() noexcept {
+  constexpr std::size_t groups = 64;
+  bindAll({&brightnessParts, &camera, &wanted, &placed});
+  brightness.set(0, cameraPixels);
+  brightness.run(groups * group);
+  brightnessLast.run(group);
+  bindAll({&brightest, &placed, &brightnessParts, &light});
+  showing.set(0, projectorPixels);
+  showing.run(projectorPixels);
+  counters.clear();
+}
+
+void OpenGlBackend::Objects::invert(bool correction) noexcept {
+  const CompensatorSettings& settings = engine.settings.compensator;
+  const WindowArrays arrays = engine.inverse.view();
+  const Rasters& projectors = engine.venue.transport.projectors();
+  const GlProgram& program = correction ? windowsCorrected : windows;
+  if (correction) {
+    counters.clear(0, sizeof(std::uint32_t));
+    program.set(8, static_cast<float>(settings.correctionByInverse));
+    program.set(9, static_cast<float>(settings.correctionByAdjoint));
+  }
+  bindAll({&tiles, &windowRows, &windowWeights, &unmixed, &light, &nodeLight, &sums, &counters});
+  program.set(4, unsignedOf(arrays.tile));
+  const std::size_t pairs = static_cast<std::size_t>(arrays.tile * arrays.tile) / 2;
+  for (const Batch& batch : tileBatches) {
+    const Size size = projectors.size(batch.projector);
+    windowWeights.bind(2, batch.begin, batch.bytes);
+    program.set(0, batch.first);
+    program.set(1, batch.count);
+    program.set(2, arrays.tiles->offset(batch.projector));
+    program.set(3, unsignedOf(arrays.tiles->size(batch.projector).width));
+    program.set(5, unsignedOf(size.width), unsignedOf(size.height));
+    program.set(6, projectors.offset(batch.projector));
+    program.set(7, batch.begin / sizeof(std::uint32_t));
+    program.run(pairs * batch.count);
+  }
+}
+
+void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
+  const NodeLayout& layout = engine.venue.transport.layout();
+  nodeLight.bind(0);
+  for (int level = 1; level < layout.levels(); ++level) {
+    for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector) {
+      if (level >= layout.levels(projector)) continue;
+      const Size pixels = layout.projectors().size(projector), grid = layout.gridSize(projector, level);
+      const int device = static_cast<int>(projector);
+      means.set(0, unsignedOf(pixels.width), unsignedOf(pixels.height));
+      means.set(1, 1u << level);
+      means.set(2, unsignedOf(grid.width), unsignedOf(grid.height));
+      means.set(3, layout.index({device, level, 0, 0}));
+      means.set(4, unsignedOf(layout.gridSize(projector, level - 1).width));
+      means.set(5, layout.index({device, level - 1, 0, 0}));
+      means.run(grid.count());
+    }
+  }
+  bindAll({&nodes, &nodeLight, &columnLight});
+  gather.set(0, columns);
+  gather.run(columns);
+
+  auto overSlices = [](const GlProgram& program, const Slices& slices) {
+    for (const Batch& batch : slices.batches) {
+      slices.leaves.bind(1, batch.begin, batch.bytes);
+      program.set(0, batch.first);
+      program.set(1, batch.count);
+      program.set(2, batch.begin / (LeafSlices::lanes * sizeof(PackedLeaf)));
+      program.run(LeafSlices::lanes * batch.count);
+    }
+  };
+  bindAll({&forward.slices, &forward.leaves, &columnLight, &rows, &wanted, &back, &camera, &unmixed});
+  overSlices(correction ? forwardCorrected : forwardStep, forward);
+  bindAll({&backward.slices, &backward.leaves, &back, &segmentSums});
+  overSlices(correction ? backwardCorrected : backwardStep, backward);
+
+  bindAll({&nodeStart, &segments, &segmentSums, &sums, &longNodes});
+  const GlProgram& sum = correction ? sumCorrected : sumStep;
+  sum.set(0, nodeCount);
+  sum.set(1, SlicedTransport::longNode);
+  sum.run(nodeCount);
+  const GlProgram& sumLong = correction ? sumLongCorrected : sumLongStep;
+  sumLong.set(0, longCount);
+  sumLong.run(group * longCount);
+}
+
+void OpenGlBackend::Objects::spread(bool correction, float length) noexcept {
+  const NodeLayout& layout = engine.venue.transport.layout();
+  const GlProgram& program = correction ? spreadCorrected : spreadStep;
+  counters.clear();
+  bindAll({&sums, &light, &counters, &nodeLight});
+  if (!correction) program.set(0, length);
+  for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector) {
+    const Size size = layout.projectors().size(projector);
+    std::array<std::uint32_t, 64> levels{};
+    for (int level = 0; level < layout.levels(projector); ++level) {
+      auto place = 2 * static_cast<std::size_t>(level);
+      levels[place] = static_cast<std::uint32_t>(layout.index({static_cast<int>(projector), level, 0, 0}));
+      levels[place + 1] = unsignedOf(layout.gridSize(projector, level).width);
+    }
+    program.set(1, layout.projectors().offset(projector));
+    program.set(2, unsignedOf(size.width), unsignedOf(size.height));
+    program.set(3, unsignedOf(layout.levels(projector)));
+    program.setPairs(4, levels);
+    program.run(size.count());
+  }
+}
+
+void OpenGlBackend::Objects::takeStep(float length) noexcept {
+  passThrough(false);
+  spread(false, length);
+}
+
+void OpenGlBackend::Objects::encode() noexcept {
+  const Rasters& projectors = engine.venue.transport.projectors();
+  for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
+    const DriveEncoder& encoder = engine.encoders[projector];
+    const Encoder& tables = encoders[projector];
+    const Size size = projectors.size(projector);
+    bindAll({&light, &tables.first, &tables.lights, &tables.middles, &tables.thresholds, &words});
+    encoding.set(0, projectors.offset(projector));
+    encoding.set(1, unsignedOf(size.width), unsignedOf(size.height));
+    encoding.set(2, unsignedOf(encoder.bits()));
+    encoding.set(3, !encoder.thresholds().empty());
+    encoding.set(4, DriveEncoder::steps);
+    encoding.set(5, DriveEncoder::knee);
+    encoding.set(6, unsignedOf(DriveEncoder::shift));
+    encoding.set(7, unsignedOf(encoder.mostPerStep()));
+    encoding.run(size.count());
+  }
+}
+
+double OpenGlBackend::applyWindows() noexcept {
+  GlContext::Current current(*context_);
+  objects_->refining.take();
+  objects_->invert(false);
+  objects_->refined.take();
+  return objects_->refined.seconds() - objects_->refining.seconds();
+}
+
+double OpenGlBackend::takeStep(float length) noexcept {
+  GlContext::Current current(*context_);
+  objects_->refining.take();
+  objects_->takeStep(length);
+  objects_->refined.take();
+  return objects_->refined.seconds() - objects_->refining.seconds();
+}
+
+std::size_t OpenGlBackend::transportBytes() const {
+  return objects_->transportBytes();
+}
+
+double OpenGlBackend::copyBandwidth() {
+  GlContext::Current current(*context_);
+  const std::size_t bytes = std::min(std::size_t{1} << 28, GlBuffer::largest() / 16 * 16);
+  constexpr std::size_t bytesOfAnInvocation = 16;
+  constexpr int copies = 8;
+  const GlProgram program(shaders::copy);
+  const GlBuffer from(bytes), to(bytes);
+  const GlTimestamp begin = GlTimestamp::make(), end = GlTimestamp::make();
+  bindAll({&from, &to});
+  program.set(0, bytes / bytesOfAnInvocation);
+  double best = 0.0;
+  for (int copy = 0; copy < copies; ++copy) {
+    begin.take();
+    program.run(bytes / bytesOfAnInvocation);
+    end.take();
+    best = std::max(best, 2.0 * static_cast<double>(bytes) / (end.seconds() - begin.seconds()));
+  }
+  return best;
+}
+
+}  // namespace relucent

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Content into the camera's view, and what is wanted there.
+layout(std430, binding = 0) readonly buffer Content { uint content[]; };
+layout(std430, binding = 1) readonly buffer Footprints { uint footprint[]; };  // 5 words a camera pixel
+layout(std430, binding = 2) readonly buffer Weights { uint weightPair[]; };
+layout(std430, binding = 3) readonly buffer Camera { vec4 camera[]; };
+layout(std430, binding = 4) writeonly buffer Wanted { vec4 wanted[]; };  // less black; and the weight
+layout(std430, binding = 5) writeonly buffer Unmixed { vec4 unmixed[]; };
+layout(std430, binding = 6) writeonly buffer Placed { vec4 placed[]; };
+layout(std430, binding = 7) readonly buffer LinearOfSrgb { float linearOfSrgb[]; };
+
+layout(location = 0) uniform uint pixels;
+layout(location = 1) uniform uint format;  // as ContentFrame::Format
+layout(location = 2) uniform uint bytesPerLine;
+layout(location = 3) uniform float white;
+layout(location = 4) uniform float lift;
+layout(location = 5) uniform float unreachableWeight;
+layout(location = 6) uniform mat3 mixing;
+
+const uint rgb8 = 0u, rgba8 = 1u, bgra8 = 2u;
+
+float encodedAt(uint place) {
+  return linearOfSrgb[(content[place >> 2] >> (8u * (place & 3u))) & 255u];
+}
+
+vec3 contentAt(uint x, uint y) {
+  uint line = y * bytesPerLine;
+  if (format == rgb8) {
+    uint place = line + 3u * x;
+    return vec3(encodedAt(place), encodedAt(place + 1u), encodedAt(place + 2u));
+  }
+  if (format == rgba8 || format == bgra8) {
+    uint word = content[(line >> 2) + x];
+    vec3 light = vec3(linearOfSrgb[word & 255u], linearOfSrgb[(word >> 8) & 255u],
+                      linearOfSrgb[(word >> 16) & 255u]);
+    return format == rgba8 ? light : light.bgr;
+  }
+  uint place = (line >> 2) + 3u * x;
+  return clampLight(uintBitsToFloat(uvec3(content[place], content[place + 1u], content[place + 2u])));
+}
+
+void main() {
+  uint i = invocation();
+  if (i >= pixels) return;
+  uint left = footprint[5u * i], top = footprint[5u * i + 1u], size = footprint[5u * i + 2u];
+  uint width = size & 0xffffu, height = size >> 16;
+  if (width == 0u) return;
+
+  uint weight = footprint[5u * i + 3u];
+  vec3 mean = vec3(0.0);
+  for (uint y = top; y < top + height; ++y) {
+    for (uint x = left; x < left + width; ++x, ++weight) {
+      uint code = (weightPair[weight >> 1] >> (16u * (weight & 1u))) & 0xffffu;
+      mean += float(code) * contentAt(x, y);
+    }
+  }
+  mean *= uintBitsToFloat(footprint[5u * i + 4u]);
+
+  uint c = cameraStride * i;
+  vec4 black = camera[c + cameraBlack];
+  vec3 flood = camera[c + cameraFlood].xyz;
+  vec3 value = white * (lift + (1.0 - lift) * (mixing * mean));
+  bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
+  vec3 rest = value - black.xyz;
+  placed[i] = vec4(mean, 0.0);
+  wanted[i] = vec4(rest, black.w > 0.0 ? (reachable ? 1.0 : unreachableWeight) : 0.0);
+  mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
+  unmixed[i] = vec4(unmix * clamp(rest, vec3(0.0), max(flood, vec3(0.0))), 0.0);
+}

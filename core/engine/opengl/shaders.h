@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+/// The texts of the .comp files beside this one, which the build puts into the library.
+namespace relucent::shaders {
+
+extern const std::string_view common, place, windows, means, gather, forward, backward, sum_nodes, spread,
+    brightness, show_placed, encode, copy;
+
+}  // namespace relucent::shaders

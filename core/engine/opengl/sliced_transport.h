@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/packed_transport.h"
+
+namespace relucent {
+
+/// Rows of leaves in slices of 32, as a graphics card reads them: of all rows of a slice the first leaves,
+/// one behind the other, then all second ones. Rows of a patch are sorted by their length, so that hardly
+/// anything is filled up; what is filled up has codes 0. ("SELL-C-sigma": Kreutzer et al. 2014.)
+struct LeafSlices {
+  static constexpr std::uint32_t lanes = 32;
+  /// Where a slice's leaves begin, in units of 32; and what its leaves' places count from.
+  struct Slice {
+    std::uint32_t leaf = 0, base = 0;
+  };
+  std::vector<Slice> slices;  // and one behind the last
+  std::vector<PackedLeaf> leaves;
+
+  std::size_t count() const { return slices.empty() ? 0 : slices.size() - 1; }
+};
+
+/// PackedTransport for graphics cards: the same 8 bytes a leaf, once by camera pixels for T p and once by
+/// nodes for the adjoint, which so needs no atomic additions: sums are taken in the same order every time.
+struct SlicedTransport {
+  /// A camera pixel's place in its slice. `pixel` is noPixel where a slice was filled up.
+  struct Row {
+    std::uint32_t pixel = noPixel;
+    std::array<float, 9> mixing{};
+  };
+  static constexpr std::uint32_t noPixel = 0xffffffffu;
+
+  LeafSlices forward;                              // places: columns of the patch
+  std::vector<Row> rows;                           // 32 a slice of `forward`
+  LeafSlices backward;                             // places: rows of the patch, in the order of `rows`
+  std::vector<std::uint32_t> nodeStart, segments;  // of node n: [nodeStart[n], nodeStart[n + 1]) of segments,
+                                                   // 32 to a slice of `backward`
+  std::vector<std::uint32_t> longNodes;            // with `longNode` segments or more
+
+  static constexpr std::uint32_t longestSegment = 64;  // leaves
+  static constexpr std::uint32_t longNode = 64;        // segments
+};
+
+SlicedTransport slicedTransport(const PackedTransport& packed, std::size_t nodes);
+
+}  // namespace relucent

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <QtTest>
+
+#include "base/error.h"
+#include "core/engine/engine_backends.h"
+#include "engine/fallback_backend.h"
+
+using namespace relucent;
+using namespace relucent::synthetic;
+
+namespace {
+
+/// Does as another back end does, until it is lost.
+class FailingBackend : public EngineBackend {
+ public:
+  FailingBackend(const EngineVenue& engine, int frames, bool takesContent = true)
+      : cpu_(engine), frames_(frames), takesContent_(takesContent) {}
+  std::string_view name() const override { return "scripted"; }
+  void setContent(const EngineContent& content) override {
+    if (!takesContent_) throw Error(ErrorKind::device, "no memory left", "try again");
+    cpu_.setContent(content);
+  }
+  bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
+              FrameReport& report) noexcept override {
+    if (frames_-- <= 0) return false;
+    return cpu_.render(frame, request, words, report);
+  }
+
+ private:
+  CpuBackend cpu_;
+  int frames_;
+  bool takesContent_;
+};
+
+}  // namespace
+
+class TestFallbackBackend : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void losesNoFrame_data() {
+    QTest::addColumn<int>("goodFrames");
+    QTest::addColumn<bool>("takesContent");
+    QTest::newRow("the first frame") << 0 << true;
+    QTest::newRow("the third frame") << 2 << true;
+    QTest::newRow("never") << 100 << true;
+    QTest::newRow("the content") << 100 << false;
+  }
+  /// All frames are what the other back end makes of them, and one sentence says that it took over.
+  void losesNoFrame() {
+    QFETCH(int, goodFrames);
+    QFETCH(bool, takesContent);
+    EngineScene made = engineSceneOf("wall");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    Image content = makeContent(Content::natural, {37, 28}, 3);
+    EngineContent placed = prepareContent(engine, content.size());
+    CpuBackend alone(engine);
+    alone.setContent(placed);
+    std::vector<std::string> told;
+    FallbackBackend backend(
+        std::make_unique<FailingBackend>(engine, goodFrames, takesContent),
+        [&] { return std::make_unique<CpuBackend>(engine); },
+        [&](const std::string& sentence) { told.push_back(sentence); });
+    backend.setContent(placed);
+    for (int frame = 0; frame < 5; ++frame) {
+      const FrameRequest request{true, frame % 3, 1.0f, 0.0f};
+      std::vector<std::uint32_t> words(engine.brightest.size()), expected(words.size());
+      FrameReport report;
+      QVERIFY(backend.render(frameOf(content), request, words, report));
+      alone.render(frameOf(content), request, expected, report);
+      QVERIFY(words == expected);
+    }
+    const bool lost = goodFrames < 5 || !takesContent;
+    QCOMPARE(told.size(), std::size_t{lost ? 1u : 0u});
+    if (lost) QVERIFY(told[0].starts_with("scripted: ") && told[0].find("CPU") != std::string::npos);
+    QCOMPARE(backend.name().starts_with("CPU"), lost);
+  }
+
+  void bothLost() {
+    EngineScene made = engineSceneOf("wall");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    Image content = makeContent(Content::natural, {12, 9}, 3);
+    EngineContent placed = prepareContent(engine, content.size());
+    FallbackBackend backend(std::make_unique<FailingBackend>(engine, 0),
+                            [&] { return std::make_unique<FailingBackend>(engine, 1); }, {});
+    backend.setContent(placed);
+    std::vector<std::uint32_t> words(engine.brightest.size());
+    FrameReport report;
+    QVERIFY(backend.render(frameOf(content), {}, words, report));
+    QVERIFY(!backend.render(frameOf(content), {}, words, report));
+
+    FallbackBackend helpless(
+        std::make_unique<FailingBackend>(engine, 0),
+        []() -> std::unique_ptr<EngineBackend> { throw Error(ErrorKind::memory, "none", "buy some"); }, {});
+    helpless.setContent(placed);
+    QVERIFY(!helpless.render(frameOf(content), {}, words, report));
+    QVERIFY(!helpless.render(frameOf(content), {}, words, report));
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, FallbackBackend(nullptr, {}, {}));
+  }
+
+  /// A graphics card that goes in the middle of a show, as far as that can be had here.
+  void graphicsCardLost() {
+    SKIP_WHERE_MISSING("OpenGL");
+    EngineScene made = engineSceneOf("defocus");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    Image content = makeContent(Content::text, {37, 28}, 3);
+    EngineContent placed = prepareContent(engine, content.size());
+    auto first = std::make_unique<OpenGlBackend>(engine, std::make_unique<GlContext>(GlContext::Device::any));
+    OpenGlBackend* card = first.get();
+    int told = 0;
+    FallbackBackend backend(
+        std::move(first), [&] { return std::make_unique<CpuBackend>(engine); },
+        [&](const std::string&) { ++told; });
+    backend.setContent(placed);
+    std::vector<std::uint32_t> before(engine.brightest.size()), after(before.size());
+    FrameReport report;
+    QVERIFY(backend.render(frameOf(content), {}, before, report));
+    QVERIFY(backend.name().starts_with("OpenGL"));
+    card->loseDevice();
+    QVERIFY(backend.render(frameOf(content), {}, after, report));
+    QVERIFY(backend.name().starts_with("CPU"));
+    QCOMPARE(told, 1);
+    // Rounding to other levels where a value lies between two: see test_backends.
+    QVERIFY(mostApart(before, after) <= 1);
+  }
+
+  void choice() {
+    EngineScene made = engineSceneOf("wall");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    QVERIFY(makeBackend(engine, BackendChoice::cpu, {})->name().starts_with("CPU"));
+    // A processor that pretends to be a graphics card is no reason to leave the back end made for it.
+    std::unique_ptr<EngineBackend> automatic = makeBackend(engine, BackendChoice::automatic, {});
+    QVERIFY(!isSoftwareRenderer(std::string(automatic->name())));
+    SKIP_WHERE_MISSING("OpenGL");
+    QVERIFY(makeBackend(engine, BackendChoice::openGl, {})->name().starts_with("OpenGL"));
+  }
+
+  void softwareRenderers_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<bool>("software");
+    QTest::newRow("llvmpipe") << "llvmpipe (LLVM 15.0.6, 256 bits)" << true;
+    QTest::newRow("softpipe") << "softpipe" << true;
+    QTest::newRow("Mesa's oldest") << "Software Rasterizer" << true;
+    QTest::newRow("swrast") << "SWRast" << true;
+    QTest::newRow("NVIDIA") << "NVIDIA GeForce RTX 3060/PCIe/SSE2" << false;
+    QTest::newRow("AMD") << "AMD Radeon RX 6600 (navi23, LLVM 15.0.6, DRM 3.49)" << false;
+    QTest::newRow("Intel") << "Mesa Intel(R) UHD Graphics 630 (CFL GT2)" << false;
+  }
+  void softwareRenderers() {
+    QFETCH(QString, name);
+    QFETCH(bool, software);
+    QCOMPARE(isSoftwareRenderer(name.toStdString()), software);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestFallbackBackend)
+#include "test_fallback_backend.moc"

@@ -75,6 +75,18 @@ Problems problems(const CalibrateSettings& settings) {
   append(found, problems(settings.linearization));
   append(found, problems(settings.acquisition));
   append(found, problems(settings.windows));
+  append(found, problems(settings.clustering));
+  append(found, problems(settings.content));
+  return found;
+}
+
+Problems problems(const ContentSettings& settings) {
+  Problems found;
+  checkMethod(found, settings.method);
+  TargetSettings target;
+  target.reachablePercentile = settings.reachablePercentile;
+  target.blackLift = settings.blackLift;
+  checkTarget(found, target);
   return found;
 }
 

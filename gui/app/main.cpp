@@ -2,8 +2,10 @@
 #include <QGuiApplication>
 
 #include "app/show_command.h"
+#include "app/wizard_command.h"
 
 int main(int argc, char** argv) {
+  if (relucent::asksForWizard(argc, argv)) return relucent::runWizardCommand(argc, argv);
   QGuiApplication application(argc, argv);
   QGuiApplication::setApplicationName("relucent");
   QGuiApplication::setApplicationVersion(RELUCENT_VERSION);

@@ -62,7 +62,7 @@ void StatusStrip::refresh() {
     if (const auto& result = session_.result(step))
       latest = std::max(latest, QString::fromStdString(result->stored));
   QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
-  saved_->setText(when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time()))
+  saved_->setText(when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
                                  : QString());
 }
 

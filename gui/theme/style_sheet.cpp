@@ -57,16 +57,15 @@ QPushButton[role="segment"] { background: {input}; border: 1px solid {border}; b
 QPushButton[role="segment"]:checked { background: {accentGround}; border-color: {accent}; color: {text}; }
 QPushButton[role="segment"]:focus { border: 2px solid {text}; min-height: 26px; padding: 0 11px; }
 QPushButton[role="choice"] { background: {input}; border: 1px solid {line}; border-radius: 6px; padding: 0 12px;
-  text-align: left; font-weight: 400; }
+  text-align: left; font-weight: 400; min-height: 50px; }
 QPushButton[role="choice"]:checked { background: {accentGround}; border-color: {accent}; }
 QPushButton[role="choice"]:hover { border-color: {border}; }
-QPushButton[role="choice"]:focus { border: 2px solid {text}; padding: 0 11px; }
+QPushButton[role="choice"]:focus { border: 2px solid {text}; padding: 0 11px; min-height: 48px; }
 
 QLineEdit, QComboBox, QSpinBox, QDoubleSpinBox { background: {input}; border: 1px solid {border}; border-radius: 6px;
   padding: 0 10px; min-height: 32px; selection-background-color: {accent}; selection-color: {onAccent}; }
 QLineEdit:focus, QComboBox:focus, QSpinBox:focus, QDoubleSpinBox:focus { border: 2px solid {text}; padding: 0 9px;
   min-height: 30px; }
-QComboBox::drop-down { border: none; width: 24px; }
 QComboBox QAbstractItemView { background: {raised}; border: 1px solid {border}; selection-background-color: {accentGround};
   selection-color: {text}; outline: none; }
 QCheckBox { spacing: 10px; }
@@ -87,6 +86,7 @@ QProgressBar::chunk { background: {accent}; }
 QTableWidget { background: transparent; border: none; gridline-color: transparent; selection-background-color: {accentGround};
   selection-color: {text}; }
 QTableWidget:focus { border: 2px solid {text}; border-radius: 6px; }
+QHeaderView { background: transparent; }
 QHeaderView::section { background: transparent; border: none; color: {secondary}; font-size: 12px; padding: 2px 8px; }
 QToolTip { background: {raised}; color: {text}; border: 1px solid {border}; padding: 4px 8px; }
 QScrollBar:vertical { background: transparent; width: 10px; }

@@ -40,14 +40,11 @@ QImage overlayOf(const CameraLook& look, const Region& area) {
 
 std::vector<Curve> histogramOf(const PhotographCheck& check) {
   std::vector<Curve> curves;
-  const char* names[] = {QT_TRANSLATE_NOOP("relucent::CameraPage", "Red"),
-                         QT_TRANSLATE_NOOP("relucent::CameraPage", "Green"),
-                         QT_TRANSLATE_NOOP("relucent::CameraPage", "Blue")};
   const QColor& (*tints[])() = {[]() -> const QColor& { return colours().red; },
                                 []() -> const QColor& { return colours().green; },
                                 []() -> const QColor& { return colours().blue; }};
   for (std::size_t c = 0; c < 3; ++c) {
-    Curve curve{CameraPage::tr(names[c]), tints[c], Marker::none, {}, {}};
+    Curve curve{QString(), tints[c], Marker::none, {}, {}};
     for (std::size_t i = 0; i < PhotographCheck::bins; ++i)
       curve.line.emplace_back((static_cast<double>(i) + 0.5) / PhotographCheck::bins,
                               1.0 + static_cast<double>(check.histogram[c][i]));
@@ -135,7 +132,7 @@ class CameraInspector {
   static QWidget* make(CameraPage& model) {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
-    column->addWidget(labelOf(CameraPage::tr("Light in this exposure"), "section"));
+    column->addWidget(labelOf(CameraPage::tr("Light in this exposure: red, green, blue"), "section"));
     auto* histogram = new LineChart({0.0, 1.0, false, CameraPage::tr("Signal")}, {1.0, 1e4, true, {}});
     histogram->setFixedHeight(150);
     histogram->setMark(0.97);

@@ -109,7 +109,7 @@ QString OutputPage::hint() const {
   if (screens_.size() < 2 && !isOpen())
     return tr("There is one screen only. The output will cover it; Esc closes the output.");
   if (!chosen_) return tr("Choose the projector's screen.");
-  if (isOpen()) return tr("Playing. C compares, space freezes, B is black.");
+  if (isOpen()) return tr("Playing. At the projector, C compares, space freezes, B is black, Esc closes.");
   return tr("Nothing is projected before you open the output.");
 }
 

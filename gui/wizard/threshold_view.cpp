@@ -41,7 +41,7 @@ class Pictures : public QWidget {
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(space::gap);
     auto* camera = new Card(ThresholdPage::tr("Camera view"));
-    camera->setSubtitle(ThresholdPage::tr("click a pixel to see where its light comes from"));
+    camera->setSubtitle(ThresholdPage::tr("click a pixel"));
     flood_ = new ImageView;
     flood_->setObjectName("flood-view");
     flood_->setAccessibleName(ThresholdPage::tr("The surface in full light"));

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   photographs.take("04-acquire");
   steps.go(4);
   until([&] { return wizard.threshold().kept() && wizard.threshold().whole(); });
-  wizard.threshold().pick({60, 60});
+  wizard.threshold().pick({82, 70});
   until([&] { return wizard.threshold().footprint() != nullptr; });
   wizard.threshold().useSuggested();
   QTest::qWait(300);

@@ -171,7 +171,9 @@ class KeepingPart : public QWidget {
     folder_->setAccessibleName(VenuePage::tr("Folder that holds the venue"));
     row->addWidget(folder_, 1);
     auto* browse = new QToolButton;
-    browse->setIcon(iconOf(Icon::folder, colours().text));
+    auto paint = [browse] { browse->setIcon(iconOf(Icon::folder, colours().text)); };
+    connect(&Theme::instance(), &Theme::changed, browse, paint);
+    paint();
     browse->setAccessibleName(VenuePage::tr("Choose a folder"));
     row->addWidget(browse);
     column->addLayout(row);
@@ -318,6 +320,7 @@ QWidget* scriptInspector(VenuePage& model) {
   for (int Size::*side : {&Size::width, &Size::height}) {
     auto* box = new QSpinBox;
     box->setRange(8, 8192);
+    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
     box->setValue(model.script().projector.*side);
     box->setAccessibleName(side == &Size::width ? VenuePage::tr("Width") : VenuePage::tr("Height"));
     QObject::connect(box, &QSpinBox::valueChanged, &model, [&model, side](int value) {

@@ -62,15 +62,29 @@ std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition) {
   return usable;
 }
 
-MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSettings& threshold) {
+namespace {
+
+MeasuredVenue venueOf(TransportMatrix transport, const Acquisition& acquisition) {
   MeasuredVenue venue;
   venue.usable = usablePixels(acquisition);
-  venue.transport = thresholded(std::exchange(acquisition.transport, {}), threshold, acquisition.flood);
+  venue.transport = std::move(transport);
   venue.black = acquisition.black;
   venue.flood = acquisition.flood;
   Progress quiet;
   venue.direct = directlyLit(directLooks(venue.transport, {}, quiet));
   return venue;
+}
+
+}  // namespace
+
+MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSettings& threshold) {
+  TransportMatrix transport =
+      thresholded(std::exchange(acquisition.transport, {}), threshold, acquisition.flood);
+  return venueOf(std::move(transport), acquisition);
+}
+
+MeasuredVenue measuredVenueOf(const Acquisition& acquisition, const ThresholdSettings& threshold) {
+  return venueOf(thresholded(acquisition.transport, threshold, acquisition.flood), acquisition);
 }
 
 namespace {

@@ -29,6 +29,8 @@ std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition);
 /// What compensation needs to know, out of what acquisition measured: T is taken out of `acquisition`,
 /// thresholded and rescaled to the flood image.
 MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSettings& threshold);
+/// The same for somebody who needs T once more, with another threshold.
+MeasuredVenue measuredVenueOf(const Acquisition& acquisition, const ThresholdSettings& threshold);
 
 /// Reads what was measured, without inverting it. Throws: as loadCalibration().
 MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progress);

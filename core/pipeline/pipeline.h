@@ -54,6 +54,18 @@ struct ImportedRigSettings {
 /// How the rig is made: a simulated venue, external programs, or none at all.
 using RigSettings = std::variant<VenueSettings, CommandRigSettings, ImportedRigSettings>;
 
+/// What is shown in a calibrated venue, and how.
+struct ContentSettings {
+  std::string picture;                // a file; empty: the product's own
+  std::string method = "refined";     // a name from methodDescriptions
+  double reachablePercentile = 15.0;  // as TargetSettings
+  double blackLift = 0.0;
+  Fit fit = Fit::fit;
+};
+std::vector<std::string> problems(const ContentSettings& settings);
+/// How content is fitted that was decided on so.
+TargetSettings targetOf(const ContentSettings& settings);
+
 struct CalibrateSettings {
   RigSettings rig;
   LinearizationSettings linearization;
@@ -61,6 +73,8 @@ struct CalibrateSettings {
   ThresholdSettings threshold;  // none by default: every leaf that was measured counts
   WindowSettings windows;
   bool chooseRidge = true;  // windows.ridge is where the search for the best one starts
+  ClusteringSettings clustering = CompensatorSettings().clustering;  // of the cluster maps
+  ContentSettings content;
 };
 /// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.
 std::vector<std::string> problems(const CalibrateSettings& settings);

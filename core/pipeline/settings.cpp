@@ -76,7 +76,24 @@ Problems problems(const CalibrateSettings& settings) {
   append(found, problems(settings.linearization));
   append(found, problems(settings.acquisition));
   append(found, problems(settings.windows));
+  append(found, problems(settings.clustering));
+  append(found, problems(settings.content));
   return found;
+}
+
+Problems problems(const ContentSettings& settings) {
+  Problems found;
+  checkMethod(found, settings.method);
+  checkTarget(found, targetOf(settings));
+  return found;
+}
+
+TargetSettings targetOf(const ContentSettings& settings) {
+  TargetSettings target;
+  target.fit = settings.fit;
+  target.reachablePercentile = settings.reachablePercentile;
+  target.blackLift = settings.blackLift;
+  return target;
 }
 
 std::vector<std::string> problems(const VerifySettings& settings) {

@@ -18,6 +18,15 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, scheme, col
                                                 verificationPatterns, flagRelative, flagSigmas, seed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax, energyKept)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
+NLOHMANN_JSON_SERIALIZE_ENUM(Rescaling, {{Rescaling::patches, "patches"}, {Rescaling::rows, "rows"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(SizeCap, {{SizeCap::always, "always"},
+                                       {SizeCap::whenPercolated, "when_percolated"},
+                                       {SizeCap::never, "never"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ClusteringSettings, leastLuminance, leastShare, patchRadius,
+                                                patchCut, rescaling, cap, mostUnknowns)
+NLOHMANN_JSON_SERIALIZE_ENUM(Fit, {{Fit::fit, "fit"}, {Fit::fill, "fill"}, {Fit::cover, "cover"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContentSettings, picture, method, reachablePercentile,
+                                                blackLift, fit)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,
                                                 gamma, vignetting, fullWell, readElectrons, ambient, drift,
                                                 whiteSegment, flicker, cameraGamma)
@@ -105,7 +114,9 @@ Json stagesToJson(const CalibrateSettings& settings) {
                      {"acquisition", settings.acquisition},
                      {"threshold", settings.threshold},
                      {"windows", settings.windows},
-                     {"choose_ridge", settings.chooseRidge}});
+                     {"choose_ridge", settings.chooseRidge},
+                     {"clustering", settings.clustering},
+                     {"content", settings.content}});
 }
 
 void stagesFromJson(const Json& json, CalibrateSettings& settings) {
@@ -116,6 +127,8 @@ void stagesFromJson(const Json& json, CalibrateSettings& settings) {
     settings.threshold = sorted.value("threshold", settings.threshold);
     settings.windows = sorted.value("windows", settings.windows);
     settings.chooseRidge = sorted.value("choose_ridge", settings.chooseRidge);
+    settings.clustering = sorted.value("clustering", settings.clustering);
+    settings.content = sorted.value("content", settings.content);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -159,6 +160,22 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
     }
   });
   return norms;
+}
+
+double strengthOfBin(std::size_t bin) {
+  return std::pow(
+      10.0, StrengthHistogram::lowestDecade + static_cast<double>(bin) / StrengthHistogram::binsPerDecade);
+}
+
+double cutKeeping(const StrengthHistogram& histogram, double share) {
+  double all = std::accumulate(histogram.energy.begin(), histogram.energy.end(), 0.0);
+  double below = 0.0, cut = 0.0;
+  for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
+    if (!(all > 0.0) || below > (1.0 - share) * all) break;
+    cut = below > 0.0 ? strengthOfBin(bin) : 0.0;
+    below += histogram.energy[bin];
+  }
+  return cut;
 }
 
 }  // namespace relucent

@@ -27,6 +27,12 @@ struct StrengthHistogram {
   std::array<double, bins> energy{};
 };
 
+/// The strength at the lower edge of a bin.
+double strengthOfBin(std::size_t bin);
+/// The highest edge of a bin below which lies at most 1 - `share` of the light: the cut that a histogram
+/// suggests. 0 where there is no light.
+double cutKeeping(const StrengthHistogram& histogram, double share);
+
 /// What T holds, or would hold after a threshold.
 struct TransportStatistics {
   std::uint64_t leaves = 0;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "calibration/calibration_folder.h"
+#include "pipeline/stages.h"
 
 namespace relucent {
 namespace {
@@ -22,6 +23,8 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
   calibration_ = loadCalibration(folder, progress);
   EngineSettings settings;
+  settings.target = targetOf(settingsOf(folder).content);
+  settings.target.fit = Fit::fill;  // the canvas has the shape already
   venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
                               settings));
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});

@@ -21,7 +21,8 @@ namespace relucent {
 class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
-  /// offset follow the content, see AdaptiveRange.
+  /// offset follow the content, see AdaptiveRange. Brightness and black are those that the calibration keeps
+  /// for its content.
   /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
                  Progress& progress, BackendChoice choice = BackendChoice::automatic);

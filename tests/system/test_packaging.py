@@ -145,6 +145,13 @@ class Run(Scripted):
         self.assertEqual(self.deeds()[-2:], ["evaluate", "report"])
         self.assertIn(f"{self.folder}/build/rehearsal/report.html", done.stdout)
 
+    def test_with_a_display_it_opens_the_wizard(self):
+        self.program("relucent", "true")
+        for display in ["DISPLAY", "WAYLAND_DISPLAY"]:
+            self.says(calls="")
+            self.assertEqual(self.run_it(**{display: "anything"}).returncode, 0)
+            self.assertEqual([call.strip() for call in self.calls()], ["relucent"])
+
     def test_again_it_goes_on_from_the_calibration_that_is_there(self):
         self.run_it()
         self.says(calls="")

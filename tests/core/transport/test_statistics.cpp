@@ -167,6 +167,25 @@ class TestStatistics : public QObject {
     QVERIFY_EXCEPTION_THROWN(thresholded(transport, {absolute, share, energy}, transport.floodlight()),
                              Error);
   }
+
+  void theSuggestedCutLeavesOutNoMoreThanAllowed_data() {
+    QTest::addColumn<double>("share");
+    for (double share : {0.5, 0.9, 0.995, 1.0}) QTest::newRow(qPrintable(QString::number(share))) << share;
+  }
+  void theSuggestedCutLeavesOutNoMoreThanAllowed() {
+    QFETCH(double, share);
+    StrengthHistogram histogram;
+    histogram.energy[10] = 1.0;
+    histogram.energy[11] = 3.0;
+    histogram.energy[14] = 96.0;
+    double cut = cutKeeping(histogram, share), below = 0.0;
+    for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin)
+      if (strengthOfBin(bin) < cut) below += histogram.energy[bin] / 100.0;
+    QVERIFY(below <= 1.0 - share + 1e-12);
+    QCOMPARE(cutKeeping(StrengthHistogram(), share), 0.0);
+    if (share == 0.9) QCOMPARE(cut, strengthOfBin(14));
+    if (share == 1.0) QCOMPARE(cut, 0.0);
+  }
 };
 
 QTEST_APPLESS_MAIN(TestStatistics)

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/measuring.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/stopwatch.h"
+#include "calibration/results.h"
+#include "calibration/shot_journal.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/settings_json.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+/// What a stage's run cost, kept with its result.
+Json cost(const Stopwatch& watch, const ShotTaker* shots) {
+  Json values{{"seconds", watch.seconds()}};
+  values["patterns"] = shots != nullptr ? shots->shots() : 0;
+  values["exposures"] = shots != nullptr ? shots->exposures() : 0;
+  return values;
+}
+
+fs::path unusedFolder(const fs::path& parent) {
+  for (int number = 1;; ++number) {
+    fs::path folder = parent / fmt::format("earlier-{}", number);
+    std::error_code code;
+    if (!fs::exists(folder, code)) return folder;
+  }
+}
+
+}  // namespace
+
+CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  return CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+}
+
+Linearization measureLinearization(CalibrationFolder& folder, Rig& rig, Progress& progress) {
+  std::string inputs = linearizationFingerprint(folder);
+  if (auto done = folder.find(stage::linearization, inputs)) return loadLinearization(*done);
+  Stopwatch watch;
+  ShotJournal journal(folder.shotFolder());
+  ShotTaker shots(rig, journal, stage::linearization);
+  Linearization linearization = linearize(shots, settingsOf(folder).linearization, progress);
+  storeLinearization(folder, inputs, linearization, cost(watch, &shots));
+  return linearization;
+}
+
+Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
+                               const AlarmHandler& handler, Progress& progress) {
+  std::string inputs = acquisitionFingerprint(folder);
+  if (auto done = folder.find(stage::acquisition, inputs)) return loadAcquisition(*done);
+  Stopwatch watch;
+  ShotJournal journal(folder.shotFolder());
+  ShotTaker shots(rig, journal, stage::acquisition);
+  Acquisition acquisition = acquire(shots, linearization, settingsOf(folder).acquisition, handler, progress);
+  storeAcquisition(folder, inputs, acquisition, cost(watch, &shots));
+  return acquisition;
+}
+
+void measureInverse(CalibrationFolder& folder, const MeasuredVenue& venue, Progress& progress) {
+  std::string inputs = inverseFingerprint(folder);
+  if (folder.isCurrent(stage::inverse, inputs)) return;
+  Stopwatch watch;
+  RidgeChoice choice = invert(venue, settingsOf(folder), progress);
+  Json curve = Json::array();
+  for (const RidgeTrial& trial : choice.curve)
+    curve.push_back({{"ridge", trial.ridge}, {"psnr", trial.psnr}});
+  // The operator itself is not stored: making it again is quicker than reading it. What is kept is how it is
+  // made: the ridge, and the trials that chose it.
+  folder.store(stage::inverse, inputs,
+               Json{{"ridge", choice.ridge},
+                    {"curve", curve},
+                    {"bytes", choice.inverse.bytes()},
+                    {"cost", cost(watch, nullptr)}});
+}
+
+void setShotsAside(const CalibrationFolder& folder, const std::string& stageName) {
+  std::vector<fs::path> shots;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
+    if (entry.is_regular_file(code) && entry.path().filename().string().starts_with(stageName + "-"))
+      shots.push_back(entry.path());
+  if (shots.empty()) return;
+  fs::path aside = unusedFolder(folder.shotFolder());
+  createFolder(aside);
+  for (const fs::path& shot : shots) {
+    fs::rename(shot, aside / shot.filename(), code);
+    if (code)
+      throw Error(ErrorKind::disk, fmt::format("a photograph cannot be moved ({})", code.message()),
+                  "check that the folder may be written to, then try again", shot.string());
+  }
+}
+
+}  // namespace relucent

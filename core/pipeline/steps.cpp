@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/steps.h"
+
+#include "base/error.h"
+#include "pipeline/settings_json.h"
+#include "pipeline/stages.h"
+
+namespace relucent {
+namespace {
+
+std::string chained(const CalibrationFolder& folder, const std::string& before, const char* section) {
+  return fingerprintOf(Json{{"inputs", before},
+                            {"stage", section},
+                            {"settings", folder.settings().value(section, Json::object())}});
+}
+
+}  // namespace
+
+const char* toString(Step step) {
+  switch (step) {
+    case Step::camera:
+      return "camera";
+    case Step::linearization:
+      return stage::linearization;
+    case Step::acquisition:
+      return stage::acquisition;
+    case Step::threshold:
+      return "threshold";
+    case Step::clustering:
+      return "clustering";
+    case Step::content:
+      break;
+  }
+  return "content";
+}
+
+std::string fingerprintOf(const CalibrationFolder& folder, Step step) {
+  switch (step) {
+    case Step::camera:
+      return fingerprintOf(folder.rig());
+    case Step::linearization:
+      return linearizationFingerprint(folder);
+    case Step::acquisition:
+      return acquisitionFingerprint(folder);
+    case Step::threshold:
+      return chained(folder, acquisitionFingerprint(folder), toString(step));
+    case Step::clustering:
+    case Step::content:
+      break;
+  }
+  return chained(folder, fingerprintOf(folder, Step::threshold), toString(step));
+}
+
+StepProgress progressOf(const CalibrationFolder& folder, Step step) {
+  if (folder.isCurrent(toString(step), fingerprintOf(folder, step))) return StepProgress::done;
+  return folder.latest(toString(step)) ? StepProgress::stale : StepProgress::open;
+}
+
+std::optional<StageResult> resultOf(const CalibrationFolder& folder, Step step) {
+  if (auto current = folder.find(toString(step), fingerprintOf(folder, step))) return current;
+  return folder.latest(toString(step));
+}
+
+void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings) {
+  // Sections of other versions stay.
+  Json changed = folder.settings();
+  changed.update(stagesToJson(settings));
+  folder.setSettings(std::move(changed));
+}
+
+void storeDecision(CalibrationFolder& folder, Step step, Json values) {
+  require(step != Step::linearization && step != Step::acquisition, "{} is measured, not decided",
+          toString(step));
+  folder.store(toString(step), fingerprintOf(folder, step), std::move(values));
+}
+
+}  // namespace relucent

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "calibration/calibration_folder.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// What a person does with a calibration, in order. Some steps measure; at the others somebody looks at a
+/// result and decides. Both leave a result in the calibration (StageResult), named by toString().
+enum class Step { camera, linearization, acquisition, threshold, clustering, content };
+inline constexpr std::array allSteps{Step::camera,    Step::linearization, Step::acquisition,
+                                     Step::threshold, Step::clustering,    Step::content};
+/// "camera", "linearization", ...: names of the stages for those that measure.
+const char* toString(Step step);
+
+/// Everything that a step's result depends on: the devices, and the settings of this step and of all before
+/// it that measure or cut. Clusters and content both hang on the threshold, not on each other.
+std::string fingerprintOf(const CalibrationFolder& folder, Step step);
+
+/// Where a step stands.
+enum class StepProgress { open, stale, done };
+StepProgress progressOf(const CalibrationFolder& folder, Step step);
+
+/// The newest result for the settings as they are, else the newest of all; none if the step was never done.
+std::optional<StageResult> resultOf(const CalibrationFolder& folder, Step step);
+
+/// Changes what later runs are asked for, and nothing else: the rig is what the calibration was begun with.
+void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings);
+
+/// Keeps that a step at which somebody decides is done, with figures for people.
+void storeDecision(CalibrationFolder& folder, Step step, Json values);
+
+}  // namespace relucent

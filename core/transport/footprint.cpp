@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "transport/footprint.h"
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+/// Light of the projector pixels of one device that are near one of them.
+double lightNear(const std::vector<float>& luminance, const Rasters& projectors, std::size_t centre,
+                 double radius) {
+  std::size_t device = 0;
+  while (device + 1 < projectors.devices() && centre >= projectors.offset(device + 1)) ++device;
+  Size size = projectors.size(device);
+  Pixel middle = pixelAt(size, centre - projectors.offset(device));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size.count(); ++i) {
+    Pixel pixel = pixelAt(size, i);
+    double dx = pixel.x - middle.x, dy = pixel.y - middle.y;
+    if (dx * dx + dy * dy <= radius * radius)
+      sum += static_cast<double>(luminance[projectors.offset(device) + i]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near) {
+  require(row < transport.cameras().count(), "row {} of {}", row, transport.cameras().count());
+  Stack eye(3 * transport.cameras().count(), 0.0f);
+  eye[3 * row] = 0.2126f;
+  eye[3 * row + 1] = 0.7152f;
+  eye[3 * row + 2] = 0.0722f;
+  Stack seen = transport.applyTransposed(eye);
+
+  PixelFootprint footprint;
+  footprint.luminance.resize(transport.projectors().count());
+  double all = 0.0;
+  for (std::size_t i = 0; i < footprint.luminance.size(); ++i) {
+    float value = seen[3 * i] + seen[3 * i + 1] + seen[3 * i + 2];
+    footprint.luminance[i] = value;
+    all += static_cast<double>(value);
+    if (value > 0.0f) ++footprint.pixels;
+    if (value > footprint.luminance[footprint.strongest]) footprint.strongest = i;
+  }
+  if (all > 0.0)
+    footprint.nearShare =
+        lightNear(footprint.luminance, transport.projectors(), footprint.strongest, near) / all;
+  return footprint;
+}
+
+}  // namespace relucent

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "transport/transport_matrix.h"
+
+namespace relucent {
+
+/// A row of T: what one camera pixel sees of every projector pixel.
+struct PixelFootprint {
+  std::vector<float> luminance;  // per projector pixel, of what the camera pixel sees of it in white
+  std::size_t pixels = 0;        // that light it
+  std::size_t strongest = 0;     // projector pixel; 0 where none does
+  double nearShare = 0.0;        // of the row's light that comes from within `near` of the strongest
+};
+
+/// `near`: in projector pixels. Source: T^T of light in that camera pixel alone; luminance of ITU-R BT.709.
+/// Contract: row < transport.cameras().count().
+PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near = 4.0);
+
+}  // namespace relucent

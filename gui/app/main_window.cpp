@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "app/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QMimeData>
+#include <QShortcut>
+
+#include "app/failure_dialog.h"
+#include "theme/theme.h"
+
+namespace relucent {
+
+MainWindow::MainWindow(Session& session, Wizard& wizard, std::vector<PageView> views)
+    : session_(session), wizard_(wizard), views_(std::move(views)) {
+  setWindowTitle("Relucent");
+  setAcceptDrops(true);
+  auto* whole = new QWidget;
+  setRole(whole, "window");
+  auto* rows = new QVBoxLayout(whole);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+  auto* upper = new QHBoxLayout;
+  upper->setSpacing(0);
+  upper->addWidget(rail_ = new StepRail(wizard_, session_));
+  auto* right = new QVBoxLayout;
+  right->setSpacing(0);
+  buildHeader();
+  right->addWidget(header_);
+
+  auto* content = new QHBoxLayout;
+  content->setContentsMargins(space::page, 0, space::page, space::gap);
+  content->setSpacing(space::gap);
+  auto* stageColumn = new QVBoxLayout;
+  stageColumn->setSpacing(0);
+  stageColumn->addWidget(banner_ = new BannerBar(wizard_));
+  stageColumn->addWidget(stages_ = new QStackedWidget, 1);
+  content->addLayout(stageColumn, 1);
+  content->addWidget(inspectors_ = new QStackedWidget);
+  for (const PageView& view : views_) {
+    stages_->addWidget(view.stage);
+    inspectors_->addWidget(view.inspector);
+  }
+  right->addLayout(content, 1);
+  right->addWidget(actions_ = new ActionBar(wizard_));
+  upper->addLayout(right, 1);
+  rows->addLayout(upper, 1);
+  rows->addWidget(new StatusStrip(session_));
+  setCentralWidget(whole);
+  setMinimumSize(1100, 700);
+
+  for (std::size_t i = 0; i < wizard_.count(); ++i) {
+    PageModel* page = &wizard_.page(i);
+    connect(page, &PageModel::failed, this,
+            [this, page](const FailureReport& report) { tell(*page, report); });
+  }
+  connect(&wizard_, &Wizard::changed, this, &MainWindow::refresh);
+  connect(&wizard_, &Wizard::moved, this, [this] {
+    refresh();
+    focusFirst(stages_);
+  });
+  bindKeys();
+  refresh();
+}
+
+void MainWindow::buildHeader() {
+  header_ = new QWidget;
+  header_->setFixedHeight(space::header);
+  auto* row = new QHBoxLayout(header_);
+  row->setContentsMargins(space::page, 8, space::page, 8);
+  auto* titles = new QVBoxLayout;
+  titles->setSpacing(2);
+  titles->addWidget(title_ = labelOf({}, "title"));
+  titles->addWidget(subtitle_ = labelOf({}, "secondary"));
+  for (QLabel* label : {title_, subtitle_}) {
+    label->setWordWrap(false);
+    label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  }
+  row->addLayout(titles, 1);
+  theme_ = buttonOf({}, "flat");
+  dim_ = buttonOf(tr("Dim pictures"), "flat");
+  dim_->setCheckable(true);
+  row->addWidget(theme_);
+  row->addWidget(dim_);
+  connect(dim_, &QPushButton::toggled, this, [](bool dimmed) { Theme::instance().setDimmed(dimmed); });
+  auto look = [this] {
+    bool dark = Theme::instance().look() == Look::dark;
+    theme_->setText(dark ? tr("Light theme") : tr("Dark theme"));
+    theme_->setIcon(iconOf(Icon::sun, colours().text));
+    dim_->setText(Theme::instance().isDimmed() ? tr("Pictures dimmed") : tr("Dim pictures"));
+    dim_->setIcon(iconOf(Icon::moon, colours().text));
+  };
+  connect(&Theme::instance(), &Theme::changed, this, look);
+  look();
+}
+
+void MainWindow::bindKeys() {
+  auto key = [this](const QKeySequence& keys, auto action) {
+    connect(new QShortcut(keys, this), &QShortcut::activated, this, action);
+  };
+  for (std::size_t i = 0; i < wizard_.count(); ++i)
+    key(QKeySequence(QString("Alt+%1").arg(i + 1)), [this, i] { wizard_.go(i); });
+  key(QKeySequence("Alt+Left"), [this] { wizard_.back(); });
+  key(QKeySequence("Ctrl+Return"), [this] { actions_->runPrimary(); });
+  key(QKeySequence("Ctrl+Enter"), [this] { actions_->runPrimary(); });
+  key(QKeySequence("F6"), [this] { moveToNextRegion(); });
+  key(QKeySequence("F9"), [this] { dim_->toggle(); });
+  key(QKeySequence("F11"), [this] { isFullScreen() ? showNormal() : showFullScreen(); });
+}
+
+bool MainWindow::focusFirst(QWidget* region) {
+  for (QWidget* child : region->findChildren<QWidget*>()) {
+    if (!child->isVisibleTo(this) || !child->isEnabled() || (child->focusPolicy() & Qt::TabFocus) == 0)
+      continue;
+    child->setFocus(Qt::TabFocusReason);
+    return true;
+  }
+  return false;
+}
+
+void MainWindow::moveToNextRegion() {
+  std::vector<QWidget*> regions{stages_, inspectors_, actions_, rail_};
+  std::size_t now = 0;
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (QWidget* focus = QApplication::focusWidget(); focus != nullptr && regions[i]->isAncestorOf(focus))
+      now = i + 1;
+  for (std::size_t step = 0; step < regions.size(); ++step) {
+    if (focusFirst(regions[(now + step) % regions.size()])) return;
+  }
+}
+
+void MainWindow::refresh() {
+  const PageModel& page = wizard_.currentPage();
+  title_->setText(page.title());
+  subtitle_->setText(page.subtitle());
+  subtitle_->setToolTip(page.subtitle());
+  int index = static_cast<int>(wizard_.current());
+  if (stages_->currentIndex() != index) {
+    stages_->setCurrentIndex(index);
+    inspectors_->setCurrentIndex(index);
+  }
+  inspectors_->setVisible(page.usesInspector());
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  bool wide = width() >= space::wideFrom;
+  rail_->setFixedWidth(wide ? space::wideRail : space::rail);
+  inspectors_->setFixedWidth(wide ? space::wideInspector : space::inspector);
+  QMainWindow::resizeEvent(event);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().size() == 1) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  QFileInfo file(event->mimeData()->urls().first().toLocalFile());
+  if (file.exists()) Q_EMIT dropped(file.isDir() ? file.filePath() : file.path());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  // What is measured is in the journal: nothing is lost, and the next start offers to go on.
+  for (std::size_t i = 0; i < wizard_.count(); ++i) wizard_.page(i).finish();
+  QMainWindow::closeEvent(event);
+}
+
+void MainWindow::tell(const PageModel& page, const FailureReport& report) {
+  auto* dialog = new FailureDialog(report, page.name(), this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setModal(true);
+  dialog->open();
+}
+
+}  // namespace relucent

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QLabel>
+#include <QMainWindow>
+#include <QStackedWidget>
+#include <vector>
+
+#include "app/action_bar.h"
+#include "app/banner_bar.h"
+#include "app/status_strip.h"
+#include "app/step_rail.h"
+#include "wizard/page_view.h"
+
+namespace relucent {
+
+/// The frame round all pages: rail, header, banner, stage, inspector, action bar, status strip, and the keys
+/// that work everywhere. Knows pages by their contract only.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  /// `views`: one for each page of the wizard.
+  MainWindow(Session& session, Wizard& wizard, std::vector<PageView> views);
+  QPushButton* themeButton() const { return theme_; }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ Q_SIGNALS:
+  /// A calibration was dropped on the window.
+  void dropped(const QString& folder);
+
+ private:
+  void buildHeader();
+  void bindKeys();
+  void refresh();
+  void moveToNextRegion();
+  bool focusFirst(QWidget* region);
+  void tell(const PageModel& page, const FailureReport& report);
+
+  Session& session_;
+  Wizard& wizard_;
+  std::vector<PageView> views_;
+  StepRail* rail_;
+  BannerBar* banner_;
+  ActionBar* actions_;
+  QWidget* header_;
+  QLabel *title_, *subtitle_;
+  QPushButton *dim_, *theme_;
+  QStackedWidget *stages_, *inspectors_;
+};
+
+}  // namespace relucent

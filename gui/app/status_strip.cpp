@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "app/status_strip.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QLocale>
+#include <QStorageInfo>
+
+#include "theme/theme.h"
+#include "views/number_text.h"
+
+namespace relucent {
+
+StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), session_(session) {
+  setRole(this, "strip");
+  setFixedHeight(space::statusStrip);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(16, 0, space::page, 0);
+  row->setSpacing(8);
+  auto part = [&](Icon icon, const QString& name) {
+    row->addWidget(new IconLabel(icon, secondaryColour, 16));
+    QLabel* title = labelOf(name, "strong");
+    title->setWordWrap(false);
+    row->addWidget(title);
+    QLabel* value = labelOf({}, "note");
+    value->setWordWrap(false);
+    row->addWidget(value);
+    row->addSpacing(18);
+    return value;
+  };
+  projector_ = part(Icon::projector, tr("Projector"));
+  camera_ = part(Icon::camera, tr("Camera"));
+  disk_ = part(Icon::disk, tr("Disk"));
+  row->addStretch(1);
+  row->addWidget(saved_ = labelOf({}, "note"));
+  saved_->setWordWrap(false);
+  often_.setInterval(5000);
+  connect(&often_, &QTimer::timeout, this, &StatusStrip::refresh);
+  connect(&session_, &Session::changed, this, &StatusStrip::refresh);
+  often_.start();
+  refresh();
+}
+
+void StatusStrip::refresh() {
+  if (!session_.isOpen()) {
+    projector_->setText(tr("none chosen"));
+    camera_->setText(tr("none chosen"));
+    disk_->setText(tr("%1 free").arg(
+        bytesText(static_cast<std::uint64_t>(QStorageInfo(QDir::homePath()).bytesAvailable()))));
+    saved_->clear();
+    return;
+  }
+  Size size = session_.projectorSize();
+  QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
+  projector_->setText(QString::fromUtf8("%1 × %2, %3").arg(size.width).arg(size.height).arg(kind));
+  camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));
+  QString folder = QString::fromStdString(session_.path().string());
+  disk_->setText(
+      tr("%1 free").arg(bytesText(static_cast<std::uint64_t>(QStorageInfo(folder).bytesAvailable()))));
+  QString latest;
+  for (Step step : allSteps)
+    if (const auto& result = session_.result(step))
+      latest = std::max(latest, QString::fromStdString(result->stored));
+  QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
+  saved_->setText(when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
+                                 : QString());
+}
+
+}  // namespace relucent

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "app/wizard_command.h"
+
+#include <QApplication>
+#include <QDir>
+#include <QSettings>
+#include <QStandardPaths>
+#include <cstring>
+
+#include "app/termination.h"
+#include "app/wizard_window.h"
+
+namespace relucent {
+
+bool asksForWizard(int argc, char** argv) {
+  if (argc == 1) return true;
+  return argc == 2 && argv[1][0] != '-' && std::strcmp(argv[1], "show") != 0;
+}
+
+int runWizardCommand(int argc, char** argv) {
+  QApplication application(argc, argv);
+  QApplication::setApplicationName("relucent");
+  QApplication::setOrganizationName("relucent");
+  QApplication::setApplicationDisplayName("Relucent");
+  QApplication::setApplicationVersion(RELUCENT_VERSION);
+  QSettings settings;
+  QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/venues";
+  WizardWindow wizard(settings, cache.toStdString());
+  wizard.window().resize(settings.value("window/size", QSize(1366, 768)).toSize());
+  wizard.window().show();
+  if (argc == 2) wizard.venue().open(QDir().absoluteFilePath(QApplication::arguments().at(1)));
+  Termination termination;
+  QObject::connect(&termination, &Termination::requested, &wizard.window(), &QWidget::close);
+  int status = QApplication::exec();
+  settings.setValue("window/size", wizard.window().size());
+  return status;
+}
+
+}  // namespace relucent

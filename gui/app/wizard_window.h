@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QSettings>
+#include <memory>
+#include <vector>
+
+#include "app/main_window.h"
+#include "wizard/acquire_page.h"
+#include "wizard/camera_page.h"
+#include "wizard/cluster_page.h"
+#include "wizard/linearize_page.h"
+#include "wizard/output_page.h"
+#include "wizard/preview_page.h"
+#include "wizard/threshold_page.h"
+#include "wizard/venue_page.h"
+
+namespace relucent {
+
+/// The wizard with all its pages: the one place that knows which there are.
+class WizardWindow {
+ public:
+  /// `cache`: folder of traced venues. `settings` outlives it.
+  WizardWindow(QSettings& settings, std::filesystem::path cache);
+  ~WizardWindow();
+
+  MainWindow& window() { return *window_; }
+  Wizard& wizard() { return wizard_; }
+  Session& session() { return session_; }
+  VenuePage& venue() { return venue_; }
+  CameraPage& camera() { return camera_; }
+  LinearizePage& linearize() { return linearize_; }
+  AcquirePage& acquire() { return acquire_; }
+  ThresholdPage& threshold() { return threshold_; }
+  ClusterPage& cluster() { return cluster_; }
+  PreviewPage& preview() { return preview_; }
+  OutputPage& output() { return output_; }
+
+ private:
+  QSettings& settings_;
+  Session session_;
+  VenuePage venue_;
+  CameraPage camera_;
+  LinearizePage linearize_;
+  AcquirePage acquire_;
+  ThresholdPage threshold_;
+  ClusterPage cluster_;
+  PreviewPage preview_;
+  OutputPage output_;
+  Wizard wizard_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+}  // namespace relucent

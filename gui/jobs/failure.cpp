@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "jobs/failure.h"
+
+#include <QCoreApplication>
+#include <new>
+
+namespace relucent {
+namespace {
+
+struct Words {
+  Q_DECLARE_TR_FUNCTIONS(Failure)
+};
+
+/// A sentence of core begins small and ends without a stop.
+QString sentence(const std::string& text) {
+  QString line = QString::fromStdString(text).trimmed();
+  if (line.isEmpty()) return line;
+  line[0] = line[0].toUpper();
+  return line.endsWith('.') ? line : line + '.';
+}
+
+}  // namespace
+
+Failure failureOf(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Error& error) {
+    return {error.kind(), sentence(error.summary()), sentence(error.advice()),
+            QString::fromStdString(std::string(toString(error.kind())) + ": " + error.what())};
+  } catch (const std::bad_alloc&) {
+    return {ErrorKind::memory, Words::tr("The computer has no memory left."),
+            Words::tr("Close other programs, or choose fewer pixels."), "bad_alloc"};
+  } catch (const std::exception& error) {
+    return {
+        ErrorKind::numerics, Words::tr("Relucent made a mistake."),
+        Words::tr(
+            "What is saved is safe. Copy the details for whoever looks after the program, then try again."),
+        QString::fromUtf8(error.what())};
+  } catch (...) {
+    return {ErrorKind::numerics,
+            Words::tr("Relucent made a mistake."),
+            Words::tr("What is saved is safe. Try again."),
+            {}};
+  }
+}
+
+}  // namespace relucent

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QString>
+#include <exception>
+
+#include "base/error.h"
+
+namespace relucent {
+
+/// A failure for people: what happened and what to do. `details` is for whoever is asked for help.
+struct Failure {
+  ErrorKind kind = ErrorKind::input;
+  QString what;
+  QString advice;
+  QString details;
+};
+
+/// Of whatever was thrown.
+Failure failureOf(std::exception_ptr thrown);
+
+}  // namespace relucent

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "theme/controls.h"
+
+#include <QPainter>
+
+#include "theme/theme.h"
+
+namespace relucent {
+
+const QColor& textColour() {
+  return colours().text;
+}
+const QColor& secondaryColour() {
+  return colours().secondary;
+}
+const QColor& goodColour() {
+  return colours().good;
+}
+const QColor& amberColour() {
+  return colours().amber;
+}
+const QColor& errorColour() {
+  return colours().error;
+}
+const QColor& informationColour() {
+  return colours().information;
+}
+const QColor& accentColour() {
+  return colours().accent;
+}
+
+IconLabel::IconLabel(Icon icon, Role colour, int side, QWidget* parent)
+    : QWidget(parent), icon_(icon), colour_(colour) {
+  setFixedSize(side, side);
+  connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+void IconLabel::setIcon(Icon icon, Role colour) {
+  icon_ = icon;
+  colour_ = colour;
+  update();
+}
+
+void IconLabel::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  drawIcon(painter, icon_, rect(), colour_());
+}
+
+QLabel* labelOf(const QString& text, const char* role, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setWordWrap(true);
+  setRole(label, role);
+  return label;
+}
+
+QFrame* lineOf() {
+  auto* line = new QFrame;
+  setRole(line, "line");
+  return line;
+}
+
+Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
+  setRole(this, "card");
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(space::card, 12, space::card, space::card);
+  all->setSpacing(space::small);
+  if (!title.isEmpty()) {
+    header_ = new QHBoxLayout;
+    header_->setSpacing(space::small);
+    title_ = labelOf(title, "section");
+    title_->setWordWrap(false);
+    header_->addWidget(title_);
+    subtitle_ = labelOf({}, "note");
+    subtitle_->setWordWrap(false);
+    subtitle_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    header_->addWidget(subtitle_, 1);
+    all->addLayout(header_);
+  }
+  body_ = new QVBoxLayout;
+  body_->setSpacing(space::small);
+  all->addLayout(body_, 1);
+}
+
+void Card::setSubtitle(const QString& text) {
+  subtitle_->setText(text);
+  subtitle_->setToolTip(text);
+}
+
+void Card::addAction(QWidget* action) {
+  header_->addWidget(action);
+}
+
+ValueRow::ValueRow(const QString& name, QWidget* parent) : QWidget(parent) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 2, 0, 2);
+  row->addWidget(labelOf(name, "secondary"), 1);
+  value_ = labelOf({}, "strong");
+  value_->setWordWrap(false);
+  value_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  row->addWidget(value_);
+}
+
+void ValueRow::setValue(const QString& value, const char* role) {
+  value_->setText(value);
+  setRole(value_, role);
+}
+
+Remark::Remark(QWidget* parent)
+    : QWidget(parent),
+      icon_(new IconLabel(Icon::information, secondaryColour)),
+      sentence_(labelOf({}, "strong")),
+      meaning_(labelOf({}, "note")) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 2, 0, 2);
+  row->setSpacing(space::small);
+  row->addWidget(icon_, 0, Qt::AlignTop);
+  auto* texts = new QVBoxLayout;
+  texts->setSpacing(0);
+  texts->addWidget(sentence_);
+  texts->addWidget(meaning_);
+  row->addLayout(texts, 1);
+}
+
+void Remark::show(Kind kind, const QString& sentence, const QString& meaning) {
+  switch (kind) {
+    case Kind::good:
+      icon_->setIcon(Icon::tick, goodColour);
+      break;
+    case Kind::watch:
+      icon_->setIcon(Icon::clock, informationColour);
+      break;
+    case Kind::warning:
+      icon_->setIcon(Icon::warning, amberColour);
+      break;
+    case Kind::failed:
+      icon_->setIcon(Icon::failed, errorColour);
+      break;
+  }
+  sentence_->setText(sentence);
+  meaning_->setText(meaning);
+  meaning_->setVisible(!meaning.isEmpty());
+}
+
+Note::Note(Kind kind, QWidget* parent)
+    : QFrame(parent), sentence_(labelOf({}, "strong")), more_(labelOf({}, "")) {
+  static constexpr const char* roles[] = {"note-information", "note-amber", "note-error"};
+  setRole(this, roles[static_cast<int>(kind)]);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(12, 10, 12, 10);
+  row->setSpacing(12);
+  row->addWidget(new IconLabel(kind == Kind::information ? Icon::information
+                               : kind == Kind::amber     ? Icon::warning
+                                                         : Icon::failed,
+                               kind == Kind::information ? informationColour
+                               : kind == Kind::amber     ? amberColour
+                                                         : errorColour),
+                 0, Qt::AlignTop);
+  auto* texts = new QVBoxLayout;
+  texts->setSpacing(2);
+  texts->addWidget(sentence_);
+  texts->addWidget(more_);
+  row->addLayout(texts, 1);
+}
+
+void Note::setText(const QString& sentence, const QString& more) {
+  sentence_->setText(sentence);
+  more_->setText(more);
+  more_->setVisible(!more.isEmpty());
+}
+
+Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(space::tight);
+  for (qsizetype i = 0; i < texts.size(); ++i) {
+    QPushButton* button = buttonOf(texts[i], "segment", this);
+    button->setCheckable(true);
+    group_.addButton(button, static_cast<int>(i));
+    row->addWidget(button, 1);
+  }
+  group_.button(0)->setChecked(true);
+  connect(&group_, &QButtonGroup::idClicked, this, &Segmented::chosen);
+}
+
+void Segmented::setCurrent(int index) {
+  if (QAbstractButton* button = group_.button(index)) button->setChecked(true);
+}
+
+Choice::Choice(const QString& name, const QString& sentence, QWidget* parent) : QPushButton(parent) {
+  setRole(this, "choice");
+  setCheckable(true);
+  setAccessibleName(name);
+  setAccessibleDescription(sentence);
+  setMinimumHeight(52);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(12, 6, 12, 6);
+  auto* texts = new QVBoxLayout;
+  texts->setSpacing(0);
+  texts->addWidget(labelOf(name, "strong"));
+  texts->addWidget(labelOf(sentence, "note"));
+  row->addLayout(texts, 1);
+  remark_ = labelOf({}, "secondary");
+  remark_->setWordWrap(false);
+  row->addWidget(remark_);
+  for (QLabel* label : findChildren<QLabel*>()) label->setAttribute(Qt::WA_TransparentForMouseEvents);
+}
+
+void Choice::setRemark(const QString& text) {
+  remark_->setText(text);
+}
+
+QPushButton* buttonOf(const QString& text, const char* role, QWidget* parent) {
+  auto* button = new QPushButton(text, parent);
+  setRole(button, role);
+  button->setAutoDefault(false);
+  return button;
+}
+
+}  // namespace relucent

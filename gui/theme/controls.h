@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QButtonGroup>
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "theme/icons.h"
+
+namespace relucent {
+
+/// An icon that follows the theme. Decoration: what it says is said by words beside it.
+class IconLabel : public QWidget {
+  Q_OBJECT
+
+ public:
+  using Role = const QColor& (*)();
+  IconLabel(Icon icon, Role colour, int side = 20, QWidget* parent = nullptr);
+  void setIcon(Icon icon, Role colour);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  Icon icon_;
+  Role colour_;
+};
+const QColor& textColour();
+const QColor& secondaryColour();
+const QColor& goodColour();
+const QColor& amberColour();
+const QColor& errorColour();
+const QColor& informationColour();
+const QColor& accentColour();
+
+/// A label with a role of the style sheet; wraps.
+QLabel* labelOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
+/// A thin line between groups.
+QFrame* lineOf();
+
+/// A bordered area with a title, a subtitle and small actions at its right.
+class Card : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit Card(const QString& title = {}, QWidget* parent = nullptr);
+  void setSubtitle(const QString& text);
+  void addAction(QWidget* action);
+  QVBoxLayout* body() { return body_; }
+
+ private:
+  QLabel *title_ = nullptr, *subtitle_ = nullptr;
+  QHBoxLayout* header_ = nullptr;
+  QVBoxLayout* body_ = nullptr;
+};
+
+/// "Light   98.6 %": what and how much.
+class ValueRow : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ValueRow(const QString& name, QWidget* parent = nullptr);
+  /// `role` of the value: "strong", "good", "amber", "error".
+  void setValue(const QString& value, const char* role = "strong");
+
+ private:
+  QLabel* value_;
+};
+
+/// Something that was found: a tick, a warning or a failure, with a sentence and what it means.
+class Remark : public QWidget {
+  Q_OBJECT
+
+ public:
+  enum class Kind { good, watch, warning, failed };
+  explicit Remark(QWidget* parent = nullptr);
+  void show(Kind kind, const QString& sentence, const QString& meaning);
+
+ private:
+  IconLabel* icon_;
+  QLabel *sentence_, *meaning_;
+};
+
+/// A coloured box with a sentence and what follows from it.
+class Note : public QFrame {
+  Q_OBJECT
+
+ public:
+  enum class Kind { information, amber, error };
+  explicit Note(Kind kind, QWidget* parent = nullptr);
+  void setText(const QString& sentence, const QString& more = {});
+
+ private:
+  QLabel *sentence_, *more_;
+};
+
+/// One of a few, side by side.
+class Segmented : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Segmented(const QStringList& texts, QWidget* parent = nullptr);
+  int current() const { return group_.checkedId(); }
+  /// Silent.
+  void setCurrent(int index);
+
+ Q_SIGNALS:
+  void chosen(int index);
+
+ private:
+  QButtonGroup group_;
+};
+
+/// One of a few, below each other: a name, a sentence, and at the right what it costs.
+class Choice : public QPushButton {
+  Q_OBJECT
+
+ public:
+  Choice(const QString& name, const QString& sentence, QWidget* parent = nullptr);
+  void setRemark(const QString& text);
+
+ private:
+  QLabel* remark_;
+};
+
+/// A button with a role of the style sheet.
+QPushButton* buttonOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
+
+}  // namespace relucent

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QIcon>
+#include <QPainter>
+
+namespace relucent {
+
+/// Line drawings in a box of 24, stroke 1.6 with round ends, never filled, without letters.
+enum class Icon {
+  tick,
+  lock,
+  stale,
+  failed,
+  back,
+  next,
+  play,
+  pause,
+  save,
+  stop,
+  retry,
+  folder,
+  plus,
+  moon,
+  settings,
+  help,
+  projector,
+  camera,
+  disk,
+  sun,
+  information,
+  warning,
+  clock,
+  picture,
+  pulse,
+  fit,
+  actualSize,
+  pick,
+  monitor,
+  house,
+  black,
+  compare
+};
+
+/// Draws it into a square. The colour is that of the text beside it.
+void drawIcon(QPainter& painter, Icon icon, const QRectF& square, const QColor& colour);
+/// Sharp at any scale of the screen: painted when it is asked for.
+QIcon iconOf(Icon icon, const QColor& colour);
+QPixmap pixmapOf(Icon icon, const QColor& colour, int side, double devicePixelRatio);
+
+}  // namespace relucent

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "views/axis.h"
+
+#include <QLocale>
+#include <algorithm>
+#include <cmath>
+
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+double roundStep(double least) {
+  double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
+  return 10.0 * power;
+}
+
+}  // namespace
+
+double Axis::place(double value) const {
+  if (logarithmic) return std::log(std::max(value, 1e-300) / low) / std::log(high / low);
+  return (value - low) / (high - low);
+}
+
+double Axis::value(double at) const {
+  if (logarithmic) return low * std::pow(high / low, at);
+  return low + at * (high - low);
+}
+
+std::vector<Axis::Tick> Axis::ticks(int count) const {
+  std::vector<Tick> found;
+  if (!(high > low) || count < 1) return found;
+  if (logarithmic) {
+    int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
+    int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
+    int step = std::max(1, (last - first + count) / count);
+    for (int exponent = first; exponent <= last; exponent += step)
+      found.push_back({std::pow(10.0, exponent), powerOfTen(exponent)});
+    return found;
+  }
+  double step = roundStep((high - low) / count);
+  int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  for (double value = std::ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step)
+    found.push_back({value, QLocale().toString(std::abs(value) < 1e-9 * step ? 0.0 : value, 'f', decimals)});
+  return found;
+}
+
+}  // namespace relucent

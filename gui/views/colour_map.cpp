@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "views/colour_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error.h"
+#include "image/color.h"
+#include "theme/tokens.h"
+
+namespace relucent {
+namespace {
+
+std::array<QRgb, 256> tableOf(int map) {
+  cv::Mat places(1, 256, CV_8U), colours;
+  for (int i = 0; i < 256; ++i) places.at<uchar>(0, i) = static_cast<uchar>(i);
+  cv::applyColorMap(places, colours, map);
+  std::array<QRgb, 256> table;
+  for (int i = 0; i < 256; ++i) {
+    cv::Vec3b bgr = colours.at<cv::Vec3b>(0, i);
+    table[static_cast<std::size_t>(i)] = qRgb(bgr[2], bgr[1], bgr[0]);
+  }
+  return table;
+}
+
+const std::array<QRgb, 256>& table(ColourMap map) {
+  static const std::array<QRgb, 256> cividis = tableOf(cv::COLORMAP_CIVIDIS);
+  static const std::array<QRgb, 256> viridis = tableOf(cv::COLORMAP_VIRIDIS);
+  return map == ColourMap::cividis ? cividis : viridis;
+}
+
+QRgb rgbAt(ColourMap map, double place) {
+  auto index = static_cast<std::size_t>(std::lround(std::clamp(place, 0.0, 1.0) * 255.0));
+  return table(map)[index];
+}
+
+}  // namespace
+
+double ColourScale::place(double value) const {
+  if (!std::isfinite(value) || (logarithmic && value <= 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  double share = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+}
+
+QColor colourAt(ColourMap map, double place) {
+  return QColor(rgbAt(map, place));
+}
+
+QImage mapped(std::span<const float> values, Size size, const ColourScale& scale) {
+  require(values.size() == size.count(), "{} values for {} pixels", values.size(), size.count());
+  QImage image(size.width, size.height, QImage::Format_RGB32);
+  for (int y = 0; y < size.height; ++y) {
+    auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
+    for (int x = 0; x < size.width; ++x) {
+      double place = scale.place(static_cast<double>(values[indexOf(size, {x, y})]));
+      line[x] = std::isnan(place) ? invalidColour.rgb() : rgbAt(scale.map, place);
+    }
+  }
+  return image;
+}
+
+QImage encodedPictureOf(const Image& encoded) {
+  if (encoded.empty()) return {};
+  QImage image(encoded.width(), encoded.height(), QImage::Format_RGB32);
+  auto code = [](float value) {
+    return std::isfinite(value) ? static_cast<int>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f)) : 0;
+  };
+  for (int y = 0; y < encoded.height(); ++y) {
+    auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
+    for (int x = 0; x < encoded.width(); ++x)
+      line[x] = qRgb(code(encoded.at(x, y, 0)), code(encoded.at(x, y, 1)), code(encoded.at(x, y, 2)));
+  }
+  return image;
+}
+
+QImage pictureOf(const Image& linear, float white) {
+  if (linear.empty()) return {};
+  return encodedPictureOf(viewed(linear, {white, white, white}));
+}
+
+}  // namespace relucent

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "views/axis.h"
+
+namespace relucent {
+
+/// Bars over a logarithmic axis with a cut between what is left out and what stays. The cut is dragged, or
+/// moved by the arrow keys: 1 % of it a step, with Shift 10 %. Without a cut it is a plain bar chart.
+class CutHistogram : public QWidget {
+  Q_OBJECT
+
+ public:
+  struct Bar {
+    double from = 0.0, to = 0.0;
+    double count = 0.0;
+  };
+
+  explicit CutHistogram(Axis x, QString countTitle, QWidget* parent = nullptr);
+  void setBars(std::vector<Bar> bars);
+  void setAxis(const Axis& x);
+  void setMovable(bool movable) { movable_ = movable; }
+  void setCutText(const QString& text);
+  double cut() const { return cut_; }
+  /// Silent. NaN: none.
+  void setCut(double cut);
+
+ Q_SIGNALS:
+  /// Moved by hand, while it moves.
+  void cutMoved(double cut);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void dragTo(double x);
+  void move(double cut);
+  void paintCut(QPainter& painter) const;
+
+  Axis x_, counts_;
+  std::vector<Bar> bars_;
+  QRectF plot_;
+  double cut_;
+  QString cutText_;
+  bool movable_ = true;
+};
+
+}  // namespace relucent

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "views/axis.h"
+
+namespace relucent {
+
+/// What a curve's points look like, so that colour is never alone.
+enum class Marker { none, circle, square, triangle };
+
+struct Curve {
+  QString name;
+  const QColor& (*colour)() = nullptr;
+  Marker marker = Marker::none;
+  std::vector<QPointF> line;    // drawn through
+  std::vector<QPointF> points;  // marked
+};
+
+/// The plot's rectangle within a widget, with axes, grid and titles round it.
+QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis& y);
+
+/// Curves over two axes. What they say in short is the accessible description.
+class LineChart : public QWidget {
+  Q_OBJECT
+
+ public:
+  LineChart(Axis x, Axis y, QWidget* parent = nullptr);
+  void setAxes(const Axis& x, const Axis& y);
+  void setCurves(std::vector<Curve> curves);
+  /// A dashed vertical at a value; none: NaN.
+  void setMark(double x);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void paintLegend(QPainter& painter, const QRectF& plot) const;
+  Axis x_, y_;
+  double mark_;
+  std::vector<Curve> curves_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/acquire_page.h"
+
+#include "calibration/results.h"
+#include "pipeline/measuring.h"
+#include "pipeline/stages.h"
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double fineThreshold = 0.006;
+constexpr int photographsBeforeTime = 20;
+
+}  // namespace
+
+/// A question of the measuring thread to the user, and its answer.
+class AcquirePage::Asking {
+ public:
+  Answer wait() {
+    QMutexLocker lock(&guard_);
+    answer_.reset();
+    while (!answer_ && !closed_) given_.wait(&guard_);
+    return answer_.value_or(Answer::keepAndStop);
+  }
+  /// Closed, it waits for nobody.
+  void setClosed(bool closed) {
+    QMutexLocker lock(&guard_);
+    closed_ = closed;
+    given_.wakeAll();
+  }
+  void give(Answer answer) {
+    QMutexLocker lock(&guard_);
+    answer_ = answer;
+    given_.wakeAll();
+  }
+
+ private:
+  QMutex guard_;
+  QWaitCondition given_;
+  std::optional<Answer> answer_;
+  bool closed_ = false;
+};
+
+AcquirePage::AcquirePage(Session& session, QObject* parent)
+    : PageModel(parent), session_(session), asking_(std::make_shared<Asking>()) {
+  connect(&session_, &Session::opened, this, [this] {
+    finish();
+    forecast_.reset();
+    left_ = {};
+    kept_ = session_.isOpen() ? session_.photographsKept(Step::acquisition) : 0;
+    connect(&session_.live(), &LiveRig::seen, this, [this] {
+      if (isMeasuring()) Q_EMIT changed();
+    });
+  });
+  connect(&session_, &Session::changed, this, &AcquirePage::changed);
+  connect(&job_, &Job::progressed, this, &AcquirePage::changed);
+  connect(&job_, &Job::expected, this, [this](const WorkLeft& left) {
+    forecast_ = left;
+    left_.expect(left, Clock::now());
+  });
+  connect(&job_, &Job::ended, this, &AcquirePage::ended);
+  second_.setInterval(1000);
+  connect(&second_, &QTimer::timeout, this, &AcquirePage::tick);
+}
+
+AcquirePage::~AcquirePage() {
+  finish();
+}
+
+StepStatus AcquirePage::status() const {
+  if (isPaused()) return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
+  if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
+  switch (session_.progress(Step::acquisition)) {
+    case StepProgress::done:
+      if (auto patterns = figure("patterns"))
+        return {StepState::done, tr("%n pattern(s), %1", nullptr, static_cast<int>(*patterns))
+                                     .arg(durationText(figure("seconds").value_or(0.0)))};
+      return {StepState::done, tr("Measured")};
+    case StepProgress::stale:
+      return {StepState::outOfDate, tr("Out of date")};
+    case StepProgress::open:
+      break;
+  }
+  if (job_.state() == Job::State::failed) return {StepState::failed, tr("Stopped by a failure")};
+  if (kept_ > 0) return {StepState::open, tr("%n photograph(s) kept", nullptr, kept_)};
+  return {};
+}
+
+QString AcquirePage::hint() const {
+  if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
+  if (isStopping()) return tr("Ending with what is measured.");
+  if (isMeasuring()) return tr("Every photograph is saved. Threshold opens when the last is taken.");
+  if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
+  if (session_.progress(Step::acquisition) == StepProgress::done)
+    return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
+  return tr("Leave the room dark and still, then start.");
+}
+
+Command AcquirePage::primary() const {
+  auto* self = const_cast<AcquirePage*>(this);
+  if (isMeasuring() || session_.progress(Step::acquisition) == StepProgress::done)
+    return {tr("Show threshold"), Icon::next, !isMeasuring(), {}, [self] { Q_EMIT self->nextWanted(); }};
+  return {
+      kept_ > 0 ? tr("Resume") : tr("Start measuring"), Icon::play, session_.busy().isEmpty(), {}, [self] {
+        self->start();
+      }};
+}
+
+std::vector<Command> AcquirePage::secondary() const {
+  auto* self = const_cast<AcquirePage*>(this);
+  if (!isMeasuring()) return {};
+  Command keep{tr("Stop and keep"), Icon::save, !isStopping(), QKeySequence("Ctrl+K"),
+               [self] { self->stopAndKeep(); }};
+  if (isPaused())
+    return {{tr("Resume"), Icon::play, true, QKeySequence("Ctrl+P"), [self] { self->resume(); }}, keep};
+  return {{tr("Pause"), Icon::pause, !isStopping(), QKeySequence("Ctrl+P"), [self] { self->pause(); }}, keep};
+}
+
+std::optional<double> AcquirePage::progress() const {
+  return isMeasuring() ? std::optional(job_.fraction()) : std::nullopt;
+}
+
+std::optional<Banner> AcquirePage::banner() const {
+  if (isMeasuring()) return std::nullopt;
+  auto* self = const_cast<AcquirePage*>(this);
+  StepProgress progress = session_.progress(Step::acquisition);
+  if (progress == StepProgress::stale)
+    return Banner{
+        Banner::Kind::amber,
+        tr("This measurement belongs to earlier settings"),
+        tr("It still works and stays until the new one is ready."),
+        {tr("Measure again"), Icon::retry, session_.busy().isEmpty(), {}, [self] { self->start(); }},
+        {}};
+  if (progress == StepProgress::open && kept_ > 0)
+    return Banner{Banner::Kind::information,
+                  tr("The last session ended before it was finished"),
+                  tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
+                     nullptr, kept_),
+                  {tr("Resume"), Icon::play, session_.busy().isEmpty(), {}, [self] { self->start(); }},
+                  {}};
+  return std::nullopt;
+}
+
+int AcquirePage::photographs() const {
+  return isMeasuring() ? pictures().photographs : 0;
+}
+
+std::optional<double> AcquirePage::secondsLeft() const {
+  if (!isMeasuring() || photographs() < photographsBeforeTime) return std::nullopt;
+  return left_.seconds(Clock::now());
+}
+
+Fineness AcquirePage::fineness() const {
+  const AcquisitionSettings& settings = session_.settings().acquisition;
+  if (settings.singleExposure) return Fineness::fast;
+  return settings.relativeThreshold <= fineThreshold ? Fineness::fine : Fineness::usual;
+}
+
+void AcquirePage::change(const AcquisitionSettings& acquisition) {
+  CalibrateSettings settings = session_.settings();
+  settings.acquisition = acquisition;
+  settings.acquisition.seed = session_.settings().acquisition.seed;
+  try {
+    session_.changeSettings(settings);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+  }
+}
+
+void AcquirePage::setFineness(Fineness fineness) {
+  if (isMeasuring() || fineness == this->fineness()) return;
+  AcquisitionSettings settings = acquisitionMode(fineness == Fineness::fast ? "fast" : "adaptive");
+  if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
+  change(settings);
+}
+
+void AcquirePage::setWhite(bool white) {
+  if (isMeasuring() || white == isWhite()) return;
+  AcquisitionSettings settings = session_.settings().acquisition;
+  settings.colours = white ? LitColours::white : LitColours::rgb;
+  change(settings);
+}
+
+std::optional<double> AcquirePage::figure(const char* name) const {
+  const auto& stored = session_.result(Step::acquisition);
+  if (!stored || !stored->values.contains("cost")) return std::nullopt;
+  return stored->values["cost"].value(name, 0.0);
+}
+
+void AcquirePage::pause() {
+  session_.live().pause();
+  left_.pause(Clock::now());
+  Q_EMIT changed();
+}
+
+void AcquirePage::resume() {
+  session_.live().resume();
+  left_.resume(Clock::now());
+  Q_EMIT changed();
+}
+
+void AcquirePage::stopAndKeep() {
+  job_.stopAndKeep();
+  resume();
+}
+
+void AcquirePage::start() {
+  if (isMeasuring() || !session_.busy().isEmpty()) return;
+  asking_->setClosed(false);
+  session_.setBusy(name());
+  lastCount_ = session_.live().pictures().photographs;
+  rate_ = 0.0;
+  left_ = {};
+  second_.start();
+  AlarmHandler handler = [this, asking = asking_](const Alarm& alarm) {
+    QMetaObject::invokeMethod(
+        this, [this, alarm] { askAbout(alarm); }, Qt::QueuedConnection);
+    return asking->wait();
+  };
+  job_.start([work = workOf(session_), handler](Progress& progress) {
+    Progress opening = progress.part(0.05, tr("Opening the devices").toStdString());
+    Rig& rig = work.devices->open(opening);
+    CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
+    Progress reading = progress.part(0.0, tr("Reading the response").toStdString());
+    Linearization linearization = measureLinearization(folder, rig, reading);
+    Progress measuring = progress.part(0.95, tr("Measuring the light transport").toStdString());
+    measureAcquisition(folder, rig, linearization, handler, measuring);
+  });
+  Q_EMIT changed();
+}
+
+void AcquirePage::finish() {
+  job_.cancel();
+  asking_->setClosed(true);
+  session_.live().resume();
+}
+
+void AcquirePage::askAbout(const Alarm& alarm) {
+  auto sentence = [](const std::string& text) {
+    QString line = QString::fromStdString(text);
+    if (!line.isEmpty()) line[0] = line[0].toUpper();
+    return line.endsWith('.') ? line : line + '.';
+  };
+  Failure failure{ErrorKind::device, sentence(alarm.what), sentence(alarm.advice),
+                  QString::fromStdString(alarm.sentence())};
+  Command again{tr("Measure again"), Icon::retry, true, {}, [this] { answer(Answer::retry); }};
+  Command keep{tr("Stop and keep"), Icon::save, true, {}, [this] { answer(Answer::keepAndStop); }};
+  Q_EMIT failed({failure, sentence(alarm.safe), again, keep});
+}
+
+void AcquirePage::answer(Answer answer) {
+  asking_->give(answer);
+}
+
+void AcquirePage::ended() {
+  second_.stop();
+  if (session_.isOpen()) {
+    session_.reload();
+    kept_ = session_.photographsKept(Step::acquisition);
+  }
+  if (session_.busy() == name()) session_.setBusy({});
+  if (job_.state() == Job::State::failed) {
+    Command again{tr("Resume"), Icon::play, true, {}, [this] { start(); }};
+    Q_EMIT failed(
+        {job_.failure(),
+         tr("All %n photograph(s) are on the disk. The one being taken is not counted.", nullptr, kept_),
+         again,
+         {}});
+  }
+  Q_EMIT changed();
+}
+
+void AcquirePage::tick() {
+  int count = session_.live().pictures().photographs;
+  // Smoothed over some seconds.
+  rate_ = rate_ == 0.0 ? count - lastCount_ : 0.8 * rate_ + 0.2 * (count - lastCount_);
+  lastCount_ = count;
+  Q_EMIT changed();
+}
+
+}  // namespace relucent

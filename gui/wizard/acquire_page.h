@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QMutex>
+#include <QTimer>
+#include <QWaitCondition>
+
+#include "jobs/job.h"
+#include "jobs/time_left.h"
+#include "wizard/page_model.h"
+#include "wizard/session.h"
+
+namespace relucent {
+
+/// How finely the light transport is measured.
+enum class Fineness { fast, usual, fine };
+
+/// Step 4: the light transport, photograph by photograph.
+class AcquirePage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit AcquirePage(Session& session, QObject* parent = nullptr);
+  ~AcquirePage() override;
+
+  QString name() const override { return tr("Acquire"); }
+  QString subtitle() const override {
+    return tr("Measure how every projector pixel lights every camera pixel. Leave the room dark and still.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::vector<Command> secondary() const override;
+  std::optional<double> progress() const override;
+  std::optional<Banner> banner() const override;
+  void finish() override;
+
+  bool isMeasuring() const { return job_.isRunning(); }
+  bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
+  bool isStopping() const { return job_.isStopping(); }
+  QString stage() const { return job_.stage(); }
+  LivePictures pictures() const { return session_.live().pictures(); }
+  /// Photographs of earlier runs that are in the journal, and all that there are by now.
+  int keptBefore() const { return kept_; }
+  int photographs() const;
+  /// Seconds that it still takes; none before enough is known.
+  std::optional<double> secondsLeft() const;
+  const std::optional<WorkLeft>& forecast() const { return forecast_; }
+  /// Photographs a second, over the last ones.
+  double rate() const { return rate_; }
+
+  Fineness fineness() const;
+  void setFineness(Fineness fineness);
+  bool isWhite() const { return session_.settings().acquisition.colours == LitColours::white; }
+  void setWhite(bool white);
+  /// What was measured, as far as the folder tells: "patterns", "seconds", ...
+  std::optional<double> figure(const char* name) const;
+
+  void pause();
+  void resume();
+  void stopAndKeep();
+
+ private:
+  class Asking;
+  void start();
+  void change(const AcquisitionSettings& settings);
+  void askAbout(const Alarm& alarm);
+  void answer(Answer answer);
+  void ended();
+  void tick();
+
+  Session& session_;
+  Job job_;
+  std::shared_ptr<Asking> asking_;
+  TimeLeft left_;
+  std::optional<WorkLeft> forecast_;
+  int kept_ = 0;
+  QTimer second_;
+  double rate_ = 0.0;
+  int lastCount_ = 0;
+};
+
+}  // namespace relucent

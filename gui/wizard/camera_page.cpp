@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/camera_page.h"
+
+#include <QDateTime>
+#include <QElapsedTimer>
+#include <QLocale>
+#include <QThread>
+#include <algorithm>
+#include <utility>
+
+#include "linearization/test_light.h"
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+constexpr double saturation = 0.97, dark = 0.01;
+constexpr unsigned long restMilliseconds = 20;  // between two checks of an answer that is waited for
+
+Region centre(Size camera) {
+  return {camera.width * 3 / 8, camera.height * 3 / 8, std::max(2, camera.width / 4),
+          std::max(2, camera.height / 4)};
+}
+
+}  // namespace
+
+/// What the looking thread and the interface tell each other.
+struct CameraPage::Shared {
+  QMutex guard;
+  std::optional<ExposureChoice> choice;
+  std::optional<CameraLook> look;
+  std::optional<double> tooBright, tooDark;
+  std::size_t exposure = 0;
+  Region area;
+  bool posted = false;
+};
+
+CameraPage::CameraPage(Session& session, QObject* parent) : PageModel(parent), session_(session) {
+  connect(&session_, &Session::opened, this, [this] {
+    finish();
+    look_.reset();
+    exposures_ = {};
+    tooBright_.reset();
+    tooDark_.reset();
+    best_ = 0.0;
+    area_ = {};
+  });
+  connect(&session_, &Session::changed, this, &CameraPage::changed);
+  connect(&job_, &Job::progressed, this, &CameraPage::changed);
+  connect(&job_, &Job::ended, this, &CameraPage::ended);
+}
+
+CameraPage::~CameraPage() {
+  finish();
+}
+
+StepStatus CameraPage::status() const {
+  if (isLooking()) {
+    bool done = session_.progress(Step::camera) == StepProgress::done;
+    return {done ? StepState::done : StepState::open, tr("Checking")};
+  }
+  if (const auto& result = session_.result(Step::camera)) {
+    QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
+    return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
+  }
+  return {};
+}
+
+QString CameraPage::hint() const {
+  if (!session_.busy().isEmpty() && !isLooking())
+    return tr("The camera is in use at %1.").arg(session_.busy());
+  if (isLooking() && exposures_.seconds.empty())
+    return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
+  if (tooBright_ && *tooBright_ > 0.05)
+    return tr("%1 is too bright in every exposure.").arg(percentText(*tooBright_));
+  if (!look_) return tr("Look through the camera first.");
+  return tr("Next: test patterns for the projector's response");
+}
+
+Command CameraPage::primary() const {
+  auto* self = const_cast<CameraPage*>(this);
+  bool seen = look_.has_value() || session_.progress(Step::camera) == StepProgress::done;
+  bool free = session_.busy().isEmpty() || isLooking();
+  return {tr("Measure response"), Icon::next, seen && free, {}, [self] {
+            if (self->look_) {
+              self->goOn_ = true;
+              if (self->isLooking())
+                self->job_.cancel();
+              else
+                self->ended();
+              return;
+            }
+            Q_EMIT self->nextWanted();
+          }};
+}
+
+std::vector<Command> CameraPage::secondary() const {
+  auto* self = const_cast<CameraPage*>(this);
+  if (isLooking()) return {{tr("Pause"), Icon::pause, true, {}, [self] { self->finish(); }}};
+  return {{tr("Check again"), Icon::retry, session_.busy().isEmpty() && session_.isOpen(), {}, [self] {
+             self->best_ = 0.0;
+             self->start();
+           }}};
+}
+
+void CameraPage::enter() {
+  bool wanted = session_.progress(Step::camera) != StepProgress::done;
+  if (wanted && session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty()) start();
+}
+
+void CameraPage::finish() {
+  if (!job_.isRunning()) return;
+  job_.cancel();
+}
+
+void CameraPage::setFocusArea(const Region& area) {
+  if (area == area_) return;
+  area_ = area;
+  best_ = 0.0;
+  if (shared_) {
+    QMutexLocker lock(&shared_->guard);
+    shared_->area = area;
+  }
+  Q_EMIT changed();
+}
+
+void CameraPage::chooseExposure(std::size_t index) {
+  exposure_ = index;
+  if (shared_) {
+    QMutexLocker lock(&shared_->guard);
+    shared_->exposure = index;
+  }
+  Q_EMIT changed();
+}
+
+void CameraPage::start() {
+  goOn_ = false;
+  shared_ = std::make_shared<Shared>();
+  shared_->area = area_;
+  session_.setBusy(name());
+  job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
+    Progress opening = progress.part(0.5, tr("Opening the devices").toStdString());
+    Rig& rig = work.devices->open(opening);
+    NoShotLog nothing;
+    ShotTaker shots(rig, nothing, "camera");
+    Progress exposing = progress.part(0.5, tr("Finding the exposures").toStdString());
+    ExposureChoice choice = chooseExposures(shots, exposing);
+    {
+      QMutexLocker lock(&shared->guard);
+      shared->choice = choice;
+      // The one between bright parts and shadows.
+      shared->exposure = choice.seconds.size() / 2;
+      if (shared->area == Region{}) shared->area = centre(rig.cameras[0]->size());
+    }
+    Progress looking = progress.part(0.0, tr("Looking through the camera").toStdString());
+    for (std::size_t i = 0; i < rig.projectors.size(); ++i)
+      rig.projectors[i]->show(evenPatterns(rig, {1, 1, 1})[i]);
+    for (int number = shots.shots();; ++number) {
+      looking.checkpoint();
+      QElapsedTimer since;
+      since.start();
+      std::size_t exposure = 0;
+      Region area;
+      {
+        QMutexLocker lock(&shared->guard);
+        exposure = std::min(shared->exposure, choice.seconds.size() - 1);
+        area = shared->area;
+        // The ends are looked at first: they tell what no exposure covers.
+        if (!shared->tooBright)
+          exposure = choice.seconds.size() - 1;
+        else if (!shared->tooDark)
+          exposure = 0;
+      }
+      CameraLook look;
+      look.frame = rig.cameras[0]->capture({{"camera", number}, 0, choice.seconds[exposure]});
+      look.check = checkPhotograph(look.frame.signal, saturation, dark);
+      look.sharpness = sharpness(look.frame.signal, area);
+      QMutexLocker lock(&shared->guard);
+      if (exposure + 1 == choice.seconds.size()) shared->tooBright = look.check.tooBright;
+      if (exposure == 0) shared->tooDark = look.check.tooDark;
+      shared->look = std::move(look);
+      if (!std::exchange(shared->posted, true))
+        QMetaObject::invokeMethod(
+            this, [this] { takeNews(); }, Qt::QueuedConnection);
+      lock.unlock();
+      // Twice a second: the screen's own light falls into the room.
+      while (since.elapsed() < 500) {
+        looking.checkpoint();
+        QThread::msleep(restMilliseconds);
+      }
+    }
+  });
+  Q_EMIT changed();
+}
+
+void CameraPage::takeNews() {
+  if (!shared_) return;
+  {
+    QMutexLocker lock(&shared_->guard);
+    shared_->posted = false;
+    if (shared_->choice) {
+      exposures_ = *std::exchange(shared_->choice, std::nullopt);
+      exposure_ = shared_->exposure;
+    }
+    tooBright_ = shared_->tooBright;
+    tooDark_ = shared_->tooDark;
+    area_ = shared_->area;
+    look_ = shared_->look;
+  }
+  if (look_) best_ = std::max(best_, look_->sharpness);
+  Q_EMIT changed();
+}
+
+void CameraPage::ended() {
+  takeNews();
+  if (session_.busy() == name()) session_.setBusy({});
+  if (job_.state() == Job::State::failed)
+    Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost."), {}, {}});
+  if (std::exchange(goOn_, false)) {
+    try {
+      Json seconds = Json::array();
+      for (double exposure : exposures_.seconds) seconds.push_back(exposure);
+      session_.decide(Step::camera, Json{{"exposures", seconds}});
+      Q_EMIT nextWanted();
+    } catch (...) {
+      Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+    }
+  }
+  Q_EMIT changed();
+}
+
+}  // namespace relucent

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "clustering/clustering.h"
+#include "jobs/latest.h"
+#include "wizard/page_model.h"
+#include "wizard/session.h"
+
+namespace relucent {
+
+/// What one set of sliders gives, for the first camera.
+struct ClusterResult {
+  ClusteringStatistics statistics;
+  std::vector<std::uint32_t> map;     // per camera pixel: cluster or noCluster
+  std::vector<std::uint8_t> colours;  // per cluster
+  std::vector<std::uint8_t> borders;  // per camera pixel
+  std::vector<float> error;           // per camera pixel; NaN where there is no cluster
+  std::vector<ClusterSize> sizes;
+  Size camera;
+};
+
+/// Step 6: clusters of pixels that can be solved on their own.
+class ClusterPage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit ClusterPage(Session& session, QObject* parent = nullptr);
+
+  QString name() const override { return tr("Cluster"); }
+  QString subtitle() const override {
+    return tr(
+        "Split the venue into small groups of pixels that can be solved on their own, fast enough for "
+        "video.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::optional<Banner> banner() const override;
+  void enter() override;
+
+  const ClusteringSettings& settings() const { return settings_; }
+  void setSettings(const ClusteringSettings& settings);
+  /// What the sliders gave last; they may have moved on.
+  const std::shared_ptr<const ClusterResult>& result() const { return result_; }
+  bool isComputing() const { return computing_.isBusy() || preparing_.isBusy(); }
+  /// The venue in full light.
+  std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
+
+ private:
+  struct Prepared;
+  void prepare();
+  void compute();
+  void accept();
+
+  Session& session_;
+  ClusteringSettings settings_;
+  std::string preparedFor_;  // fingerprint of the threshold
+  std::shared_ptr<const Acquisition> source_;
+  std::shared_ptr<const Prepared> prepared_;
+  std::shared_ptr<const ClusterResult> result_;
+  Latest<std::shared_ptr<const Prepared>> preparing_;
+  Latest<std::shared_ptr<const ClusterResult>> computing_;
+  bool looked_ = false;
+};
+
+}  // namespace relucent

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QVBoxLayout>
+#include <QWidget>
+
+namespace relucent {
+
+/// What a page looks like: the stage, and beside it the inspector with what is decided and what came out.
+/// Thin: it shows what its model knows and passes on what the user does.
+struct PageView {
+  QWidget* stage = nullptr;
+  QWidget* inspector = nullptr;
+};
+
+class VenuePage;
+class CameraPage;
+class LinearizePage;
+class AcquirePage;
+class ThresholdPage;
+class ClusterPage;
+class PreviewPage;
+class OutputPage;
+
+PageView viewOf(VenuePage& model);
+PageView viewOf(CameraPage& model);
+PageView viewOf(LinearizePage& model);
+PageView viewOf(AcquirePage& model);
+PageView viewOf(ThresholdPage& model);
+PageView viewOf(ClusterPage& model);
+PageView viewOf(PreviewPage& model);
+PageView viewOf(OutputPage& model);
+
+/// The inspector's card, which scrolls where the window is low. Its contents go into the layout.
+QWidget* inspectorCard(QVBoxLayout*& contents);
+
+}  // namespace relucent

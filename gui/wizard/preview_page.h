@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compensation/methods.h"
+#include "compensation/prediction.h"
+#include "jobs/job.h"
+#include "jobs/latest.h"
+#include "wizard/page_model.h"
+#include "wizard/session.h"
+
+namespace relucent {
+
+/// What one method is predicted to do with the content.
+struct MethodPreview {
+  Method method = Method::none;
+  double psnr = 0.0;
+  double deltaE = 0.0;
+  double seconds = 0.0;
+};
+
+/// Pictures of the first camera, linear, and the white they are looked at with.
+struct ContentPreview {
+  Image without, with;       // predicted: nothing corrected, and by the chosen method
+  Image deltaE;              // CIEDE2000; NaN outside the content
+  std::vector<float> reach;  // brightest possible, as a share of the content's white
+  std::vector<std::uint8_t> reachable, inside;
+  float white = 1.0f;
+  Corners corners{};
+  double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;
+  double tooDark = 0.0, tooBright = 0.0;  // shares of the content
+};
+
+/// Step 7: content in its place, before it is projected.
+class PreviewPage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit PreviewPage(Session& session, QObject* parent = nullptr);
+  ~PreviewPage() override { finish(); }
+
+  QString name() const override { return tr("Preview"); }
+  QString subtitle() const override {
+    return tr(
+        "Place the content in the camera's view and see what the audience will see before you project it.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::optional<double> progress() const override;
+  void enter() override;
+  void leave() override { looked_ = false; }
+  void finish() override { job_.cancel(); }
+
+  bool isReady() const { return engine_ != nullptr; }
+  const ContentSettings& settings() const { return settings_; }
+  void setSettings(const ContentSettings& settings);
+  /// Tells failed() if it is no picture; the one before stays.
+  void choosePicture(const QString& file);
+  QString pictureName() const;
+  const std::shared_ptr<const ContentPreview>& preview() const { return preview_; }
+  /// One row a method that has been tried with this content, in the order of the methods.
+  const std::vector<MethodPreview>& table() const { return table_; }
+  bool isComputing() const { return computing_.isBusy(); }
+
+ private:
+  struct Engine;
+  void prepare();
+  void prepared();
+  void compute();
+  void compareNext();
+  void accept();
+
+  Session& session_;
+  Job job_;
+  ContentSettings settings_;
+  std::shared_ptr<const Image> content_;
+  std::shared_ptr<Engine> made_;  // by the job, taken when it ends
+  std::shared_ptr<const Engine> engine_;
+  std::string preparedFor_;
+  std::shared_ptr<const ContentPreview> preview_;
+  std::vector<MethodPreview> table_;
+  std::vector<Method> toCompare_;
+  int round_ = 0;  // of comparisons: answers of earlier ones are dropped
+  Latest<std::shared_ptr<const ContentPreview>> computing_;
+  Latest<std::pair<int, MethodPreview>> comparing_;
+  bool looked_ = false;  // now
+};
+
+/// The product's own picture where the user has chosen none.
+QString ownPicture();
+/// A picture as linear content. Throws: as readLinearContent().
+Image linearContentOf(const QString& file);
+
+}  // namespace relucent

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QDateTime>
+#include <QList>
+#include <QSettings>
+#include <QString>
+
+namespace relucent {
+
+/// A calibration that was opened before.
+struct RecentVenue {
+  QString folder;
+  QString name;
+  QDateTime opened;
+  QString state;  // of its steps, one short line; empty if it cannot be read now
+  bool simulated = false;
+};
+
+/// The calibrations that were opened, newest first, kept by the desktop's settings. Those that are gone from
+/// the disk are left out, not forgotten: their disk may come back.
+class RecentVenues {
+ public:
+  static constexpr qsizetype most = 12;
+
+  /// `settings` outlives this.
+  explicit RecentVenues(QSettings& settings) : settings_(settings) {}
+  QList<RecentVenue> list() const;
+  void add(const QString& folder, const QDateTime& now = QDateTime::currentDateTime());
+
+ private:
+  QSettings& settings_;
+};
+
+}  // namespace relucent

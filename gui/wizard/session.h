@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "calibration/calibration_folder.h"
+#include "jobs/latest.h"
+#include "jobs/live_rig.h"
+#include "pipeline/devices.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/steps.h"
+
+namespace relucent {
+
+/// The devices of the open calibration. Opened by the first work that needs them, used by one work at a time.
+class SessionDevices {
+ public:
+  SessionDevices(RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live)
+      : settings_(std::move(settings)), cache_(std::move(cache)), live_(std::move(live)) {}
+
+  /// Called on a worker's thread. Throws: as openRig().
+  Rig& open(Progress& progress);
+  LiveRig& live() const { return *live_; }
+
+ private:
+  RigSettings settings_;
+  std::filesystem::path cache_;
+  std::shared_ptr<LiveRig> live_;
+  std::mutex guard_;
+  std::optional<OpenedRig> opened_;
+};
+
+/// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
+/// locked only while something is read or written, so that a show can read it beside the wizard.
+class Session : public QObject {
+  Q_OBJECT
+
+ public:
+  /// `cache`: folder of traced venues.
+  explicit Session(std::filesystem::path cache, QObject* parent = nullptr);
+
+  bool isOpen() const { return !path_.empty(); }
+  const std::filesystem::path& path() const { return path_; }
+  /// The folder's name.
+  QString name() const;
+  const std::filesystem::path& cache() const { return cache_; }
+
+  /// Throws: as CalibrationFolder::open() and beginCalibration(); the session is then as it was.
+  void open(const std::filesystem::path& path);
+  void begin(const std::filesystem::path& path, const CalibrateSettings& settings);
+  void close();
+
+  const CalibrateSettings& settings() const { return settings_; }
+  StepProgress progress(Step step) const { return steps_[static_cast<std::size_t>(step)].progress; }
+  /// What a step left behind, perhaps stale.
+  const std::optional<StageResult>& result(Step step) const {
+    return steps_[static_cast<std::size_t>(step)].result;
+  }
+  bool isSimulated() const;
+  Size projectorSize() const;
+  /// Photographs of a stage in the journal: what an interrupted measurement has already.
+  int photographsKept(Step step) const;
+
+  /// Throws: Error{disk}.
+  void changeSettings(const CalibrateSettings& settings);
+  void decide(Step step, Json values);
+  /// Looks at the folder again, after some work wrote into it.
+  void reload();
+
+  std::shared_ptr<SessionDevices> devices() const { return devices_; }
+  LiveRig& live() const { return *live_; }
+
+  /// What acquisition measured, with all of T; none until it has been read.
+  std::shared_ptr<const Acquisition> acquisition() const { return acquisition_; }
+  /// Reads it on another thread, once; changed() tells.
+  void wantAcquisition();
+  /// Why it could not be read; none while it may still be.
+  const std::optional<Failure>& acquisitionFailure() const { return readFailure_; }
+
+  /// Devices are used by one page at a time. `who`: its name; empty: nobody.
+  const QString& busy() const { return busy_; }
+  void setBusy(const QString& who);
+
+ Q_SIGNALS:
+  /// Another calibration, or none.
+  void opened();
+  /// Results, settings, data or what goes on.
+  void changed();
+
+ private:
+  struct StepState {
+    StepProgress progress = StepProgress::open;
+    std::optional<StageResult> result;
+  };
+  void look(const CalibrationFolder& folder);
+  void adopt(const CalibrationFolder& folder);
+
+  std::filesystem::path path_, cache_;
+  CalibrateSettings settings_;
+  std::array<StepState, allSteps.size()> steps_;
+  std::shared_ptr<LiveRig> live_;
+  std::shared_ptr<SessionDevices> devices_;
+  std::shared_ptr<const Acquisition> acquisition_;
+  std::string acquired_;  // when the result was stored that `acquisition_` is or will be
+  std::optional<Failure> readFailure_;
+  QString busy_;
+  Latest<std::shared_ptr<const Acquisition>> reading_;
+};
+
+/// What the job of a measuring stage needs, without the session: it runs on another thread.
+struct SessionWork {
+  std::filesystem::path path;
+  std::shared_ptr<SessionDevices> devices;
+};
+inline SessionWork workOf(const Session& session) {
+  return {session.path(), session.devices()};
+}
+
+}  // namespace relucent

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "jobs/latest.h"
+#include "transport/footprint.h"
+#include "transport/statistics.h"
+#include "wizard/page_model.h"
+#include "wizard/session.h"
+
+namespace relucent {
+
+/// Step 5: the faintest light that is worth keeping.
+class ThresholdPage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit ThresholdPage(Session& session, QObject* parent = nullptr);
+
+  QString name() const override { return tr("Threshold"); }
+  QString subtitle() const override {
+    return tr(
+        "Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::optional<Banner> banner() const override;
+  void enter() override { session_.wantAcquisition(); }
+
+  std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
+  /// Of everything that was measured; none while it is being read.
+  const std::optional<TransportStatistics>& whole() const { return whole_; }
+  /// Of what the cut leaves; follows the cut.
+  const std::optional<TransportStatistics>& kept() const { return kept_; }
+  /// The highest cut that keeps nearly all light.
+  double suggested() const { return suggested_; }
+
+  const ThresholdSettings& cut() const { return cut_; }
+  bool isShareOfRow() const { return shareOfRow_; }
+  void setShareOfRow(bool share);
+  void setAbsolute(double cut);
+  void setShare(double share);
+  void useSuggested() { setAbsolute(suggested_); }
+
+  /// A pixel of the first camera that is looked at, and where its light comes from.
+  void pick(Pixel pixel);
+  const std::optional<Pixel>& picked() const { return picked_; }
+  const std::shared_ptr<const PixelFootprint>& footprint() const { return footprint_; }
+
+ private:
+  void adopt();
+  void compute();
+  void accept();
+
+  Session& session_;
+  std::shared_ptr<const Acquisition> adopted_;
+  ThresholdSettings cut_;
+  bool shareOfRow_ = false;
+  std::optional<TransportStatistics> whole_, kept_;
+  double suggested_ = 0.0;
+  std::optional<Pixel> picked_;
+  std::shared_ptr<const PixelFootprint> footprint_;
+  Latest<TransportStatistics> statistics_, first_;
+  Latest<std::shared_ptr<const PixelFootprint>> looking_;
+};
+
+}  // namespace relucent

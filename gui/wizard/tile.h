@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QAbstractButton>
+#include <QImage>
+#include <optional>
+
+#include "theme/icons.h"
+
+namespace relucent {
+
+/// A large choice: an icon or a picture, a name, and a sentence.
+class Tile : public QAbstractButton {
+  Q_OBJECT
+
+ public:
+  Tile(Icon icon, const QString& name, const QString& sentence, QWidget* parent = nullptr);
+  Tile(const QImage& picture, const QString& name, const QString& sentence, QWidget* parent = nullptr);
+  QSize sizeHint() const override { return {280, picture_.isNull() ? 148 : 240}; }
+  QSize minimumSizeHint() const override { return {140, picture_.isNull() ? 120 : 160}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void enterEvent(QEnterEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+ private:
+  void init(const QString& name, const QString& sentence);
+  void paintPicture(QPainter& painter, QRectF area) const;
+  std::optional<Icon> icon_;
+  QImage picture_;
+  QString sentence_;
+};
+
+}  // namespace relucent

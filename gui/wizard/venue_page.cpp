@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/venue_page.h"
+
+#include <QDir>
+#include <QStandardPaths>
+#include <QStorageInfo>
+
+#include "acquisition/forecast.h"
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+QString sizeText(Size size) {
+  return QString::fromUtf8("%1 × %2").arg(size.width).arg(size.height);
+}
+
+}  // namespace
+
+VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
+    : PageModel(parent), session_(session), recent_(recent) {
+  parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
+  venues_ = {{"corner", tr("Glossy corner"), tr("Light bounces between two cards"), ":/venues/corner.png"},
+             {"statue", tr("Bust before a brick wall"), tr("Texture, shadow and light between surfaces"),
+              ":/venues/statue.png"},
+             {"depth", tr("Many depths"), tr("Some surfaces are out of focus"), ":/venues/depth.png"},
+             {"dome", tr("Dome"), tr("Every part lights every other part"), ":/venues/dome.png"},
+             {"glass", tr("Wine glass"), tr("Light is refracted both ways"), ":/venues/glass.png"},
+             {"plain", tr("Painted wall"), tr("Flat, with diamonds; the easiest"), ":/venues/plain.png"}};
+  setSizes({{{64, 48}, {48, 36}, tr("%1, a first look")},
+            {{128, 96}, {80, 60}, tr("%1, quick")},
+            {{256, 192}, {160, 120}, tr("%1, usual")},
+            {{512, 384}, {320, 240}, tr("%1, fine")}});
+  size_ = 1;
+  script_.projector = {1024, 768};
+  connect(&session_, &Session::changed, this, &VenuePage::changed);
+  connect(&session_, &Session::opened, this, [this] {
+    if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
+    mode_ = Mode::start;
+  });
+}
+
+QString VenuePage::name() const {
+  return tr("Venue");
+}
+
+QString VenuePage::title() const {
+  switch (mode_) {
+    case Mode::rehearse:
+      return tr("Rehearse in a simulated venue");
+    case Mode::script:
+      return tr("New venue");
+    case Mode::start:
+      break;
+  }
+  return tr("Venue");
+}
+
+QString VenuePage::subtitle() const {
+  switch (mode_) {
+    case Mode::rehearse:
+      return tr("The same steps, with a simulated projector and camera. Nothing is projected into the room.");
+    case Mode::script:
+      return tr("Say which screen shines, which programs show and photograph, and where the work is kept.");
+    case Mode::start:
+      break;
+  }
+  return tr("Start here. Every venue keeps its own measurements and settings.");
+}
+
+StepStatus VenuePage::status() const {
+  if (!session_.isOpen()) return {StepState::open, mode_ == Mode::start ? QString() : tr("Setting up")};
+  QString kind = session_.isSimulated() ? tr("simulated, %1") : tr("by script, %1");
+  return {StepState::done, kind.arg(sizeText(session_.projectorSize()))};
+}
+
+QString VenuePage::hint() const {
+  if (mode_ == Mode::start)
+    return session_.isOpen() ? tr("%1 is open").arg(session_.name())
+                             : tr("Enter opens the highlighted choice");
+  if (QString wrong = problem(); !wrong.isEmpty()) return wrong;
+  WorkLeft work = expected();
+  return tr("About %1 patterns, %2")
+      .arg(countText(static_cast<std::uint64_t>(work.shots)), bytesText(work.diskBytes));
+}
+
+Command VenuePage::primary() const {
+  auto* self = const_cast<VenuePage*>(this);
+  if (mode_ == Mode::start) {
+    if (!session_.isOpen()) return {};
+    return {tr("Check camera"), Icon::next, true, {}, [self] { Q_EMIT self->nextWanted(); }};
+  }
+  return {mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"),
+          mode_ == Mode::rehearse ? Icon::play : Icon::next,
+          problem().isEmpty(),
+          {},
+          [self] { self->begin(); }};
+}
+
+bool VenuePage::goBack() {
+  if (mode_ == Mode::start) return false;
+  setMode(Mode::start);
+  return true;
+}
+
+void VenuePage::setMode(Mode mode) {
+  mode_ = mode;
+  if (mode != Mode::start) suggestName();
+  Q_EMIT changed();
+}
+
+void VenuePage::open(const QString& folder) {
+  try {
+    session_.open(folder.toStdString());
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder."), {}, {}});
+  }
+}
+
+void VenuePage::chooseVenue(std::size_t index) {
+  venue_ = index;
+  suggestName();
+  Q_EMIT changed();
+}
+
+void VenuePage::chooseSize(std::size_t index) {
+  size_ = index;
+  Q_EMIT changed();
+}
+
+void VenuePage::setSizes(std::vector<RehearsalSize> sizes) {
+  sizes_ = std::move(sizes);
+  for (RehearsalSize& size : sizes_)
+    if (size.text.contains("%1")) size.text = size.text.arg(sizeText(size.projector));
+  size_ = 0;
+  Q_EMIT changed();
+}
+
+void VenuePage::setScript(const CommandRigSettings& script) {
+  script_ = script;
+  Q_EMIT changed();
+}
+
+void VenuePage::setVenueName(const QString& name) {
+  venueName_ = name;
+  named_ = !name.isEmpty();
+  Q_EMIT changed();
+}
+
+void VenuePage::setFolder(const QString& folder) {
+  parent_ = QDir::cleanPath(folder);
+  suggestName();
+  Q_EMIT changed();
+}
+
+/// A name that is not taken yet.
+void VenuePage::suggestName() {
+  if (named_) return;
+  QString base = mode_ == Mode::script ? tr("New venue") : venues_[venue_].name;
+  venueName_ = base;
+  for (int number = 2; QFileInfo::exists(target()); ++number)
+    venueName_ = QString("%1 %2").arg(base).arg(number);
+}
+
+std::uint64_t VenuePage::freeBytes() const {
+  QString existing = parent_;
+  while (!QFileInfo::exists(existing) && existing != QDir(existing).absolutePath().section('/', 0, 0))
+    existing = QFileInfo(existing).path();
+  return static_cast<std::uint64_t>(std::max<qint64>(0, QStorageInfo(existing).bytesAvailable()));
+}
+
+CalibrateSettings VenuePage::wanted() const {
+  CalibrateSettings settings;
+  if (mode_ == Mode::script) {
+    settings.rig = script_;
+    return settings;
+  }
+  VenueSettings venue;
+  venue.name = venues_[venue_].id;
+  venue.projector = sizes_[size_].projector;
+  venue.camera = sizes_[size_].camera;
+  settings.rig = venue;
+  return settings;
+}
+
+WorkLeft VenuePage::expected() const {
+  Size projector = mode_ == Mode::script ? script_.projector : sizes_[size_].projector;
+  Size camera = mode_ == Mode::script ? script_.camera.value_or(projector) : sizes_[size_].camera;
+  constexpr std::size_t exposures = 2;
+  constexpr double meanExposure = 0.1;
+  return forecast(Rasters(camera), Rasters(projector), exposures, meanExposure, {}, {}, {});
+}
+
+QString VenuePage::problem() const {
+  if (mode_ == Mode::start) return {};
+  if (venueName_.trimmed().isEmpty()) return tr("Give the venue a name.");
+  if (venueName_.contains('/')) return tr("A name cannot hold a slash.");
+  if (QFileInfo::exists(target())) return tr("There is a folder of that name. Choose another name.");
+  if (std::vector<std::string> found = problems(wanted()); !found.empty()) {
+    QString sentence = QString::fromStdString(found.front());
+    sentence[0] = sentence[0].toUpper();
+    return sentence + '.';
+  }
+  std::uint64_t needed = expected().diskBytes, free = freeBytes();
+  if (free < needed) return tr("Free %1 or choose another folder.").arg(bytesText(needed - free));
+  return {};
+}
+
+void VenuePage::begin() {
+  if (!problem().isEmpty()) return;
+  try {
+    QDir().mkpath(parent_);
+    session_.begin(target().toStdString(), wanted());
+    named_ = false;
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was measured yet."), {}, {}});
+  }
+}
+
+}  // namespace relucent

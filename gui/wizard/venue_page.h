@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/page_model.h"
+#include "wizard/recent_venues.h"
+#include "wizard/session.h"
+
+namespace relucent {
+
+/// A simulated venue as it is offered.
+struct RehearsalVenue {
+  std::string id;  // core's name
+  QString name, sentence;
+  QString picture;  // resource
+};
+/// Sizes of the simulated devices.
+struct RehearsalSize {
+  Size projector, camera;
+  QString text;
+};
+
+/// Step 1: which venue, and where its work is kept.
+class VenuePage : public PageModel {
+  Q_OBJECT
+
+ public:
+  enum class Mode { start, rehearse, script };
+
+  VenuePage(Session& session, RecentVenues recent, QObject* parent = nullptr);
+
+  QString name() const override;
+  QString title() const override;
+  QString subtitle() const override;
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  bool goBack() override;
+  bool canGoBack() const override { return mode_ != Mode::start; }
+  bool usesInspector() const override { return mode_ != Mode::start; }
+
+  Mode mode() const { return mode_; }
+  void setMode(Mode mode);
+  QList<RecentVenue> recent() const { return recent_.list(); }
+  /// Tells failed() if it cannot be opened.
+  void open(const QString& folder);
+
+  const std::vector<RehearsalVenue>& venues() const { return venues_; }
+  const std::vector<RehearsalSize>& sizes() const { return sizes_; }
+  std::size_t venue() const { return venue_; }
+  std::size_t size() const { return size_; }
+  void chooseVenue(std::size_t index);
+  void chooseSize(std::size_t index);
+  /// Pixels of their own for tests and pictures.
+  void setSizes(std::vector<RehearsalSize> sizes);
+
+  const CommandRigSettings& script() const { return script_; }
+  void setScript(const CommandRigSettings& script);
+
+  /// Of the new calibration.
+  QString venueName() const { return venueName_; }
+  void setVenueName(const QString& name);
+  QString folder() const { return parent_; }
+  void setFolder(const QString& folder);
+  std::uint64_t freeBytes() const;
+  /// What acquiring will about take.
+  WorkLeft expected() const;
+
+  /// The first sentence against beginning; empty: nothing.
+  QString problem() const;
+
+ private:
+  CalibrateSettings wanted() const;
+  void begin();
+  void suggestName();
+  QString target() const { return parent_ + '/' + venueName_; }
+
+  Session& session_;
+  RecentVenues recent_;
+  Mode mode_ = Mode::start;
+  std::vector<RehearsalVenue> venues_;
+  std::vector<RehearsalSize> sizes_;
+  std::size_t venue_ = 0, size_ = 0;
+  CommandRigSettings script_;
+  QString venueName_, parent_;
+  bool named_ = false;  // by the user
+};
+
+}  // namespace relucent

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Stages one by one, and what somebody decides between them.
+#include "pipeline/steps.h"
+
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "base/error.h"
+#include "calibration/results.h"
+#include "pipeline/devices.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/measuring.h"
+#include "pipeline/stages.h"
+
+using namespace relucent;
+namespace fs = std::filesystem;
+
+namespace {
+
+CalibrateSettings tiny() {
+  VenueSettings venue;
+  venue.name = "plain";
+  venue.projector = {24, 18};
+  venue.camera = {20, 16};
+  venue.pathsPerPixel = 16;
+  CalibrateSettings settings;
+  settings.rig = venue;
+  settings.linearization.levels = 5;
+  return settings;
+}
+
+}  // namespace
+
+class TestSteps : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  fs::path path(const char* name) const { return fs::path(folder_.path().toStdString()) / name; }
+
+ private slots:
+  /// The law that makes the wizard and the command line the same program.
+  void oneByOneIsTheSameAsAllAtOnce() {
+    Progress quiet;
+    calibrate(path("at once"), tiny(), path("cache"), quiet);
+    CalibrationFolder atOnce = CalibrationFolder::open(path("at once"), CalibrationFolder::Access::read);
+
+    CalibrationFolder folder = beginCalibration(path("one by one"), tiny());
+    OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
+    for (Step step : allSteps) QVERIFY(progressOf(folder, step) == StepProgress::open);
+    Linearization linearization = measureLinearization(folder, devices.rig, quiet);
+    QVERIFY(progressOf(folder, Step::linearization) == StepProgress::done);
+    Acquisition acquisition = measureAcquisition(folder, devices.rig, linearization, {}, quiet);
+    MeasuredVenue venue = measuredVenueOf(acquisition, settingsOf(folder).threshold);
+    measureInverse(folder, venue, quiet);
+
+    Acquisition expected = loadAcquisition(*atOnce.latest(stage::acquisition));
+    QVERIFY(acquisition.transport.leaves() == expected.transport.leaves());
+    QCOMPARE(folder.latest(stage::inverse)->values["ridge"].get<double>(),
+             atOnce.latest(stage::inverse)->values["ridge"].get<double>());
+    QVERIFY(takeMeasuredVenue(expected, {}).transport.leaves() == venue.transport.leaves());
+  }
+
+  void aChangedSettingMakesWhatFollowsStaleAndSettingItBackMakesItCurrent() {
+    CalibrationFolder folder = beginCalibration(path("stale"), tiny());
+    for (Step step : {Step::camera, Step::threshold, Step::clustering, Step::content})
+      storeDecision(folder, step, {{"figure", 1}});
+    CalibrateSettings before = settingsOf(folder), changed = before;
+    changed.threshold.absolute = 0.5f;
+    changeSettings(folder, changed);
+    QVERIFY(progressOf(folder, Step::camera) == StepProgress::done);
+    for (Step step : {Step::threshold, Step::clustering, Step::content})
+      QVERIFY(progressOf(folder, step) == StepProgress::stale);
+    QCOMPARE(resultOf(folder, Step::clustering)->values["figure"].get<int>(), 1);
+
+    changed = before;
+    changed.clustering.patchRadius = 5.0;
+    changeSettings(folder, changed);
+    QVERIFY(progressOf(folder, Step::threshold) == StepProgress::done);
+    QVERIFY(progressOf(folder, Step::clustering) == StepProgress::stale);
+    QVERIFY(progressOf(folder, Step::content) == StepProgress::done);
+
+    changeSettings(folder, before);
+    for (Step step : {Step::threshold, Step::clustering, Step::content})
+      QVERIFY(progressOf(folder, step) == StepProgress::done);
+    QVERIFY(!resultOf(folder, Step::linearization));
+  }
+
+  void settingsOfOtherVersionsStay() {
+    CalibrationFolder folder = beginCalibration(path("foreign"), tiny());
+    Json settings = folder.settings();
+    settings["later"] = 7;
+    folder.setSettings(settings);
+    CalibrateSettings changed = settingsOf(folder);
+    changed.content.method = "windows";
+    changeSettings(folder, changed);
+    QCOMPARE(folder.settings()["later"].get<int>(), 7);
+    QCOMPARE(settingsOf(folder).content.method, std::string("windows"));
+  }
+
+  void shotsThatAreSetAsideAreTakenAnew() {
+    Progress quiet;
+    CalibrationFolder folder = beginCalibration(path("aside"), tiny());
+    OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
+    measureLinearization(folder, devices.rig, quiet);
+    setShotsAside(folder, stage::acquisition);  // there are none
+    setShotsAside(folder, stage::linearization);
+    QVERIFY(progressOf(folder, Step::linearization) == StepProgress::done);
+    int left = 0;
+    for (const auto& entry : fs::directory_iterator(folder.shotFolder())) left += entry.is_regular_file();
+    QCOMPARE(left, 0);
+    QVERIFY(!fs::is_empty(folder.shotFolder() / "earlier-1"));
+    QVERIFY(!fs::exists(folder.shotFolder() / "earlier-2"));
+  }
+
+  void wrongSettingsBeginNothing() {
+    CalibrateSettings settings = tiny();
+    settings.content.method = "magic";
+    QVERIFY_EXCEPTION_THROWN((void)beginCalibration(path("wrong"), settings), Error);
+    QVERIFY(!fs::exists(path("wrong")));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestSteps)
+#include "test_steps.moc"

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// screenshots DIR CALIBRATION [CACHE]: every page of the wizard in both themes, at 1366x768 and 1920x1080,
+// from a finished calibration, which is changed: give it a copy. To be run on an X server of its own:
+//   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR CALIBRATION
+#include <QApplication>
+#include <QDir>
+#include <QScreen>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cstdio>
+
+#include "app/wizard_window.h"
+#include "theme/theme.h"
+
+using namespace relucent;
+
+namespace {
+
+/// Waits for what a page computes, a minute at most.
+template <typename Condition>
+void until(const Condition& condition) {
+  if (!QTest::qWaitFor(condition, 60000)) std::fprintf(stderr, "screenshots: a page is not ready\n");
+}
+
+class Photographs {
+ public:
+  Photographs(WizardWindow& wizard, QDir folder) : wizard_(wizard), folder_(std::move(folder)) {}
+
+  void take(const QString& page) {
+    for (auto [look, name] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")})
+      for (QSize size : {QSize(1366, 768), QSize(1920, 1080)}) {
+        Theme::instance().apply(look);
+        wizard_.window().resize(size);
+        QCoreApplication::processEvents();
+        QTest::qWait(50);
+        QString file = QString("%1-%2-%3.png").arg(page, name).arg(size.width());
+        wizard_.window().grab().save(folder_.filePath(file));
+      }
+  }
+
+ private:
+  WizardWindow& wizard_;
+  QDir folder_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION [CACHE]\n");
+    return 2;
+  }
+  QDir folder(argv[1]);
+  folder.mkpath(".");
+  QTemporaryDir own;
+  QSettings settings(own.filePath("settings.ini"), QSettings::IniFormat);
+  WizardWindow wizard(settings, argc > 3 ? argv[3] : own.filePath("cache").toStdString());
+  wizard.venue().setFolder(own.filePath("venues"));
+  Photographs photographs(wizard, folder);
+  wizard.window().show();
+  photographs.take("00-empty");
+  wizard.venue().setMode(VenuePage::Mode::rehearse);
+  photographs.take("01-rehearse");
+  wizard.venue().setMode(VenuePage::Mode::script);
+  photographs.take("01-script");
+
+  wizard.venue().open(argv[2]);
+  wizard.wizard().go(0);
+  photographs.take("00-start");
+  Wizard& steps = wizard.wizard();
+  steps.go(1);
+  if (!wizard.camera().look()) until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
+  photographs.take("02-camera");
+  if (!wizard.session().result(Step::camera)) wizard.camera().primary().run();
+  until([&] { return wizard.session().busy().isEmpty() && steps.current() == 2; });
+  photographs.take("03-linearize");
+  steps.go(3);
+  photographs.take("04-acquire");
+  steps.go(4);
+  until([&] { return wizard.threshold().kept() && wizard.threshold().whole(); });
+  wizard.threshold().pick({82, 70});
+  until([&] { return wizard.threshold().footprint() != nullptr; });
+  wizard.threshold().useSuggested();
+  QTest::qWait(300);
+  photographs.take("05-threshold");
+  wizard.threshold().setAbsolute(0.0);
+  until([&] { return wizard.threshold().kept()->energyKept == 1.0; });
+  wizard.threshold().primary().run();
+  until([&] { return wizard.cluster().result() && !wizard.cluster().isComputing(); });
+  photographs.take("06-cluster");
+  wizard.cluster().primary().run();
+  until([&] { return wizard.preview().preview() && wizard.preview().table().size() >= 5; });
+  photographs.take("07-preview");
+  wizard.preview().primary().run();
+  wizard.output().open();
+  until([&] { return !wizard.output().onProjector().isNull(); });
+  photographs.take("08-output");
+  wizard.output().close();
+  return 0;
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "jobs/job.h"
+
+#include <QSemaphore>
+#include <QSignalSpy>
+#include <QtTest>
+
+#include "base/error.h"
+#include "jobs/latest.h"
+#include "jobs/live_rig.h"
+
+using namespace relucent;
+
+namespace {
+
+class CountingProjector : public Projector {
+ public:
+  std::string name() const override { return "counting"; }
+  Size size() const override { return {2, 2}; }
+  int bits() const override { return 8; }
+  void show(const Image& drive) override {
+    brightest = *std::max_element(drive.data().begin(), drive.data().end());
+    shown.release();
+  }
+  float brightest = -1.0f;
+  QSemaphore shown;
+};
+
+}  // namespace
+
+class TestJob : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void endsInOneWay_data() {
+    QTest::addColumn<int>("ending");
+    QTest::addColumn<int>("state");
+    QTest::newRow("done") << 0 << static_cast<int>(Job::State::done);
+    QTest::newRow("cancelled") << 1 << static_cast<int>(Job::State::cancelled);
+    QTest::newRow("failure of the world") << 2 << static_cast<int>(Job::State::failed);
+    QTest::newRow("mistake of the program") << 3 << static_cast<int>(Job::State::failed);
+  }
+  void endsInOneWay() {
+    QFETCH(int, ending);
+    QFETCH(int, state);
+    Job job;
+    QSignalSpy ended(&job, &Job::ended);
+    job.start([ending](Progress& progress) {
+      progress.report(0.5);
+      if (ending == 1) throw Cancelled();
+      if (ending == 2) throw Error(ErrorKind::device, "the camera is gone", "plug it in");
+      if (ending == 3) throw std::logic_error("1 is not 2");
+    });
+    QVERIFY(job.isRunning());
+    QTRY_COMPARE(ended.size(), 1);
+    QCOMPARE(static_cast<int>(job.state()), state);
+    if (ending == 2) {
+      QCOMPARE(job.failure().what, QString("The camera is gone."));
+      QCOMPARE(job.failure().advice, QString("Plug it in."));
+      QVERIFY(job.failure().kind == ErrorKind::device);
+    }
+    if (ending == 3) QVERIFY(job.failure().details.contains("1 is not 2"));
+  }
+
+  void aCancelReachesTheWork() {
+    Job job;
+    QSemaphore begun;
+    job.start([&begun](Progress& progress) {
+      begun.release();
+      while (true) progress.checkpoint();
+    });
+    begun.acquire();
+    job.cancel();
+    QTRY_VERIFY(job.state() == Job::State::cancelled);
+  }
+
+  void stopAndKeepIsNoCancel() {
+    Job job;
+    QSemaphore begun;
+    job.start([&begun](Progress& progress) {
+      begun.release();
+      while (!progress.stopAndKeep()) progress.checkpoint();
+    });
+    begun.acquire();
+    job.stopAndKeep();
+    QVERIFY(job.isStopping());
+    QTRY_VERIFY(job.state() == Job::State::done);
+  }
+
+  void ofManyReportsTheLastCountsAndTheInterfaceIsNotFlooded() {
+    Job job;
+    QSignalSpy progressed(&job, &Job::progressed), expected(&job, &Job::expected);
+    job.start([](Progress& progress) {
+      Progress part = progress.part(1.0, "counting");
+      for (int i = 0; i <= 100000; ++i) part.report(i / 100000.0);
+      WorkLeft left;
+      left.shots = 7;
+      part.expect(left);
+    });
+    job.wait();
+    QTRY_VERIFY(job.state() == Job::State::done);
+    QCOMPARE(job.fraction(), 1.0);
+    QCOMPARE(job.stage(), QString("counting"));
+    QCOMPARE(expected.size(), 1);
+    QVERIFY(progressed.size() < 10);
+  }
+
+  void destroyedWhileItWorksItWaits() {
+    bool over = false;
+    {
+      Job job;
+      job.start([&over](Progress& progress) {
+        try {
+          while (true) progress.checkpoint();
+        } catch (...) {
+          over = true;
+          throw;
+        }
+      });
+    }
+    QVERIFY(over);
+  }
+
+  void ofManyRequestsTheNewestIsAnswered() {
+    QSemaphore go;
+    QList<int> answers;
+    Latest<int> latest([&answers](int answer) { answers.append(answer); }, [](const Failure&) {});
+    latest.ask([&go] {
+      go.acquire();
+      return 0;
+    });
+    for (int i = 1; i < 10; ++i) latest.ask([i] { return i; });
+    go.release();
+    QTRY_COMPARE(answers, QList<int>({0, 9}));
+  }
+
+  void aPauseHoldsTheRigInTheDark() {
+    auto live = std::make_shared<LiveRig>(0);
+    auto owned = std::make_unique<CountingProjector>();
+    CountingProjector& projector = *owned;
+    Rig rig;
+    rig.projectors.push_back(std::move(owned));
+    rig = watched(std::move(rig), live);
+    live->pause();
+    QVERIFY(live->isPaused());
+    Job job;
+    job.start([&rig](Progress&) { rig.projectors[0]->show(Image({2, 2}, 3, 1.0f)); });
+    projector.shown.acquire();
+    QCOMPARE(projector.brightest, 0.0f);
+    QVERIFY(job.isRunning());
+    live->resume();
+    projector.shown.acquire();
+    QCOMPARE(projector.brightest, 1.0f);
+    QTRY_VERIFY(job.state() == Job::State::done);
+    QCOMPARE(live->pictures().pattern, Image({2, 2}, 3, 1.0f));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestJob)
+#include "test_job.moc"

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Steps and pages without any widget.
+#include "wizard/wizard.h"
+
+#include <QDir>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "wizard/threshold_page.h"
+#include "wizard/venue_page.h"
+
+using namespace relucent;
+
+namespace {
+
+class ScriptedPage : public PageModel {
+ public:
+  QString name() const override { return "page"; }
+  QString subtitle() const override { return {}; }
+  StepStatus status() const override { return {state, {}}; }
+  Command primary() const override { return {}; }
+  void enter() override { ++entered; }
+  void leave() override { ++left; }
+  StepState state = StepState::open;
+  int entered = 0, left = 0;
+};
+
+}  // namespace
+
+class TestWizard : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  std::unique_ptr<QSettings> settings_;
+  std::unique_ptr<Session> session_;
+
+ private slots:
+  void init() {
+    settings_ = std::make_unique<QSettings>(folder_.filePath("settings.ini"), QSettings::IniFormat);
+    settings_->clear();
+    session_ = std::make_unique<Session>(std::filesystem::path(folder_.filePath("cache").toStdString()));
+  }
+
+  void aStepOpensWhenAllBeforeItHaveAResult() {
+    Wizard wizard(*session_);
+    std::array<ScriptedPage, 4> pages;
+    for (ScriptedPage& page : pages) wizard.add(page);
+    QVERIFY(!wizard.isLocked(0) && wizard.isLocked(1) && wizard.isLocked(3));
+    QVERIFY(!wizard.go(1));
+    QCOMPARE(wizard.current(), std::size_t{0});
+    pages[0].state = StepState::done;
+    pages[1].state = StepState::outOfDate;
+    QCOMPARE(wizard.standing(), std::size_t{2});
+    QVERIFY(wizard.go(2));
+    QCOMPARE(pages[0].left, 1);
+    QCOMPARE(pages[2].entered, 1);
+    pages[1].state = StepState::failed;
+    QVERIFY(wizard.isLocked(2));
+    wizard.back();
+    QCOMPARE(wizard.current(), std::size_t{1});
+    QVERIFY(!wizard.go(9));
+  }
+
+  void aNewVenueSaysWhatIsWrongAndBeginsNothing_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<bool>("possible");
+    QTest::newRow("plain") << "Chapel" << true;
+    QTest::newRow("empty") << " " << false;
+    QTest::newRow("a path") << "a/b" << false;
+    QTest::newRow("taken") << "taken" << false;
+  }
+  void aNewVenueSaysWhatIsWrongAndBeginsNothing() {
+    QFETCH(QString, name);
+    QFETCH(bool, possible);
+    QDir(folder_.path()).mkpath("venues/taken");
+    VenuePage page(*session_, RecentVenues(*settings_));
+    page.setFolder(folder_.filePath("venues"));
+    page.setMode(VenuePage::Mode::rehearse);
+    page.setVenueName(name);
+    QCOMPARE(page.problem().isEmpty(), possible);
+    QCOMPARE(page.primary().enabled, possible);
+    page.primary().run();
+    QCOMPARE(session_->isOpen(), possible);
+    if (!possible) return;
+    QVERIFY(page.status().state == StepState::done);
+    QCOMPARE(page.recent().size(), 1);
+    QCOMPARE(page.recent().front().name, name);
+  }
+
+  void aScriptMustNameItsPlaceholders() {
+    VenuePage page(*session_, RecentVenues(*settings_));
+    page.setFolder(folder_.filePath("scripts"));
+    page.setMode(VenuePage::Mode::script);
+    QVERIFY(!page.primary().enabled);
+    CommandRigSettings script = page.script();
+    script.projectorCommand = "show {image}";
+    script.cameraCommand = "photograph {exposure} {output}";
+    page.setScript(script);
+    QVERIFY2(page.primary().enabled, qPrintable(page.problem()));
+  }
+
+  void whatCannotBeOpenedIsToldAndChangesNothing() {
+    VenuePage page(*session_, RecentVenues(*settings_));
+    QSignalSpy failed(&page, &PageModel::failed);
+    page.open(folder_.filePath("nowhere"));
+    QCOMPARE(failed.size(), 1);
+    auto report = failed.front().front().value<FailureReport>();
+    QVERIFY(!report.failure.what.isEmpty() && !report.failure.advice.isEmpty() && !report.safe.isEmpty());
+    QVERIFY(!session_->isOpen());
+  }
+
+  void decisionsSurviveAndSettingsMakeThemStale() {
+    CalibrateSettings settings;
+    session_->begin(std::filesystem::path(folder_.filePath("kept").toStdString()), settings);
+    session_->decide(Step::camera, Json{{"exposures", {1.0}}});
+    session_->decide(Step::threshold, Json{{"kept", 0.98}});
+    settings = session_->settings();
+    settings.threshold.absolute = 0.1f;
+    session_->changeSettings(settings);
+    QVERIFY(session_->progress(Step::camera) == StepProgress::done);
+    QVERIFY(session_->progress(Step::threshold) == StepProgress::stale);
+    ThresholdPage page(*session_);
+    QVERIFY(page.status().state == StepState::outOfDate);
+    Session again{std::filesystem::path()};
+    again.open(session_->path());
+    QVERIFY(again.progress(Step::threshold) == StepProgress::stale);
+    QCOMPARE(again.name(), QString("kept"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestWizard)
+#include "test_wizard.moc"

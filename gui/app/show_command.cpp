@@ -38,10 +38,11 @@ int run(const PrintText& print) {
 
 int run(const PlayShow& play) {
   const ShowSettings& settings = play.settings;
-  Show show(settings, [settings] {
+  Show show(settings, [settings](const std::function<void(const QString&)>& warn) {
     Progress quiet;
-    return std::make_unique<EngineRenderer>(settings.calibration, settings.canvas, settings.adaptiveRange,
-                                            quiet);
+    return std::make_unique<EngineRenderer>(
+        settings.calibration, settings.canvas, settings.adaptiveRange, quiet,
+        [warn](const std::string& sentence) { warn(QString::fromStdString(sentence)); });
   });
   Termination termination;
   QObject::connect(&termination, &Termination::requested, &show, [&show] {

@@ -18,7 +18,8 @@ constexpr double shareOfBudget = 0.7;
 }  // namespace
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
-                               bool adaptiveRange, Progress& progress, BackendChoice choice)
+                               bool adaptiveRange, Progress& progress, const FallbackBackend::Told& told,
+                               BackendChoice choice)
     : canvas_(canvas) {
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
   calibration_ = loadCalibration(folder, progress);
@@ -28,7 +29,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
                               settings));
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
-  backend_ = makeBackend(*venue_, choice, [](const std::string& what) { qWarning("%s", what.c_str()); });
+  backend_ = makeBackend(*venue_, choice, told);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
   words_.resize(calibration_.venue.transport.projectors().count());

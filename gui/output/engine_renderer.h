@@ -22,10 +22,11 @@ class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
   /// offset follow the content, see AdaptiveRange. Brightness and black are those that the calibration keeps
-  /// for its content.
-  /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
+  /// for its content. `told` hears once, on the thread that renders, when a graphics card is lost or of no
+  /// use and the processor goes on. Throws: as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
-                 Progress& progress, BackendChoice choice = BackendChoice::automatic);
+                 Progress& progress, const FallbackBackend::Told& told = {},
+                 BackendChoice choice = BackendChoice::automatic);
 
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }

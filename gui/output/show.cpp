@@ -54,7 +54,7 @@ Show::~Show() {
 }
 
 void Show::open() {
-  std::unique_ptr<FrameRenderer> renderer = make_();
+  std::unique_ptr<FrameRenderer> renderer = make_([this](const QString& sentence) { log_.warn(sentence); });
   renderer_ = renderer->name();
   player_.reset();
   if (windows_.empty()) {

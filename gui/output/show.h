@@ -22,7 +22,9 @@ class Show : public QObject {
   Q_OBJECT
 
  public:
-  using MakeRenderer = std::function<std::unique_ptr<FrameRenderer>()>;
+  /// `warn` takes sentences for the log, on whatever thread, as long as the renderer lives.
+  using MakeRenderer =
+      std::function<std::unique_ptr<FrameRenderer>(const std::function<void(const QString&)>& warn)>;
   /// `make` is called again after a failure. Throws: Error as `make` and displaysFor() do, the first time.
   Show(ShowSettings settings, MakeRenderer make, MachineClock clock = {}, QObject* parent = nullptr);
   ~Show() override;

@@ -36,12 +36,14 @@ class TestShow : public QObject {
   }
   QDateTime wall_;
   std::chrono::nanoseconds slept_{0};
+  std::function<void(const QString&)> warn_;
   std::unique_ptr<Show> showOf(const ShowSettings& settings) {
     made_ = 0;
     MachineClock clock{[this] { return wall_; }, [this] { return slept_; }};
     return std::make_unique<Show>(
         settings,
-        [this] {
+        [this](const std::function<void(const QString&)>& warn) {
+          warn_ = warn;
           if (cannotBeMade_) throw Error(ErrorKind::input, "the calibration is gone", "bring it back");
           auto renderer = std::make_unique<ScriptedRenderer>();
           renderer->broken = broken_;
@@ -80,6 +82,12 @@ class TestShow : public QObject {
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
     QCOMPARE(health()["state"].toString(), QString("stopped"));
     QVERIFY(log().contains("playing 1 items on scripted") && log().contains("stopped"));
+  }
+
+  void whatTheRendererSaysStandsInTheLog() {
+    auto show = showOf(settings({picture("a.png", 3)}));
+    warn_("the card is gone");
+    QVERIFY(log().contains("warning the card is gone"));
   }
 
   void aLostDisplayIsToldAndWaitedFor() {

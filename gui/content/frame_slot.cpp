@@ -12,7 +12,7 @@ void FrameSlot::put(const QVideoFrame& frame) {
   // The end of a film is an empty frame; its last picture stays.
   if (!frame.isValid()) return;
   QMutexLocker lock(&guard_);
-  newest_ = {frame, nextFrameNumber()};
+  newest_ = {frame, nextFrameNumber(), newest_.jpeg};
   came_.wakeAll();
 }
 
@@ -28,6 +28,11 @@ bool FrameSlot::waitForFirst(int milliseconds) {
   while (newest_.number == 0 && failure_.isEmpty() && came_.wait(&guard_, until)) {
   }
   return newest_.number != 0;
+}
+
+void FrameSlot::tellJpeg() {
+  QMutexLocker lock(&guard_);
+  newest_.jpeg = true;
 }
 
 QString FrameSlot::failure() const {

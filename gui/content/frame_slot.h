@@ -14,6 +14,8 @@ namespace relucent {
 class FrameSlot {
  public:
   void put(const QVideoFrame& frame);
+  /// Frames are JPEG pictures, see pictureOf().
+  void tellJpeg();
   /// The reason why no frame will ever come.
   void fail(const QString& reason);
   /// Waits for a first frame, or a reason why there is none. Whether there is a frame.
@@ -23,6 +25,7 @@ class FrameSlot {
   struct Newest {
     QVideoFrame frame;
     std::uint64_t number = 0;  // 0: none yet
+    bool jpeg = false;
   };
   Newest newest() const;
 

@@ -48,7 +48,7 @@ ContentPicture Video::at(ContentTime time) {
 
 void Video::show(const FrameSlot::Newest& newest) {
   if (newest.number != picture_.number)
-    picture_ = {onCanvas(pictureOf(newest.frame), canvas_), newest.number};
+    picture_ = {onCanvas(pictureOf(newest.frame, newest.jpeg), canvas_), newest.number};
 }
 
 bool isVideo(const QString& file) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "content/video_follower.h"
 
+#include <QMediaFormat>
+#include <QMediaMetaData>
 #include <QMutexLocker>
 #include <QUrl>
 #include <algorithm>
@@ -89,6 +91,9 @@ void VideoFollower::statusChanged(QMediaPlayer::MediaStatus status) {
   } else if (status == QMediaPlayer::LoadedMedia && !pursuit_) {
     if (!player_.hasVideo()) return frames_.fail("it holds no picture");
     if (player_.duration() <= 0) return frames_.fail("it tells no length");
+    if (player_.metaData().value(QMediaMetaData::VideoCodec).value<QMediaFormat::VideoCodec>() ==
+        QMediaFormat::VideoCodec::MotionJPEG)
+      frames_.tellJpeg();
     pursuit_.emplace(length());
     player_.pause();  // shows the first picture
     tick_.start(interval);

@@ -81,7 +81,7 @@ QImage upright(const QImage& picture, const QVideoFrame& frame) {
 
 }  // namespace
 
-VideoEncoding encodingOf(const QVideoFrameFormat& format) {
+VideoEncoding encodingOf(const QVideoFrameFormat& format, bool jpeg) {
   VideoEncoding encoding;
   constexpr int linesOfHighDefinition = 720;
   if (format.colorSpace() == Format::ColorSpace_BT2020) refuseRange("made for BT.2020's colours");
@@ -104,16 +104,13 @@ VideoEncoding encodingOf(const QVideoFrameFormat& format) {
     case Format::ColorTransfer_Gamma28:
       encoding.transfer = VideoEncoding::Transfer::gamma28;
       break;
-    case Format::ColorTransfer_Unknown:
-      encoding.transfer = full ? VideoEncoding::Transfer::srgb : VideoEncoding::Transfer::bt1886;
-      break;
     default:
-      encoding.transfer = VideoEncoding::Transfer::bt1886;
+      encoding.transfer = full || jpeg ? VideoEncoding::Transfer::srgb : VideoEncoding::Transfer::bt1886;
   }
   return encoding;
 }
 
-QImage pictureOf(const QVideoFrame& frame) {
+QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
   Mapped mapped(frame);
   QVideoFrameFormat format = frame.surfaceFormat();
   QSize size = format.frameSize();
@@ -132,7 +129,7 @@ QImage pictureOf(const QVideoFrame& frame) {
     return upright(there.convertToFormat(QImage::Format_RGBX8888).copy(), frame);
   }
   QImage picture(size, QImage::Format_RGBX8888);
-  srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format), picture.bits(),
+  srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format, jpeg), picture.bits(),
                 static_cast<std::size_t>(picture.bytesPerLine()));
   return upright(picture, frame);
 }

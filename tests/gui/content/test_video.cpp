@@ -98,8 +98,9 @@ class TestVideo : public QObject {
     Video video(film(made), canvasOf(made));
     QRgb seen = video.at(0s).image.pixel(10, 10);
     // JPEG's own rounding: a code of Y and chroma each, times 1.772 at most.
-    QVERIFY(std::abs(qRed(seen) - 200) <= 3 && std::abs(qGreen(seen) - 120) <= 3 &&
-            std::abs(qBlue(seen) - 40) <= 3);
+    QVERIFY2(std::abs(qRed(seen) - 200) <= 3 && std::abs(qGreen(seen) - 120) <= 3 &&
+                 std::abs(qBlue(seen) - 40) <= 3,
+             qPrintable(QString::number(seen, 16)));
   }
 
   void tellsItsLength() {

@@ -148,6 +148,11 @@ class TestVideoFrame : public QObject {
     QVERIFY(usual.range == VideoEncoding::Range::video && usual.transfer == VideoEncoding::Transfer::bt1886);
     VideoEncoding full = encoding(size, [](Format& f) { f.setColorRange(Format::ColorRange_Full); });
     QVERIFY(full.range == VideoEncoding::Range::full && full.transfer == VideoEncoding::Transfer::srgb);
+    VideoEncoding jpeg = encoding(size, [](Format& f) {
+      f.setColorRange(Format::ColorRange_Full);
+      f.setColorTransfer(Format::ColorTransfer_BT601);
+    });
+    QVERIFY(jpeg.transfer == VideoEncoding::Transfer::srgb);
     QVERIFY(encoding(size, [](Format& f) { f.setColorTransfer(Format::ColorTransfer_Linear); }).transfer ==
             VideoEncoding::Transfer::linear);
   }

@@ -94,6 +94,8 @@ class TestWizard : public QObject {
     page.setMode(VenuePage::Mode::script);
     QVERIFY(!page.primary().enabled);
     CommandRigSettings script = page.script();
+    script.projector = {64, 48};  // its photographs fit on any disk
+    script.camera = {48, 36};
     script.projectorCommand = "show {image}";
     script.cameraCommand = "photograph {exposure} {output}";
     page.setScript(script);

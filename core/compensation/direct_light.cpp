@@ -10,80 +10,6 @@
 namespace relucent {
 namespace {
 
-/// Where a camera pixel looks to in one projector.
-struct Place {
-  float light = 0.0f;  // of the brightest leaf, per projector pixel
-  double x = 0.0, y = 0.0;
-};
-
-class DirectLeaves {
- public:
-  DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings)
-      : leaves_(transport.leaves()), layout_(transport.layout()) {
-    for (const Size& size : transport.projectors().sizes())
-      reach_.push_back(std::max(3.0, settings.reach * std::max(size.width, size.height)));
-  }
-
-  /// Calls visit(entry) for the direct leaves of a row.
-  template <typename Visit>
-  void eachDirect(std::size_t row, const Visit& visit) const {
-    // Beside another projector's beam, what arrives in this one's shadow is indirect.
-    constexpr float leastShare = 0.1f;
-    std::vector<Place> places = placesOf(row);
-    float most = 0.0f;
-    for (const Place& place : places) most = std::max(most, place.light);
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-      Node node = layout_.node(leaves_.column(entry));
-      auto projector = static_cast<std::size_t>(node.projector);
-      const Place& place = places[projector];
-      if (!(place.light > leastShare * most)) continue;
-      Block block = layout_.block(node);
-      double reach = reach_[projector];
-      if (std::abs(0.5 * (block.x0 + block.x1) - place.x) <= reach &&
-          std::abs(0.5 * (block.y0 + block.y1) - place.y) <= reach &&
-          std::max(block.x1 - block.x0, block.y1 - block.y0) <= reach)
-        visit(entry);
-    }
-  }
-
-  DirectLook lookOf(std::size_t row) const {
-    std::vector<Place> places = placesOf(row);
-    auto brightest = std::max_element(places.begin(), places.end(),
-                                      [](const Place& a, const Place& b) { return a.light < b.light; });
-    DirectLook look;
-    if (brightest == places.end() || !(brightest->light > 0.0f)) return look;
-    auto projector = static_cast<std::size_t>(brightest - places.begin());
-    Pixel pixel{static_cast<int>(brightest->x), static_cast<int>(brightest->y)};
-    const Rasters& projectors = layout_.projectors();
-    look.projectorPixel =
-        static_cast<std::int32_t>(projectors.offset(projector) + indexOf(projectors.size(projector), pixel));
-    look.light = brightest->light;
-    float direct = 0.0f, all = 0.0f;
-    eachDirect(row, [&](std::size_t entry) { direct += leaves_.block(row, entry).sum(); });
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry)
-      all += leaves_.block(row, entry).sum();
-    look.share = all > 0.0f ? std::clamp(direct / all, 0.0f, 1.0f) : 0.0f;
-    return look;
-  }
-
- private:
-  std::vector<Place> placesOf(std::size_t row) const {
-    std::vector<Place> places(reach_.size());
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-      Node node = layout_.node(leaves_.column(entry));
-      Block block = layout_.block(node);
-      float light = leaves_.block(row, entry).sum() / static_cast<float>(block.count());
-      Place& place = places[static_cast<std::size_t>(node.projector)];
-      if (light > place.light) place = {light, 0.5 * (block.x0 + block.x1), 0.5 * (block.y0 + block.y1)};
-    }
-    return places;
-  }
-
-  const BlockSparse& leaves_;
-  const NodeLayout& layout_;
-  std::vector<double> reach_;  // per projector, pixels
-};
-
 /// Runs body(row) on all cores, with a checkpoint now and then.
 template <typename Body>
 void eachRow(std::size_t rows, Progress& progress, const Body& body) {
@@ -95,11 +21,6 @@ void eachRow(std::size_t rows, Progress& progress, const Body& body) {
   progress.report(1.0);
 }
 
-void check(const DirectLightSettings& settings) {
-  auto wrong = problems(settings);
-  require(wrong.empty(), "direct light settings: {}", fmt::join(wrong, "; "));
-}
-
 }  // namespace
 
 std::vector<std::string> problems(const DirectLightSettings& settings) {
@@ -107,20 +28,59 @@ std::vector<std::string> problems(const DirectLightSettings& settings) {
   return {"the reach of direct light must lie between 0 and 1 of the projector's side"};
 }
 
+DirectLeaves::DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings)
+    : leaves_(transport.leaves()), layout_(transport.layout()) {
+  auto wrong = problems(settings);
+  require(wrong.empty(), "direct light settings: {}", fmt::join(wrong, "; "));
+  for (const Size& size : transport.projectors().sizes())
+    reach_.push_back(std::max(3.0, settings.reach * std::max(size.width, size.height)));
+}
+
+DirectLook DirectLeaves::lookOf(std::size_t row) const {
+  std::vector<Place> places = placesOf(row);
+  auto brightest = std::max_element(places.begin(), places.end(),
+                                    [](const Place& a, const Place& b) { return a.light < b.light; });
+  DirectLook look;
+  if (brightest == places.end() || !(brightest->light > 0.0f)) return look;
+  auto projector = static_cast<std::size_t>(brightest - places.begin());
+  Pixel pixel{static_cast<int>(brightest->x), static_cast<int>(brightest->y)};
+  const Rasters& projectors = layout_.projectors();
+  look.projectorPixel =
+      static_cast<std::int32_t>(projectors.offset(projector) + indexOf(projectors.size(projector), pixel));
+  look.light = brightest->light;
+  float direct = 0.0f, all = 0.0f;
+  eachDirect(row, [&](std::size_t entry, const Block&) { direct += leaves_.block(row, entry).sum(); });
+  for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry)
+    all += leaves_.block(row, entry).sum();
+  look.share = all > 0.0f ? std::clamp(direct / all, 0.0f, 1.0f) : 0.0f;
+  return look;
+}
+
+std::vector<DirectLeaves::Place> DirectLeaves::placesOf(std::size_t row) const {
+  std::vector<Place> places(reach_.size());
+  for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
+    Node node = layout_.node(leaves_.column(entry));
+    Block block = layout_.block(node);
+    float light = leaves_.block(row, entry).sum() / static_cast<float>(block.count());
+    Place& place = places[static_cast<std::size_t>(node.projector)];
+    if (light > place.light) place = {light, 0.5 * (block.x0 + block.x1), 0.5 * (block.y0 + block.y1)};
+  }
+  return places;
+}
+
 TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSettings& settings,
                            Progress& progress) {
-  check(settings);
   const BlockSparse& leaves = transport.leaves();
   DirectLeaves rule(transport, settings);
   std::vector<std::uint8_t> direct(leaves.blocks(), 0);
-  eachRow(leaves.rows(), progress,
-          [&](std::size_t row) { rule.eachDirect(row, [&](std::size_t entry) { direct[entry] = 1; }); });
+  eachRow(leaves.rows(), progress, [&](std::size_t row) {
+    rule.eachDirect(row, [&](std::size_t entry, const Block&) { direct[entry] = 1; });
+  });
   return TransportMatrix(transport.cameras(), transport.projectors(), leaves.filtered(direct));
 }
 
 std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
                                     Progress& progress) {
-  check(settings);
   DirectLeaves rule(transport, settings);
   std::vector<DirectLook> looks(transport.leaves().rows());
   eachRow(looks.size(), progress, [&](std::size_t row) { looks[row] = rule.lookOf(row); });

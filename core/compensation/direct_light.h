@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,12 +31,56 @@ struct DirectLook {
 /// light from everywhere puts 0.5 % of itself so near.
 inline constexpr double leastDirectShare = 0.1;
 
-/// The direct part of T: of every camera pixel the leaves near the projector pixel that lights it most.
+/// Which leaves of a row of T are direct, without making a matrix of them:
 ///  1. Per camera pixel and projector the leaf that is brightest per projector pixel of its block (sum over
 ///     the channels); the middle of its block is where the camera pixel looks to in that projector. Of
 ///     several projectors only those count that light it a tenth as much as the brightest does.
 ///  2. A leaf is direct if its block's middle is no further from there than the reach, along x and along y,
 ///     and its block no wider than the reach. Light over a wider area comes from no single place: indirect.
+/// What directPart() and everything else decides by that asks where the projection itself falls.
+class DirectLeaves {
+ public:
+  /// T stays the caller's and must outlive this.
+  DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings);
+
+  /// Calls visit(entry, block) for the direct leaves of a row.
+  template <typename Visit>
+  void eachDirect(std::size_t row, const Visit& visit) const {
+    // Beside another projector's beam, what arrives in this one's shadow is indirect.
+    constexpr float leastShare = 0.1f;
+    std::vector<Place> places = placesOf(row);
+    float most = 0.0f;
+    for (const Place& place : places) most = std::max(most, place.light);
+    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
+      Node node = layout_.node(leaves_.column(entry));
+      auto projector = static_cast<std::size_t>(node.projector);
+      const Place& place = places[projector];
+      if (!(place.light > leastShare * most)) continue;
+      Block block = layout_.block(node);
+      double reach = reach_[projector];
+      if (std::abs(0.5 * (block.x0 + block.x1) - place.x) <= reach &&
+          std::abs(0.5 * (block.y0 + block.y1) - place.y) <= reach &&
+          std::max(block.x1 - block.x0, block.y1 - block.y0) <= reach)
+        visit(entry, block);
+    }
+  }
+
+  DirectLook lookOf(std::size_t row) const;
+
+ private:
+  /// Where a camera pixel looks to in one projector.
+  struct Place {
+    float light = 0.0f;  // of the brightest leaf, per projector pixel
+    double x = 0.0, y = 0.0;
+  };
+  std::vector<Place> placesOf(std::size_t row) const;
+
+  const BlockSparse& leaves_;
+  const NodeLayout& layout_;
+  std::vector<double> reach_;  // per projector, pixels
+};
+
+/// The direct part of T: the leaves that DirectLeaves names.
 /// The rest, T - direct, is indirect: interreflections, scattering, caustics; and light that a second way
 /// takes straight to the camera pixel, through glass or past a depth edge: T does not tell it from those.
 /// Law: direct + indirect = T, leaf by leaf.  Source: core/compensation/README.md.

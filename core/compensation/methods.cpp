@@ -3,14 +3,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <atomic>
-#include <bit>
 #include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "compensation/correspondence.h"
 #include "compensation/stacks.h"
-#include "transport/statistics.h"
 
 namespace relucent {
 namespace {
@@ -52,65 +50,12 @@ std::vector<std::string> problems(const CompensatorSettings& settings) {
   return found;
 }
 
-std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
-                                                  const std::vector<std::uint8_t>& usable) {
-  constexpr float leastShare = 0.01f;
-  const BlockSparse& leaves = transport.leaves();
-  const NodeLayout& layout = transport.layout();
-  const Rasters& projectors = transport.projectors();
-  NodeTable nodes(layout);
-  // The brightest so far, its light above its row: whoever comes first in whatever order, the brightest wins,
-  // of equals the first row. Bits of positive floats sort as the floats do.
-  std::vector<std::uint64_t> first(projectors.count(), 0);
-  auto offer = [&](std::size_t pixel, float light, std::size_t row) {
-    std::uint64_t bid =
-        std::uint64_t{std::bit_cast<std::uint32_t>(light)} << 32 | ~static_cast<std::uint32_t>(row);
-    std::atomic_ref<std::uint64_t> held(first[pixel]);
-    std::uint64_t seen = held.load(std::memory_order_relaxed);
-    while (seen < bid && !held.compare_exchange_weak(seen, bid, std::memory_order_relaxed)) {
-    }
-  };
-
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
-    if (!usable[row]) return;
-    auto lightOf = [&](std::size_t entry) {
-      return leaves.block(row, entry).sum() / nodes.pixels[leaves.column(entry)];
-    };
-    float most = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
-      most = std::max(most, lightOf(entry));
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      float light = lightOf(entry);
-      if (!(light > 0.0f) || light < leastShare * most) continue;
-      Node node = layout.node(leaves.column(entry));
-      auto projector = static_cast<std::size_t>(node.projector);
-      Block block = layout.block(node);
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x)
-          offer(projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light, row);
-    }
-  });
-
-  std::vector<std::int32_t> brightest(first.size(), -1);
-  for (std::size_t pixel = 0; pixel < first.size(); ++pixel)
-    if (first[pixel] != 0)
-      brightest[pixel] = static_cast<std::int32_t>(~static_cast<std::uint32_t>(first[pixel]));
-  return brightest;
-}
-
-std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
-  std::vector<std::uint8_t> free(brightest.size(), 0);
-  for (std::size_t j = 0; j < free.size(); ++j)
-    free[j] = brightest[j] >= 0 && target.inside[static_cast<std::size_t>(brightest[j])];
-  return free;
-}
-
 Compensator::Compensator(const MeasuredVenue& venue, const WindowInverse& inverse,
                          CompensatorSettings settings)
     : venue_(venue),
       inverse_(inverse),
       settings_(std::move(settings)),
-      brightest_(brightestCorrespondence(venue.transport, venue.usable)),
+      brightest_(brightestCorrespondence(venue.transport, seesProjection(venue), settings_.direct)),
       mixing_(venue.transport.rowSums()) {
   require(
       inverse.cameras() == venue.transport.cameras() && inverse.projectors() == venue.transport.projectors(),

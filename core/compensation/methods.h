@@ -93,13 +93,4 @@ class Compensator {
   mutable ClusterInverse clusters_;
 };
 
-/// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,
-/// sum over all channels. Leaves below 1 % of their row's brightest do not count: far-field light has no
-/// place.
-std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
-                                                  const std::vector<std::uint8_t>& usable);
-
-/// Per projector pixel: its brightest camera pixel lies within the content. The others are black.
-std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
-
 }  // namespace relucent

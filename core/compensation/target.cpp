@@ -108,10 +108,16 @@ std::vector<std::string> problems(const TargetSettings& settings) {
   return found;
 }
 
-std::vector<std::uint8_t> placeable(const MeasuredVenue& venue) {
-  std::vector<std::uint8_t> pixels(firstCamera(venue).count());
+std::vector<std::uint8_t> seesProjection(const MeasuredVenue& venue) {
+  std::vector<std::uint8_t> pixels(venue.usable.size());
   for (std::size_t i = 0; i < pixels.size(); ++i)
     pixels[i] = venue.usable[i] && (venue.direct.empty() || venue.direct[i]);
+  return pixels;
+}
+
+std::vector<std::uint8_t> placeable(const MeasuredVenue& venue) {
+  std::vector<std::uint8_t> pixels = seesProjection(venue);
+  pixels.resize(firstCamera(venue).count());
   return pixels;
 }
 

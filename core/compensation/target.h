@@ -23,7 +23,9 @@ struct MeasuredVenue {
   std::vector<std::uint8_t> direct{};
 };
 
-/// The first camera's pixels that content may cover when nobody says where: usable, and directly lit.
+/// Per pixel of all cameras: usable, and directly lit.
+std::vector<std::uint8_t> seesProjection(const MeasuredVenue& venue);
+/// The first camera's pixels that content may cover when nobody says where: seesProjection() of them.
 std::vector<std::uint8_t> placeable(const MeasuredVenue& venue);
 
 struct TargetSettings {

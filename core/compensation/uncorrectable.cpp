@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "compensation/methods.h"
+#include "compensation/correspondence.h"
 
 namespace relucent {
 namespace {
@@ -25,7 +25,8 @@ class SecondViews {
     std::vector<std::uint8_t> ofCamera(candidates_.size(), 0);
     std::copy_n(candidates_.begin() + static_cast<std::ptrdiff_t>(first), size.count(),
                 ofCamera.begin() + static_cast<std::ptrdiff_t>(first));
-    std::vector<std::int32_t> brightest = brightestCorrespondence(venue_.transport, ofCamera);
+    std::vector<std::int32_t> brightest =
+        brightestCorrespondence(venue_.transport, ofCamera, settings_.direct);
 
     double apart = std::max(3.0, settings_.apart * std::max(size.width, size.height));
     for (std::size_t i = first; i < first + size.count(); ++i) {

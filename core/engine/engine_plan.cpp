@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "compensation/correspondence.h"
 #include "compensation/stacks.h"
 
 namespace relucent {
@@ -62,7 +63,7 @@ EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& invers
           inverse,
           settings,
           PackedTransport(transport, settings.patchSide),
-          brightestCorrespondence(transport, venue.usable),
+          brightestCorrespondence(transport, seesProjection(venue), DirectLightSettings{}),
           meanColourMixing(venue),
           std::move(encoders)};
 }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compensation/direct_light.h"
+#include "compensation/target.h"
+
+namespace relucent {
+
+/// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,
+/// sum over all channels; -1 where it lights none. Only direct leaves count (DirectLeaves): what a projector
+/// pixel sends out of the view comes back as glow, and glow has no place. Nor has a leaf below 1 % of its
+/// row's brightest.
+std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
+                                                  const std::vector<std::uint8_t>& usable,
+                                                  const DirectLightSettings& settings);
+
+/// Per projector pixel: its brightest camera pixel lies within the content. The others are black.
+std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
+
+}  // namespace relucent

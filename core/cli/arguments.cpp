@@ -147,6 +147,9 @@ class Parser {
         ->check(CLI::IsMember(methodNames()))
         ->type_name("METHOD")
         ->capture_default_str();
+    sub->add_option("--shown", settings.shown,
+                    "Prove this instead, one picture a projector: what stands on its display, pixel by pixel")
+        ->type_name("FILE");
     sub->add_option("--out", settings.out, "Folder for the photographs, before and after, and comparison.png")
         ->type_name("DIR")
         ->required();

@@ -56,15 +56,50 @@ void leaveOut(Target& target, const HdrFrame& frame) {
   }
 }
 
+/// A projection, as the projectors are given it and as the light that this makes.
+struct Projection {
+  std::vector<Image> drive;
+  Compensation light;
+};
+
+Projection projectionOf(Compensation light, const MeasuredCalibration& measured) {
+  std::vector<Image> drive =
+      encodedDrive(light.projector, measured.venue.transport.projectors(), measured.linearization);
+  return {std::move(drive), std::move(light)};
+}
+
+Projection shownProjection(const std::vector<fs::path>& pictures, const MeasuredCalibration& measured) {
+  const Rasters& projectors = measured.venue.transport.projectors();
+  if (pictures.size() != projectors.devices())
+    throw Error(ErrorKind::input,
+                fmt::format("{} pictures of what is shown are given for {} projectors", pictures.size(),
+                            projectors.devices()),
+                "give one picture for each projector, in their order");
+  Projection result;
+  std::vector<Image> light;
+  for (std::size_t projector = 0; projector < pictures.size(); ++projector) {
+    Image drive = readPicture(pictures[projector]).encoded;
+    Size size = projectors.size(projector);
+    if (!(drive.size() == size))
+      throw Error(ErrorKind::input,
+                  fmt::format("what is shown has {}x{} pixels, the projector {}x{}", drive.width(),
+                              drive.height(), size.width, size.height),
+                  "take the picture of the projector's display alone, at its own size",
+                  pictures[projector].string());
+    light.push_back(measured.linearization.projectors[projector].decode(drive));
+    result.drive.push_back(std::move(drive));
+  }
+  result.light.projector = stackFromImages(light, projectors);
+  return result;
+}
+
 Photographed photograph(Photographer& photographer, const MeasuredCalibration& measured, Target target,
-                        const Compensation& compensation, const Progress& progress) {
+                        const Projection& projection, const Progress& progress) {
   const Rasters& cameras = measured.venue.transport.cameras();
   const Rasters& projectors = measured.venue.transport.projectors();
-  // Drive values, as the projectors are given them.
-  std::vector<Image> drive = encodedDrive(compensation.projector, projectors, measured.linearization);
-  HdrFrame frame = photographer.takeAll(stackFromImages(drive, projectors), progress);
+  HdrFrame frame = photographer.takeAll(stackFromImages(projection.drive, projectors), progress);
   leaveOut(target, frame);
-  Prediction predicted = predict(measured.venue, target, compensation);
+  Prediction predicted = predict(measured.venue, target, projection.light);
   Photographed result;
   result.camera = frame.radiance;
   result.error.surprise = surpriseOf(frame.radiance, predicted.camera, target);
@@ -141,11 +176,15 @@ ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings
   Target target = fitTarget(content, measured.venue, settings.target);
   Compensator compensator(measured.venue, measured.inverse);
   Progress solving = progress.part(0.2, "Compensating");
-  Compensation plain = compensator.solve(Method::none, target, solving);
-  Compensation compensated = compensator.solve(methodFromName(settings.method).value(), target, solving);
+  Projection plain = projectionOf(compensator.solve(Method::none, target, solving), measured);
+  Projection compensated =
+      settings.shown.empty()
+          ? projectionOf(compensator.solve(methodFromName(settings.method).value(), target, solving),
+                         measured)
+          : shownProjection(settings.shown, measured);
   ProveResult result;
   result.method = settings.method;
-  result.reachable = predict(measured.venue, target, compensated).reachable;
+  result.reachable = predict(measured.venue, target, compensated.light).reachable;
   if (result.reachable == 0.0)
     throw Error(ErrorKind::input, "no part of the picture can be shown in this venue",
                 "make the content darker, or place it where the projector reaches", settings.image.string());

@@ -13,6 +13,9 @@ namespace relucent {
 struct ProveSettings {
   std::filesystem::path image;     // content, sRGB file or linear EXR
   std::string method = "refined";  // a name from methodDescriptions
+  /// What stands on the projectors' displays already, one picture of drive values a projector, whatever made
+  /// it: proved in place of what `method` computes. Empty: that.
+  std::vector<std::filesystem::path> shown{};
   TargetSettings target;
   std::filesystem::path out;       // folder; created; files of the same names are replaced
   std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
@@ -36,7 +39,7 @@ struct ProvedProjection {
 struct ProveResult {
   std::string method;
   ProvedProjection before;  // the content as it is, in its place: method none
-  ProvedProjection after;   // compensated
+  ProvedProjection after;   // compensated, or what was shown
   double reachable = 0.0;   // share of the content's camera pixels
   int exposures = 0;
   double seconds = 0.0;  // of photographing
@@ -50,7 +53,8 @@ struct ProveResult {
 /// comparison.png: target, before and after beside each other, below them the CIEDE2000 of before and after
 /// from 0 (dark) to 20 (bright).
 /// Throws: Error{input} if the calibration is not finished, was imported, has other sizes than the devices,
-/// or nothing of the picture can be shown; Error{device, disk}; Cancelled.
+/// nothing of the picture can be shown, or what was shown has another size than the projectors;
+/// Error{device, disk}; Cancelled.
 ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings,
                              const std::filesystem::path& cache, Progress& progress);
 

@@ -59,6 +59,17 @@ class TestShowProgram : public QObject {
                          folder_.filePath(method)});
     return QImage(folder_.filePath(QString(method) + "/pattern.png"));
   }
+  /// What `prove` measures of a projection, dB.
+  double provedDecibels(const QStringList& what) {
+    QProcess process;
+    process.start(program("relucent-cli"),
+                  QStringList{"prove", calibration(), "--image", picture(), "--out",
+                              folder_.filePath("proof"), "--cache", folder_.filePath("cache"), "--json"} +
+                      what);
+    if (!process.waitForFinished(patience) || process.exitCode() != 0) return std::nan("");
+    QJsonObject result = QJsonDocument::fromJson(process.readAllStandardOutput()).object();
+    return result.value("after").toObject().value("psnr_measured").toDouble(std::nan(""));
+  }
   QJsonObject health() {
     QFile file(folder_.filePath("log/health.json"));
     return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object() : QJsonObject();
@@ -87,6 +98,16 @@ class TestShowProgram : public QObject {
     QVERIFY(uncompensated.mean > 10.0 * apart.mean);
     QCOMPARE(health()["state"].toString(), QString("playing"));
     QVERIFY(health()["displays"][0]["shining"].toBool());
+
+    // What counts is on the surface: what stands on the display, photographed in the venue, is as near to the
+    // wanted picture as the pipeline's own.
+    QString grabbed = folder_.filePath("grabbed.png");
+    QVERIFY(seenOn("DUMMY1").save(grabbed));
+    double byShow = provedDecibels({"--shown", grabbed}),
+           byPipeline = provedDecibels({"--method", "refined"});
+    double asItIs = provedDecibels({"--method", "none"});
+    qInfo() << "photographed, dB: the show" << byShow << "the pipeline" << byPipeline << "as it is" << asItIs;
+    QVERIFY(std::abs(byShow - byPipeline) < 0.2 && byPipeline > asItIs + 6.0);
 
     for (int cycle = 0; cycle < unplugCycles(3); ++cycle) {
       unplug();

@@ -164,6 +164,14 @@ class TestPipeline : public QObject {
     for (const fs::path& file : result.files) QVERIFY(fs::exists(file));
     QVERIFY((readLinearContent(settings.out / "comparison.png").size() == Size{3 * 28 + 8, 2 * 21 + 4}));
 
+    // What is on the displays is proved by itself: black there shows nothing of the picture.
+    settings.shown = {root() / "black.png"};
+    writePng(settings.shown.front(), Image({40, 30}, 3), 8);
+    ProveResult black = proveCalibration(root() / "plain", settings, cache(), silent);
+    QVERIFY(black.after.measured.psnr < result.before.measured.psnr);
+    QCOMPARE(black.before.predicted.psnr, result.before.predicted.psnr);
+    settings.shown.clear();
+
     venue.devices.ambient += 0.1;
     settings.rig = venue;
     ProveResult brighter = proveCalibration(root() / "plain", settings, cache(), silent);
@@ -181,6 +189,15 @@ class TestPipeline : public QObject {
     settings.method = "mix";
     std::string sentence = errorOf([&] { proveCalibration(root() / "plain", settings, cache(), silent); });
     QVERIFY2(QString::fromStdString(sentence).contains("missing.png"), sentence.c_str());
+
+    settings.image = root() / "shown.png";
+    writePng(settings.image, Image({31, 30}, 3), 8);
+    settings.shown = {settings.image, settings.image};
+    sentence = errorOf([&] { proveCalibration(root() / "plain", settings, cache(), silent); });
+    QVERIFY2(QString::fromStdString(sentence).contains("2 pictures"), sentence.c_str());
+    settings.shown.pop_back();
+    sentence = errorOf([&] { proveCalibration(root() / "plain", settings, cache(), silent); });
+    QVERIFY2(QString::fromStdString(sentence).contains("31x30"), sentence.c_str());
   }
 
   void verifyRefusesOtherDevices() {

@@ -169,7 +169,7 @@ class TheList(unittest.TestCase):
         package = r"[a-z0-9][a-z0-9.+-]+"
         for line in (SOURCE / "packaging/dependencies").read_text().splitlines():
             text = line.split("#")[0].strip()
-            self.assertRegex(text, rf"^(|\[(build|run|tests)\]|{package}( \?|( \| {package})*))$", line)
+            self.assertRegex(text, rf"^(|\[(build|run|tests|package)\]|{package}( \?|( \| {package})*))$", line)
 
     def test_the_scripts_parse(self):
         for script in (SOURCE / "packaging").iterdir():

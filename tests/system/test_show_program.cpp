@@ -107,7 +107,8 @@ class TestShowProgram : public QObject {
            byPipeline = provedDecibels({"--method", "refined"});
     double asItIs = provedDecibels({"--method", "none"});
     qInfo() << "photographed, dB: the show" << byShow << "the pipeline" << byPipeline << "as it is" << asItIs;
-    QVERIFY(std::abs(byShow - byPipeline) < 0.2 && byPipeline > asItIs + 6.0);
+    // The pipeline's is not rounded to the display's 256 codes: 0.2 dB at 37 dB.
+    QVERIFY(std::abs(byShow - byPipeline) < 0.3 && byPipeline > asItIs + 6.0);
 
     for (int cycle = 0; cycle < unplugCycles(3); ++cycle) {
       unplug();

@@ -18,6 +18,8 @@ struct PrintText {  // --help, --version
   std::string text;
 };
 struct ListVenues {};
+/// The cameras that are there.
+struct ListDevices {};
 struct Calibrate {
   std::filesystem::path calibration;
   CalibrateSettings settings;
@@ -81,8 +83,9 @@ struct Bench {
   BackendChoice backend = BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, Prove, ImportPictures, Plan,
-                             Compensate, Evaluate, Export, Relight, Separate, Difference, Report, Bench>;
+using Command =
+    std::variant<PrintText, ListVenues, ListDevices, Calibrate, Resume, Verify, Prove, ImportPictures, Plan,
+                 Compensate, Evaluate, Export, Relight, Separate, Difference, Report, Bench>;
 
 struct Arguments {
   Command command;

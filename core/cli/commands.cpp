@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "calibration/calibration_folder.h"
+#include "cli/devices_document.h"
 #include "cli/interruption.h"
 #include "cli/terminal_progress.h"
 #include "cli/texts.h"
@@ -53,6 +54,8 @@ struct Executor {
       text += fmt::format("{:<10} {}\n", venue.name, venue.sentence);
     return {toJson(venues()), text};
   }
+
+  Outcome operator()(const ListDevices&) const { return outcomeOf(listDevices()); }
 
   Outcome operator()(const Calibrate& command) const {
     refuse(problems(command.settings));

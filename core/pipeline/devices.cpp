@@ -2,8 +2,9 @@
 #include "pipeline/devices.h"
 
 #include "base/error.h"
-#include "devices/command_camera.h"
 #include "devices/command_projector.h"
+#include "devices/open_camera.h"
+#include "devices/recording.h"
 
 namespace relucent {
 namespace {
@@ -15,18 +16,26 @@ OpenedRig opened(const VenueSettings& settings, const std::filesystem::path& cac
   return result;
 }
 
+DeviceAddress cameraOf(const CommandRigSettings& settings) {
+  if (settings.cameraAddress.empty()) return {DeviceAddress::Kind::command, settings.cameraCommand};
+  const std::optional<DeviceAddress> address = deviceAddressFrom(settings.cameraAddress);
+  if (!address)
+    throw Error(ErrorKind::usage, fmt::format("'{}' is no camera", settings.cameraAddress),
+                fmt::format("write {}", deviceAddressForms));
+  return *address;
+}
+
 OpenedRig opened(const CommandRigSettings& settings, const std::filesystem::path&, Progress&) {
+  if (!settings.replay.empty()) return {replayed(settings.replay), std::nullopt};
   CommandProjectorSettings projector;
   projector.command = settings.projectorCommand;
   projector.size = settings.projector;
-  CommandCameraSettings camera;
-  camera.command = settings.cameraCommand;
-  camera.size = settings.camera;
-  camera.exposures = {settings.shortestExposure, settings.longestExposure};
 
   OpenedRig result;
   result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
-  result.rig.cameras.push_back(std::make_unique<CommandCamera>(std::move(camera)));
+  result.rig.cameras.push_back(openCamera(
+      cameraOf(settings), {settings.camera, {settings.shortestExposure, settings.longestExposure}}));
+  if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
   return result;
 }
 

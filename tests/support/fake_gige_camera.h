@@ -13,9 +13,9 @@ namespace relucent::test {
 
 struct FakeGigeSettings {
   std::string serial = "RL01";
-  double lostPackets = 0.0;         // share of the packets that never arrive
-  std::uint32_t longestKept = 0;    // microseconds; longer exposures are cut to this without a word; 0: none
-  double framesPerSecond = 1000.0;  // how often it looks whether a photograph is wanted
+  double lostPackets = 0.0;        // share of the packets that never arrive
+  std::uint32_t longestKept = 0;   // microseconds; longer exposures are cut to this without a word; 0: none
+  double framesPerSecond = 400.0;  // how often it looks whether a photograph is wanted
 };
 
 /// A GigE Vision camera on 127.0.0.1: Aravis' own, with real sockets and registers. What it "sees" comes from

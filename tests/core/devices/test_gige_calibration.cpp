@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "base/file.h"
 #include "devices/driven_camera.h"
 #include "devices/genicam_driver.h"
 #include "pipeline/measured_venue.h"
@@ -21,6 +22,8 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int noUnplugging = 1 << 30;
 
 CalibrateSettings smallVenue() {
   VenueSettings venue;
@@ -50,7 +53,7 @@ class ServedCamera : public Camera {
     genicam.packetSize = 9000;
     DrivenCameraSettings patience;
     patience.exposureTakesTime = false;  // neither of the two cameras waits
-    patience.timeout = 400ms;
+    patience.timeout = 200ms;
     patience.reconnectPause = 50ms;
     camera_ = std::make_unique<DrivenCamera>(makeGenicamDriver(genicam), patience);
   }
@@ -100,7 +103,7 @@ class ServedCamera : public Camera {
   std::mutex lock_;
   CaptureRequest request_;
   int captures_ = 0;
-  int unplugEvery_ = 1 << 30;
+  int unplugEvery_ = noUnplugging;
   std::unique_ptr<FakeGigeCamera> fake_;
   std::unique_ptr<DrivenCamera> camera_;
 };
@@ -131,21 +134,8 @@ class TestGigeCalibration : public QObject {
     measureInverse(folder, venue, silent);
   }
 
- private slots:
-  void initTestCase() {
-    enterOwnNetwork();
-    if (!hasGenicam()) QSKIP("this build has no Aravis, which both ends of this test need");
-    Progress silent;
-    calibrate(root() / "direct", smallVenue(), cache(), silent);
-  }
-
-  void throughSocketsItIsAsGoodAsDirectly_data() {
-    QTest::addColumn<int>("unplugEvery");
-    QTest::newRow("undisturbed") << (1 << 30);
-    QTest::newRow("switched off and on twenty times") << 30;
-  }
-  void throughSocketsItIsAsGoodAsDirectly() {
-    QFETCH(int, unplugEvery);
+  void measureThroughSockets(const std::string& name, int unplugEvery) const {
+    if (fs::exists(root() / name)) return;
     Progress silent;
     SimulatedVenue venue(std::get<VenueSettings>(smallVenue().rig), cache(), silent);
     Rig rig = venue.rig();
@@ -154,29 +144,50 @@ class TestGigeCalibration : public QObject {
     ServedCamera& camera = *served;
     camera.unplugEvery(unplugEvery);
     rig.cameras.front() = std::move(served);
-
-    const fs::path path = root() / QString("served-%1").arg(unplugEvery).toStdString();
     QElapsedTimer timer;
     timer.start();
-    calibrateWith(rig, path);
-    qInfo("%d photographs, %.0f a second; %d reconnections", camera.captures(),
+    calibrateWith(rig, root() / name);
+    qInfo("%s: %d photographs, %.0f a second; the camera went away %d times", name.c_str(), camera.captures(),
           1000.0 * camera.captures() / static_cast<double>(timer.elapsed()), camera.driven().reconnections());
-    QCOMPARE(camera.driven().reconnections(), camera.captures() / unplugEvery);
+    QVERIFY(camera.driven().reconnections() >= camera.captures() / unplugEvery);
+  }
 
-    const EvaluateResult direct = quality(root() / "direct"), served_ = quality(path);
-    // Exposure times are rounded to whole microseconds, all else is the same: no more than a few leaves may
-    // fall on the other side of a threshold.
-    QVERIFY(std::abs(direct.transport.frobenius - served_.transport.frobenius) < 0.01);
+  std::string transportBytes(const std::string& name) const {
+    for (const auto& entry : fs::recursive_directory_iterator(root() / name))
+      if (entry.path().filename() == "transport.npz") return readFile(entry.path());
+    return {};
+  }
+
+ private slots:
+  void initTestCase() {
+    enterOwnNetwork();
+    if (!hasGenicam()) QSKIP("this build has no Aravis, which both ends of this test need");
+    Progress silent;
+    calibrate(root() / "direct", smallVenue(), cache(), silent);
+  }
+
+  void throughSocketsItIsAsGoodAsDirectly() {
+    measureThroughSockets("served", noUnplugging);
+    const EvaluateResult direct = quality(root() / "direct"), served = quality(root() / "served");
+    // Exposure times are rounded to whole microseconds, full scale is a code's width away, all else is the
+    // same: no more than a few leaves may fall on the other side of a threshold.
+    QVERIFY(std::abs(direct.transport.frobenius - served.transport.frobenius) < 0.01);
     for (std::size_t image = 0; image < direct.images.size(); ++image)
       for (std::size_t method = 0; method < direct.images[image].methods.size(); ++method) {
         const MethodScore& a = direct.images[image].methods[method];
-        const MethodScore& b = served_.images[image].methods[method];
+        const MethodScore& b = served.images[image].methods[method];
         QCOMPARE(a.method, b.method);
-        if (std::abs(a.psnrReachable - b.psnrReachable) >= 0.3)
-          qWarning("%s %s: %.2f dB, %.2f dB", direct.images[image].name.c_str(), a.method.c_str(),
-                   a.psnrReachable, b.psnrReachable);
-        QVERIFY(std::abs(a.psnrReachable - b.psnrReachable) < 0.3);  // what a user could not see
+        qInfo("%s, %s: %.2f dB directly, %.2f dB through sockets", direct.images[image].name.c_str(),
+              a.method.c_str(), a.psnrReachable, b.psnrReachable);
+        QVERIFY(std::abs(a.psnrReachable - b.psnrReachable) < 0.3);  // less than anybody could see
       }
+  }
+
+  void switchedOffAndOnItEndsInTheSameBits() {
+    measureThroughSockets("served", noUnplugging);
+    measureThroughSockets("disturbed", 50);
+    QVERIFY(!transportBytes("served").empty());
+    QVERIFY(transportBytes("served") == transportBytes("disturbed"));
   }
 };
 

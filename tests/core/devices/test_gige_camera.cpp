@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "devices/device_list.h"
 #include "devices/driven_camera.h"
 #include "devices/genicam_driver.h"
 #include "support/fake_gige_camera.h"
@@ -253,11 +254,16 @@ class TestGigeCamera : public QObject {
     FakeGigeSettings fake;
     fake.serial = "RL07";
     Venue venue(fake);
-    const std::vector<GenicamCamera> found = findGenicamCameras();
-    auto ours = std::find_if(found.begin(), found.end(), [](const auto& c) { return c.serial == "RL07"; });
-    QVERIFY(ours != found.end());
-    QCOMPARE(ours->protocol, std::string("GigEVision"));
-    QCOMPARE(ours->address, std::string("127.0.0.1"));
+    const DeviceList devices = listDevices();
+    auto ours = std::find_if(devices.cameras.begin(), devices.cameras.end(),
+                             [](const ListedCamera& camera) { return camera.address == "genicam:RL07"; });
+    QVERIFY(ours != devices.cameras.end());
+    QCOMPARE(ours->problem, std::string());
+    QVERIFY(ours->usable);
+    QCOMPARE(ours->model, std::string("Aravis Fake"));
+    QCOMPARE(nameOf(ours->traits.format), std::string("BayerRG12"));  // the best that it has
+    QCOMPARE(ours->traits.size, (Size{1024, 1024}));
+    QVERIFY(devices.support.front().available);
     GenicamSettings settings = Venue::genicam();
     settings.camera = "RL07";
     venue.open(settings);

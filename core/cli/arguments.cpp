@@ -36,6 +36,7 @@ class Parser {
         "Try it with no devices at all:  relucent-cli calibrate demo --venue corner");
     addVenues();
     addDevices();
+    addCheck();
     addCalibrate();
     addResume();
     addVerify();
@@ -119,6 +120,11 @@ class Parser {
             "  genicam:SERIAL   GigE Vision or USB3 Vision; also its network address\n"
             "  v4l2:PATH        a webcam with manual exposure, /dev/v4l/by-id/...\n"
             "  command:CMD      a program that photographs {exposure} seconds into {output}");
+  }
+
+  void addCheck() {
+    CLI::App* sub = app_.add_subcommand("check", "Measure how projector and camera work together");
+    sub->callback([this, make = addCheckOptions(sub)] { make_ = make; });
   }
 
   void addCalibrate() {

@@ -9,16 +9,6 @@
 namespace relucent {
 namespace {
 
-/// What --camera says: a camera's address or a size. Throws: WrongUsage.
-void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
-  if (deviceAddressFrom(text))
-    commands.cameraAddress = text;
-  else if (text.find(':') != std::string::npos)
-    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, deviceAddressForms));
-  else
-    size = parseSize(text);
-}
-
 /// A folder as it is known from everywhere: `resume` may be called elsewhere.
 std::string absolutely(const std::string& folder) {
   return std::filesystem::absolute(folder).string();
@@ -96,6 +86,10 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->type_name("SECONDS")
       ->capture_default_str();
 
+  real->add_option("--latency", places->commands.latency,
+                   "Time until a picture is out, as `check` measures it")
+      ->type_name("SECONDS")
+      ->capture_default_str();
   CLI::Option* record =
       real->add_option_function<std::string>(
               "--record",

@@ -57,6 +57,12 @@ struct Executor {
 
   Outcome operator()(const ListDevices&) const { return outcomeOf(listDevices()); }
 
+  Outcome operator()(const CheckRig& command) const {
+    refuse(problems(command.settings));
+    const Latency found = checkRig(command.settings, command.cache, progress);
+    return {toJson(found), textOf(found)};
+  }
+
   Outcome operator()(const Calibrate& command) const {
     refuse(problems(command.settings));
     return outcomeOf(calibrate(command.calibration, command.settings, command.cache, progress));

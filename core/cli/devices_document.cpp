@@ -49,4 +49,18 @@ std::string textOf(const DeviceList& devices) {
   return text;
 }
 
+Json toJson(const Latency& latency) {
+  return {{"latency_frames", latency.frames},
+          {"latency_seconds", latency.seconds},
+          {"step", latency.step},
+          {"flicker", latency.flicker},
+          {"verdicts", latency.verdicts}};
+}
+
+std::string textOf(const Latency& latency) {
+  std::string text;
+  for (const std::string& verdict : latency.verdicts) text += verdict + "\n";
+  return text + fmt::format("Calibrate with --latency {:.3g}\n", latency.seconds);
+}
+
 }  // namespace relucent

@@ -5,6 +5,7 @@
 
 #include "calibration/json.h"
 #include "devices/device_list.h"
+#include "devices/latency.h"
 
 namespace relucent {
 
@@ -15,5 +16,9 @@ Json toJson(const DeviceList& devices);
 
 /// The same for people.
 std::string textOf(const DeviceList& devices);
+
+/// {"latency_frames", "latency_seconds", "step", "flicker", "verdicts"}
+Json toJson(const Latency& latency);
+std::string textOf(const Latency& latency);
 
 }  // namespace relucent

@@ -16,8 +16,8 @@ constexpr double manual = 1.0;
 /// Ends of the range that are tried, in units; the device cuts them to its own.
 constexpr double shortestTried = 1.0;
 constexpr double longestTried = 10000.0;
-/// Frames that a system may hold ready. Without time stamps all of them count as old.
-constexpr int framesInTheQueue = 4;
+/// Frames that a system may hold ready, and the one that is under way. Without time stamps all count as old.
+constexpr int framesInTheQueue = 5;
 /// Between two looks for a picture that does not come.
 constexpr microseconds pause{10'000};
 /// A stamp is of the right clock if it lies within this of now.

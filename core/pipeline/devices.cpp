@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/devices.h"
 
+#include <chrono>
+#include <thread>
+
 #include "base/error.h"
 #include "devices/command_projector.h"
+#include "devices/latency.h"
 #include "devices/open_camera.h"
 #include "devices/recording.h"
 
@@ -35,6 +39,10 @@ OpenedRig opened(const CommandRigSettings& settings, const std::filesystem::path
   result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
   result.rig.cameras.push_back(openCamera(
       cameraOf(settings), {settings.camera, {settings.shortestExposure, settings.longestExposure}}));
+  if (settings.latency > 0.0)
+    result.rig.projectors.front() =
+        delayed(std::move(result.rig.projectors.front()), settings.latency,
+                [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); });
   if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
   return result;
 }

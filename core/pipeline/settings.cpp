@@ -50,6 +50,8 @@ Problems problemsOf(const CommandRigSettings& settings) {
     checkCommand(found, "camera", settings.cameraCommand, {"{exposure}", "{output}"});
   else if (!deviceAddressFrom(settings.cameraAddress))
     found.push_back(fmt::format("'{}' is no camera: write {}", settings.cameraAddress, deviceAddressForms));
+  if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
+    found.push_back("a projector's latency is between 0 and 10 seconds");
   if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
     found.push_back("the shortest exposure must be above zero and no longer than the longest");
   return found;

@@ -51,6 +51,7 @@ Sorted commandRigToJson(const CommandRigSettings& settings) {
               {"longest_exposure", settings.longestExposure}};
   if (settings.camera) json["camera"] = *settings.camera;
   if (!settings.cameraAddress.empty()) json["camera_address"] = settings.cameraAddress;
+  if (settings.latency > 0.0) json["latency"] = settings.latency;
   if (!settings.record.empty()) json["record"] = settings.record;
   if (!settings.replay.empty()) json["replay"] = settings.replay;
   return json;
@@ -65,6 +66,7 @@ CommandRigSettings commandRigFromJson(const Sorted& json) {
   settings.longestExposure = json.value("longest_exposure", settings.longestExposure);
   if (json.contains("camera")) settings.camera = json.at("camera").get<Size>();
   settings.cameraAddress = json.value("camera_address", settings.cameraAddress);
+  settings.latency = json.value("latency", settings.latency);
   settings.record = json.value("record", settings.record);
   settings.replay = json.value("replay", settings.replay);
   return settings;

@@ -115,6 +115,15 @@ class TestArguments : public QObject {
     QVERIFY(part.record.ends_with("/tape"));
   }
 
+  void whatIsCheckedIsARig() {
+    const auto real = parsed<CheckRig>(
+        "check --projector-command show,{image} --projector 640x480 --camera genicam:7 --frame-rate 50");
+    QCOMPARE(std::get<CommandRigSettings>(real.settings.rig).cameraAddress, std::string("genicam:7"));
+    QCOMPARE(real.settings.latency.frame, 0.02);
+    QCOMPARE(std::get<VenueSettings>(parsed<CheckRig>("check --venue dome").settings.rig).name,
+             std::string("dome"));
+  }
+
   void aRecordingIsARig() {
     const auto rig =
         std::get<CommandRigSettings>(parsed<Calibrate>("calibrate d --replay /tape").settings.rig);
@@ -235,6 +244,12 @@ class TestArguments : public QObject {
                                            << QByteArray("--projector-command has no place beside --replay");
     QTest::newRow("recording and venue")
         << QByteArray("calibrate d --replay t --venue corner") << QByteArray("not both");
+    QTest::newRow("nothing to check") << QByteArray("check") << QByteArray("say what to check");
+    QTest::newRow("half to check") << QByteArray("check --camera genicam:7")
+                                   << QByteArray("real devices need --projector-command");
+    QTest::newRow("two to check") << QByteArray("check --camera genicam:7 --venue dome")
+                                  << QByteArray("not both");
+    QTest::newRow("no frames") << QByteArray("check --venue dome --frame-rate 0") << QByteArray("above 0");
     QTest::newRow("nothing to record")
         << QByteArray("calibrate d --record t") << QByteArray("--record is for real devices");
     QTest::newRow("two folders") << QByteArray("resume a b") << QByteArray("b");

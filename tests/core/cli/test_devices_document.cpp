@@ -48,7 +48,7 @@ class TestDevicesDocument : public QObject {
   }
 
   void noCamerasAreNoError() {
-    QVERIFY(textOf({}).starts_with("No cameras answer."));
+    QVERIFY(textOf(DeviceList{}).starts_with("No cameras answer."));
     QCOMPARE(toJson(DeviceList{}).dump(), std::string(R"({"support":[],"cameras":[]})"));
   }
 };

@@ -49,6 +49,7 @@ struct Script {
       if (from <= time) value = what;
     return value;
   }
+  void miss() { lastFrame += period; }
   void capture() {
     lastFrame += period;
     double exposure = controls.at(VideoControl::exposure);
@@ -94,12 +95,13 @@ class ScriptedVideo : public VideoSource {
   std::optional<VideoFrame> grab() override {
     if (!script_->isPlugged || script_->isSilent) return std::nullopt;
     // The oldest pictures stay in a full queue, newer ones are thrown away.
-    while (script_->queue.size() < 4 && script_->lastFrame + script_->period <= script_->clock)
-      script_->capture();
+    while (script_->lastFrame + script_->period <= script_->clock)
+      script_->queue.size() < 4 ? script_->capture() : script_->miss();
     if (script_->queue.empty()) {
       script_->capture();
       script_->clock = std::max(script_->clock, script_->lastFrame);
     }
+    script_->clock += 2ms;  // decoding
     const Script::Frame next = script_->queue.front();
     script_->queue.pop_front();
     VideoFrame frame{script_->size, {}, next.stamp};

@@ -47,6 +47,7 @@ class TestSettingsJson : public QObject {
     CalibrateSettings addressed = withoutCamera, replayed;
     std::get<CommandRigSettings>(addressed.rig).cameraAddress = "genicam:40012345";
     std::get<CommandRigSettings>(addressed.rig).record = "/tape";
+    std::get<CommandRigSettings>(addressed.rig).latency = 0.05;
     replayed.rig = CommandRigSettings{};
     std::get<CommandRigSettings>(replayed.rig).replay = "/tape";
     // Versions that know neither must not take them for commands.

@@ -42,7 +42,8 @@ std::vector<std::string> problems(const DrivenCameraSettings& settings) {
   std::vector<std::string> found;
   if (settings.timeout.count() <= 0) found.push_back("a photograph needs time");
   if (settings.attempts < 1) found.push_back("a photograph needs at least one attempt");
-  if (settings.reconnectFor.count() < 0 || settings.reconnectPause.count() <= 0)
+  if (settings.connectFor.count() < 0 || settings.reconnectFor.count() < 0 ||
+      settings.reconnectPause.count() <= 0)
     found.push_back("times to look for a lost camera must not be negative");
   if (settings.skipAfterChange < 0) found.push_back("no fewer than 0 frames can be skipped");
   return found;
@@ -51,12 +52,19 @@ std::vector<std::string> problems(const DrivenCameraSettings& settings) {
 DrivenCamera::DrivenCamera(std::unique_ptr<CameraDriver> driver, DrivenCameraSettings settings)
     : driver_(std::move(driver)), settings_(settings) {
   require(problems(settings_).empty(), "{}", fmt::join(problems(settings_), "; "));
-  try {
-    traits_ = connected();
-  } catch (const CameraLost& lost) {
-    throw Error(ErrorKind::device, lost.what(),
-                "check its cable, its power and its address; `relucent-cli devices` lists what is there",
-                name());
+  const microseconds begun = driver_->now();
+  while (!isConnected_) {
+    try {
+      traits_ = connected();
+    } catch (const CameraLost& lost) {
+      driver_->disconnect();
+      isConnected_ = false;
+      if (driver_->now() - begun >= settings_.connectFor)
+        throw Error(ErrorKind::device, lost.what(),
+                    "check its cable, its power and its address; `relucent-cli devices` lists what is there",
+                    name());
+      driver_->wait(settings_.reconnectPause);
+    }
   }
 }
 

@@ -11,8 +11,10 @@
 namespace relucent {
 
 struct DrivenCameraSettings {
-  std::chrono::milliseconds timeout{2000};        // for a photograph, on top of its exposure time
-  int attempts = 5;                               // at one photograph
+  std::chrono::milliseconds timeout{2000};  // for a photograph, on top of its exposure time
+  int attempts = 5;                         // at one photograph
+  /// How long a camera is tried at first: what a program that crashed held is free after some seconds.
+  std::chrono::milliseconds connectFor{4000};
   std::chrono::milliseconds reconnectFor{30000};  // how long a camera that is gone is waited for, ...
   std::chrono::milliseconds reconnectPause{500};  // ... and how often it is looked for
   int skipAfterChange = 0;  // frames after a new exposure time that may still have the old one

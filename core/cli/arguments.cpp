@@ -35,6 +35,8 @@ class Parser {
         "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n"
         "Try it with no devices at all:  relucent-cli calibrate demo --venue corner");
     addVenues();
+    addDevices();
+    addCheck();
     addCalibrate();
     addResume();
     addVerify();
@@ -109,6 +111,21 @@ class Parser {
   }
 
   void addVenues() { add("venues", "List the simulated venues", std::make_shared<ListVenues>()); }
+
+  void addDevices() {
+    add("devices", "List the cameras that are there, what each can do and what is wrong with it",
+        std::make_shared<ListDevices>())
+        ->footer(
+            "A camera's address, KIND:PLACE, is what `calibrate --camera` takes:\n"
+            "  genicam:SERIAL   GigE Vision or USB3 Vision; also its network address\n"
+            "  v4l2:PATH        a webcam with manual exposure, /dev/v4l/by-id/...\n"
+            "  command:CMD      a program that photographs {exposure} seconds into {output}");
+  }
+
+  void addCheck() {
+    CLI::App* sub = app_.add_subcommand("check", "Measure how projector and camera work together");
+    sub->callback([this, make = addCheckOptions(sub)] { make_ = make; });
+  }
 
   void addCalibrate() {
     CLI::App* sub = app_.add_subcommand("calibrate", "Measure a venue into a new calibration");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/acquisition_bench.h"
+#include "pipeline/check.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/prove.h"
 
@@ -18,6 +19,13 @@ struct PrintText {  // --help, --version
   std::string text;
 };
 struct ListVenues {};
+/// The cameras that are there.
+struct ListDevices {};
+/// How projector and camera work together.
+struct CheckRig {
+  CheckSettings settings;
+  std::filesystem::path cache;
+};
 struct Calibrate {
   std::filesystem::path calibration;
   CalibrateSettings settings;
@@ -81,8 +89,9 @@ struct Bench {
   BackendChoice backend = BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, Calibrate, Resume, Verify, Prove, ImportPictures, Plan,
-                             Compensate, Evaluate, Export, Relight, Separate, Difference, Report, Bench>;
+using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
+                             ImportPictures, Plan, Compensate, Evaluate, Export, Relight, Separate,
+                             Difference, Report, Bench>;
 
 struct Arguments {
   Command command;

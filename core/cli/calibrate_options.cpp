@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "cli/options.h"
+#include "devices/device_address.h"
 
 namespace relucent {
+namespace {
+
+/// A folder as it is known from everywhere: `resume` may be called elsewhere.
+std::string absolutely(const std::string& folder) {
+  return std::filesystem::absolute(folder).string();
+}
+
+}  // namespace
 
 std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   struct Places {
@@ -23,8 +34,12 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
                            ->capture_default_str();
   CLI::Option* projector =
       addSize(sub, "--projector", places->projector, "Size of the projector")->default_str("256x192");
-  CLI::Option* camera =
-      addSize(sub, "--camera", places->camera, "Size of the camera")->default_str("160x120");
+  CLI::Option* camera = sub->add_option_function<std::string>(
+      "--camera", [places](const std::string& text) { readCamera(text, places->commands, places->camera); },
+      "A real camera by its address, see `devices`; or the size of the camera");
+  camera->type_name("KIND:PLACE|WxH")->default_str("160x120");
+  CLI::Option* cameraSize = addSize(sub, "--camera-size", places->camera,
+                                    "Size of the photographs, where the camera has its address");
   sub->add_option("--seed", places->seed, "Seed of everything random: the same seed gives the same bits")
       ->type_name("N")
       ->capture_default_str();
@@ -71,6 +86,23 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->type_name("SECONDS")
       ->capture_default_str();
 
+  real->add_option("--latency", places->commands.latency,
+                   "Time until a picture is out, as `check` measures it")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  CLI::Option* record =
+      real->add_option_function<std::string>(
+              "--record",
+              [places](const std::string& folder) { places->commands.record = absolutely(folder); },
+              "Folder in which all that is shown and photographed is kept, for --replay")
+          ->type_name("DIR");
+  CLI::Option* replay =
+      real->add_option_function<std::string>(
+              "--replay",
+              [places](const std::string& folder) { places->commands.replay = absolutely(folder); },
+              "A recording in place of projector and camera")
+          ->type_name("DIR");
+
   DeviceModelSettings& devices = places->venue.devices;
   CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Imperfections to rehearse with");
   auto simulate = [&](const char* name, auto& value, const char* what) {
@@ -86,19 +118,41 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   simulate("--camera-gamma", devices.cameraGamma, "Response of the camera; 1 is linear");
   simulated->add_flag("--white-segment", devices.whiteSegment, "White is brighter than red + green + blue");
 
-  auto external = [=] {
-    if (show->count() + photograph->count() == 0) return false;
-    if (show->count() == 0 || photograph->count() == 0 || projector->count() == 0)
-      throw WrongUsage("external programs need --projector-command, --camera-command and --projector");
-    if (venue->count() > 0) throw WrongUsage("give --venue or external programs, not both");
+  auto refuseSimulation = [=] {
     for (const CLI::Option* option : simulated->get_options())
       if (option->count() > 0) throw WrongUsage(option->get_name() + " is for simulated venues only");
+    if (venue->count() > 0) throw WrongUsage("give --venue or external programs, not both");
+  };
+  auto external = [=] {
+    const bool addressed = !places->commands.cameraAddress.empty();
+    if (cameraSize->count() > 0 && !addressed)
+      throw WrongUsage("--camera-size is for cameras with an address; write --camera WxH");
+    if (addressed && photograph->count() > 0)
+      throw WrongUsage("give a camera's address or --camera-command, not both");
+    if (addressed && (show->count() == 0 || projector->count() == 0))
+      throw WrongUsage("a real camera needs --projector-command and --projector beside it");
+    if (replay->count() > 0) {
+      for (const CLI::Option* other : {show, photograph, camera, projector, record})
+        if (other->count() > 0)
+          throw WrongUsage(other->get_name() +
+                           " has no place beside --replay: the recording knows its devices");
+      refuseSimulation();
+      return true;
+    }
+    if (show->count() + photograph->count() == 0) {
+      if (record->count() > 0) throw WrongUsage("--record is for real devices");
+      return false;
+    }
+    if (show->count() == 0 || (photograph->count() == 0 && !addressed) || projector->count() == 0)
+      throw WrongUsage("external programs need --projector-command, --camera-command and --projector");
+    refuseSimulation();
     return true;
   };
-  return [command, places, external, camera] {
+  return [command, places, external, camera, cameraSize] {
     if (external()) {
       places->commands.projector = places->projector;
-      if (camera->count() > 0) places->commands.camera = places->camera;
+      const bool addressed = !places->commands.cameraAddress.empty();
+      if ((addressed ? cameraSize : camera)->count() > 0) places->commands.camera = places->camera;
       command->settings.rig = places->commands;
     } else {
       places->venue.projector = places->projector;

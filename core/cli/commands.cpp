@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "calibration/calibration_folder.h"
+#include "cli/devices_document.h"
 #include "cli/interruption.h"
 #include "cli/terminal_progress.h"
 #include "cli/texts.h"
@@ -52,6 +53,14 @@ struct Executor {
     for (const VenueDescription& venue : venues())
       text += fmt::format("{:<10} {}\n", venue.name, venue.sentence);
     return {toJson(venues()), text};
+  }
+
+  Outcome operator()(const ListDevices&) const { return outcomeOf(listDevices()); }
+
+  Outcome operator()(const CheckRig& command) const {
+    refuse(problems(command.settings));
+    const Latency found = checkRig(command.settings, command.cache, progress);
+    return {toJson(found), textOf(found)};
   }
 
   Outcome operator()(const Calibrate& command) const {

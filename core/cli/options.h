@@ -28,6 +28,12 @@ inline CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const c
       ->type_name("WxH");
 }
 
+/// Defines the options of `check`. Returns what makes the command once they are read.
+std::function<Command()> addCheckOptions(CLI::App* sub);
+
+/// What --camera says: a camera's address or a size. Throws: WrongUsage.
+void readCamera(const std::string& text, CommandRigSettings& commands, Size& size);
+
 /// Defines the options of `calibrate`. Returns what makes the command once they are read.
 std::function<Command()> addCalibrateOptions(CLI::App* sub);
 

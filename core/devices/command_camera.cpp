@@ -84,6 +84,7 @@ std::vector<std::string> problems(const CommandCameraSettings& settings) {
   if (!(settings.exposures.shortest > 0.0) || !std::isfinite(settings.exposures.longest) ||
       !(settings.exposures.longest >= settings.exposures.shortest))
     found.push_back("the shortest exposure must be above zero and no longer than the longest");
+  if (settings.attempts < 1) found.push_back("the camera's command needs at least one attempt");
   if (settings.timeout.count() <= 0) found.push_back("the camera's command needs time to run");
   return found;
 }
@@ -95,6 +96,17 @@ CommandCamera::CommandCamera(CommandCameraSettings settings) : settings_(std::mo
 }
 
 RawFrame CommandCamera::capture(const CaptureRequest& request) {
+  for (int attempt = 1; attempt < settings_.attempts; ++attempt) {
+    try {
+      return checkedPhotograph(request);
+    } catch (const Error&) {
+      // What is still wrong the last time is told.
+    }
+  }
+  return checkedPhotograph(request);
+}
+
+RawFrame CommandCamera::checkedPhotograph(const CaptureRequest& request) {
   RawFrame frame = photograph(request);
   if (frame.signal.size() != size_)
     throw Error(ErrorKind::device,

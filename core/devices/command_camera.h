@@ -20,6 +20,7 @@ struct CommandCameraSettings {
   std::string extension = "exr";  // of {output}; the program may write another one under the same name
   ExposureRange exposures{1e-3, 4.0};
   std::chrono::milliseconds timeout{60000};  // for one photograph, on top of its exposure time
+  int attempts = 2;                          // at one photograph: cables and cameras have hiccups
   std::string name = "camera command";
 };
 std::vector<std::string> problems(const CommandCameraSettings& settings);
@@ -35,12 +36,14 @@ class CommandCamera : public Camera {
   std::string name() const override { return settings_.name; }
   Size size() const override { return size_; }
   ExposureRange exposures() const override { return settings_.exposures; }
-  /// Throws: Error{device} if the command fails, takes too long, or writes no file or one of another size;
-  /// Error{format} if the file cannot be read, Error{input} if it holds NaN or infinities.
+  /// As often as the settings say before it throws: Error{device} if the command fails, takes too long, or
+  /// writes no file or one of another size; Error{format} if the file cannot be read, Error{input} if it
+  /// holds NaN or infinities.
   RawFrame capture(const CaptureRequest& request) override;
 
  private:
   RawFrame photograph(const CaptureRequest& request);
+  RawFrame checkedPhotograph(const CaptureRequest& request);
 
   CommandCameraSettings settings_;
   TemporaryFolder folder_;

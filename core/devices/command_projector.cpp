@@ -16,6 +16,7 @@ std::vector<std::string> problems(const CommandProjectorSettings& settings) {
         fmt::format("a projector of {}x{} pixels is impossible", settings.size.width, settings.size.height));
   if (settings.bits != 8 && settings.bits != 16)
     found.push_back(fmt::format("pictures for the projector have 8 or 16 bits, not {}", settings.bits));
+  if (settings.attempts < 1) found.push_back("the projector's command needs at least one attempt");
   if (settings.timeout.count() <= 0) found.push_back("the projector's command needs time to run");
   return found;
 }
@@ -31,7 +32,15 @@ void CommandProjector::show(const Image& encodedDrive) {
   // One name for all patterns, replaced in one step: a viewer that watches the file never sees half of one.
   const std::filesystem::path image = folder_.path() / "pattern.png";
   writePng(image, encodedDrive, settings_.bits);
-  runShellCommand(substituted(settings_.command, {{"image", image.string()}}), settings_.timeout, name());
+  const std::string command = substituted(settings_.command, {{"image", image.string()}});
+  for (int attempt = 1; attempt < settings_.attempts; ++attempt) {
+    try {
+      return runShellCommand(command, settings_.timeout, name());
+    } catch (const Error&) {
+      // What is still wrong the last time is told.
+    }
+  }
+  runShellCommand(command, settings_.timeout, name());
 }
 
 }  // namespace relucent

@@ -17,6 +17,7 @@ struct CommandProjectorSettings {
   Size size;
   int bits = 8;                              // of the PNG: 8 or 16
   std::chrono::milliseconds timeout{60000};  // for one picture
+  int attempts = 2;                          // at one picture
   std::string name = "projector command";
 };
 std::vector<std::string> problems(const CommandProjectorSettings& settings);
@@ -30,7 +31,8 @@ class CommandProjector : public Projector {
   std::string name() const override { return settings_.name; }
   Size size() const override { return settings_.size; }
   int bits() const override { return settings_.bits; }
-  /// Throws: Error{device} with the command's last words if it fails or takes too long; Error{disk}.
+  /// Throws: Error{device} with the command's last words if it fails or takes too long every time;
+  /// Error{disk}.
   void show(const Image& encodedDrive) override;
 
  private:

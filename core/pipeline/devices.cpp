@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/devices.h"
 
+#include <chrono>
+#include <thread>
+
 #include "base/error.h"
-#include "devices/command_camera.h"
 #include "devices/command_projector.h"
+#include "devices/latency.h"
+#include "devices/open_camera.h"
+#include "devices/recording.h"
 
 namespace relucent {
 namespace {
@@ -15,18 +20,30 @@ OpenedRig opened(const VenueSettings& settings, const std::filesystem::path& cac
   return result;
 }
 
+DeviceAddress cameraOf(const CommandRigSettings& settings) {
+  if (settings.cameraAddress.empty()) return {DeviceAddress::Kind::command, settings.cameraCommand};
+  const std::optional<DeviceAddress> address = deviceAddressFrom(settings.cameraAddress);
+  if (!address)
+    throw Error(ErrorKind::usage, fmt::format("'{}' is no camera", settings.cameraAddress),
+                fmt::format("write {}", deviceAddressForms));
+  return *address;
+}
+
 OpenedRig opened(const CommandRigSettings& settings, const std::filesystem::path&, Progress&) {
+  if (!settings.replay.empty()) return {replayed(settings.replay), std::nullopt};
   CommandProjectorSettings projector;
   projector.command = settings.projectorCommand;
   projector.size = settings.projector;
-  CommandCameraSettings camera;
-  camera.command = settings.cameraCommand;
-  camera.size = settings.camera;
-  camera.exposures = {settings.shortestExposure, settings.longestExposure};
 
   OpenedRig result;
   result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
-  result.rig.cameras.push_back(std::make_unique<CommandCamera>(std::move(camera)));
+  result.rig.cameras.push_back(openCamera(
+      cameraOf(settings), {settings.camera, {settings.shortestExposure, settings.longestExposure}}));
+  if (settings.latency > 0.0)
+    result.rig.projectors.front() =
+        delayed(std::move(result.rig.projectors.front()), settings.latency,
+                [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); });
+  if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
   return result;
 }
 

@@ -39,6 +39,12 @@ struct CommandRigSettings {
   std::optional<Size> camera;      // none: the size of the first photograph
   double shortestExposure = 1e-3;  // seconds
   double longestExposure = 4.0;    // seconds
+  /// A camera that Relucent drives itself, by its address (devices/device_address.h), in place of the
+  /// camera's command and exposures.
+  std::string cameraAddress{};
+  double latency = 0.0;  // seconds from the end of the projector's command until its picture is out
+  std::string record{};  // folder for all that is shown and photographed (devices/recording.h); empty: none
+  std::string replay{};  // folder of a recording, in place of both devices; empty: none
 };
 
 /// No devices: patterns and photographs of them that were taken elsewhere.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "compensation/solver.h"
+#include "devices/device_address.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/prove.h"
 
@@ -41,10 +42,16 @@ void checkCommand(Problems& problems, const char* device, const std::string& com
 
 Problems problemsOf(const CommandRigSettings& settings) {
   Problems found;
+  if (!settings.replay.empty()) return found;  // the recording knows everything
   checkSize(found, "projector", settings.projector);
   if (settings.camera) checkSize(found, "camera", *settings.camera);
   checkCommand(found, "projector", settings.projectorCommand, {"{image}"});
-  checkCommand(found, "camera", settings.cameraCommand, {"{exposure}", "{output}"});
+  if (settings.cameraAddress.empty())
+    checkCommand(found, "camera", settings.cameraCommand, {"{exposure}", "{output}"});
+  else if (!deviceAddressFrom(settings.cameraAddress))
+    found.push_back(fmt::format("'{}' is no camera: write {}", settings.cameraAddress, deviceAddressForms));
+  if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
+    found.push_back("a projector's latency is between 0 and 10 seconds");
   if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
     found.push_back("the shortest exposure must be above zero and no longer than the longest");
   return found;

@@ -50,6 +50,10 @@ Sorted commandRigToJson(const CommandRigSettings& settings) {
               {"shortest_exposure", settings.shortestExposure},
               {"longest_exposure", settings.longestExposure}};
   if (settings.camera) json["camera"] = *settings.camera;
+  if (!settings.cameraAddress.empty()) json["camera_address"] = settings.cameraAddress;
+  if (settings.latency > 0.0) json["latency"] = settings.latency;
+  if (!settings.record.empty()) json["record"] = settings.record;
+  if (!settings.replay.empty()) json["replay"] = settings.replay;
   return json;
 }
 
@@ -61,6 +65,10 @@ CommandRigSettings commandRigFromJson(const Sorted& json) {
   settings.shortestExposure = json.value("shortest_exposure", settings.shortestExposure);
   settings.longestExposure = json.value("longest_exposure", settings.longestExposure);
   if (json.contains("camera")) settings.camera = json.at("camera").get<Size>();
+  settings.cameraAddress = json.value("camera_address", settings.cameraAddress);
+  settings.latency = json.value("latency", settings.latency);
+  settings.record = json.value("record", settings.record);
+  settings.replay = json.value("replay", settings.replay);
   return settings;
 }
 
@@ -89,8 +97,12 @@ Json rigToJson(const RigSettings& settings) {
     json = {{"kind", "simulated"}, {"venue", *venue}};
   else if (const auto* imported = std::get_if<ImportedRigSettings>(&settings))
     json = {{"kind", "imported"}, {"imported", importedRigToJson(*imported)}};
-  else
-    json = {{"kind", "commands"}, {"commands", commandRigToJson(std::get<CommandRigSettings>(settings))}};
+  else {
+    const auto& commands = std::get<CommandRigSettings>(settings);
+    // Versions that know commands only say so instead of running an empty one.
+    const bool anyVersion = commands.cameraAddress.empty() && commands.replay.empty();
+    json = {{"kind", anyVersion ? "commands" : "devices"}, {"commands", commandRigToJson(commands)}};
+  }
   return Json(json);
 }
 
@@ -99,7 +111,7 @@ RigSettings rigFromJson(const Json& json) {
     Sorted sorted(json);
     std::string kind = sorted.at("kind");
     if (kind == "simulated") return sorted.at("venue").get<VenueSettings>();
-    if (kind == "commands") return commandRigFromJson(sorted.at("commands"));
+    if (kind == "commands" || kind == "devices") return commandRigFromJson(sorted.at("commands"));
     if (kind == "imported") return importedRigFromJson(sorted.at("imported"));
     throw Error(ErrorKind::format,
                 fmt::format("the calibration was made with devices of the kind \"{}\"", kind),

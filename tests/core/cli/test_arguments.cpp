@@ -95,6 +95,42 @@ class TestArguments : public QObject {
     QCOMPARE(rig.longestExposure, 2.0);
   }
 
+  void aCameraMayHaveAnAddress_data() {
+    QTest::addColumn<QByteArray>("address");
+    for (const char* address :
+         {"genicam:40012345", "genicam:192.168.1.20", "v4l2:/dev/v4l/by-id/usb-A-index0"})
+      QTest::newRow(address) << QByteArray(address);
+  }
+  void aCameraMayHaveAnAddress() {
+    QFETCH(QByteArray, address);
+    const QByteArray line =
+        "calibrate d --projector-command show,{image} --projector 1024x768 --camera " + address;
+    const auto whole = std::get<CommandRigSettings>(parsed<Calibrate>(line.constData()).settings.rig);
+    QCOMPARE(whole.cameraAddress, address.toStdString());
+    QVERIFY(!whole.camera);
+    const QByteArray more = line + " --camera-size 640x480 --record tape";
+    const auto part = std::get<CommandRigSettings>(parsed<Calibrate>(more.constData()).settings.rig);
+    QVERIFY((part.camera == Size{640, 480}));
+    QVERIFY(std::filesystem::path(part.record).is_absolute());
+    QVERIFY(part.record.ends_with("/tape"));
+  }
+
+  void whatIsCheckedIsARig() {
+    const auto real = parsed<CheckRig>(
+        "check --projector-command show,{image} --projector 640x480 --camera genicam:7 --frame-rate 50");
+    QCOMPARE(std::get<CommandRigSettings>(real.settings.rig).cameraAddress, std::string("genicam:7"));
+    QCOMPARE(real.settings.latency.frame, 0.02);
+    QCOMPARE(std::get<VenueSettings>(parsed<CheckRig>("check --venue dome").settings.rig).name,
+             std::string("dome"));
+  }
+
+  void aRecordingIsARig() {
+    const auto rig =
+        std::get<CommandRigSettings>(parsed<Calibrate>("calibrate d --replay /tape").settings.rig);
+    QCOMPARE(rig.replay, std::string("/tape"));
+    parsed<ListDevices>("devices");
+  }
+
   void otherCommandsTakeTheirOptions() {
     Compensate compensate = parsed<Compensate>(
         "compensate d --image a.png --out o --method mix --corners 1 2 3 4 5 6 7 8 --black-lift 0.02 "
@@ -194,6 +230,28 @@ class TestArguments : public QObject {
     QTest::newRow("simulated option")
         << QByteArray("calibrate d --projector-command a --camera-command b --projector 8x8 --drift 0.1")
         << QByteArray("--drift is for simulated venues only");
+    QTest::newRow("unknown kind of camera") << QByteArray("calibrate d --camera usb:7")
+                                            << QByteArray("'usb:7' is no camera: write genicam:SERIAL");
+    QTest::newRow("camera alone") << QByteArray("calibrate d --camera genicam:7")
+                                  << QByteArray("needs --projector-command and --projector");
+    QTest::newRow("two cameras")
+        << QByteArray(
+               "calibrate d --projector-command a --camera-command b --projector 8x8 --camera genicam:7")
+        << QByteArray("not both");
+    QTest::newRow("size without an address")
+        << QByteArray("calibrate d --camera-size 8x8") << QByteArray("write --camera WxH");
+    QTest::newRow("recording and devices") << QByteArray("calibrate d --replay t --projector-command a")
+                                           << QByteArray("--projector-command has no place beside --replay");
+    QTest::newRow("recording and venue")
+        << QByteArray("calibrate d --replay t --venue corner") << QByteArray("not both");
+    QTest::newRow("nothing to check") << QByteArray("check") << QByteArray("say what to check");
+    QTest::newRow("half to check") << QByteArray("check --camera genicam:7")
+                                   << QByteArray("real devices need --projector-command");
+    QTest::newRow("two to check") << QByteArray("check --camera genicam:7 --venue dome")
+                                  << QByteArray("not both");
+    QTest::newRow("no frames") << QByteArray("check --venue dome --frame-rate 0") << QByteArray("above 0");
+    QTest::newRow("nothing to record")
+        << QByteArray("calibrate d --record t") << QByteArray("--record is for real devices");
     QTest::newRow("two folders") << QByteArray("resume a b") << QByteArray("b");
   }
   void wrongUsage() {

@@ -193,6 +193,30 @@ class TestCommandDevices : public QObject {
     QVERIFY(mentions(sentenceOf([&] { camera.capture(request()); }, kind), part.toStdString()));
   }
 
+  void aHiccupIsNotTheEnd() {
+    writeExr(file("scene.exr"), Image({8, 6}, 3, 0.5f), ExrType::floatType);
+    // Every second call fails.
+    const std::string flaky = "if test -e " + file("hiccup").string() + "; then rm " +
+                              file("hiccup").string() + "; else touch " + file("hiccup").string() +
+                              "; exit 1; fi; ";
+    CommandCameraSettings settings = cameraSettings(flaky + "cp " + file("scene.exr").string() + " \"$2\"");
+    CommandCamera camera(settings);
+    for (int i = 0; i < 3; ++i) QCOMPARE(camera.capture(request()).signal.at(0, 0, 0), 0.5f);
+    settings.attempts = 1;
+    CommandCamera impatient(settings);
+    QVERIFY(mentions(deviceSentenceOf([&] { impatient.capture(request()); }), "failed with status 1"));
+    impatient.capture(request());
+
+    CommandProjectorSettings show;
+    show.command = script("flaky.sh", flaky, "{image}");
+    show.size = {2, 2};
+    CommandProjector projector(show);
+    for (int i = 0; i < 3; ++i) projector.show(Image({2, 2}, 3));
+    show.attempts = 1;
+    CommandProjector hasty(show);
+    QVERIFY(mentions(deviceSentenceOf([&] { hasty.show(Image({2, 2}, 3)); }), "failed with status 1"));
+  }
+
   void aSlowCameraIsNotWaitedForForever() {
     CommandCameraSettings settings = cameraSettings("sleep 30");
     settings.timeout = 100ms;

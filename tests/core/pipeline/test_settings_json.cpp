@@ -44,7 +44,18 @@ class TestSettingsJson : public QObject {
         CommandRigSettings{"show {image}", "shoot \"{output}\" {exposure}", {64, 48}, Size{32, 24}, 0.1, 2.0};
     CalibrateSettings withoutCamera;
     withoutCamera.rig = CommandRigSettings{"a", "b", {64, 48}, std::nullopt, 0.1, 2.0};
-    for (const CalibrateSettings& settings : {CalibrateSettings{}, venue, commands, withoutCamera}) {
+    CalibrateSettings addressed = withoutCamera, replayed;
+    std::get<CommandRigSettings>(addressed.rig).cameraAddress = "genicam:40012345";
+    std::get<CommandRigSettings>(addressed.rig).record = "/tape";
+    std::get<CommandRigSettings>(addressed.rig).latency = 0.05;
+    replayed.rig = CommandRigSettings{};
+    std::get<CommandRigSettings>(replayed.rig).replay = "/tape";
+    // Versions that know neither must not take them for commands.
+    for (const CalibrateSettings& settings : {addressed, replayed})
+      QCOMPARE(rigToJson(settings.rig).at("kind").get<std::string>(), std::string("devices"));
+    QCOMPARE(rigToJson(withoutCamera.rig).at("kind").get<std::string>(), std::string("commands"));
+    for (const CalibrateSettings& settings :
+         {CalibrateSettings{}, venue, commands, withoutCamera, addressed, replayed}) {
       CalibrateSettings read = comeBack(settings);
       QCOMPARE(rigToJson(read.rig).dump(), rigToJson(settings.rig).dump());
       QCOMPARE(stagesToJson(read).dump(), stagesToJson(settings).dump());

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/options.h"
+#include "devices/device_address.h"
+
+namespace relucent {
+
+void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
+  if (deviceAddressFrom(text))
+    commands.cameraAddress = text;
+  else if (text.find(':') != std::string::npos)
+    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, deviceAddressForms));
+  else
+    size = parseSize(text);
+}
+
+std::function<Command()> addCheckOptions(CLI::App* sub) {
+  struct Places {
+    CommandRigSettings commands;
+    VenueSettings venue;
+    Size size;
+    double frameRate = 60.0;
+  };
+  auto command = std::make_shared<CheckRig>();
+  auto places = std::make_shared<Places>();
+  CommandRigSettings& commands = places->commands;
+
+  CLI::Option* show = sub->add_option("--projector-command", commands.projectorCommand,
+                                      "Command that shows the file {image} and returns")
+                          ->type_name("CMD");
+  CLI::Option* projector = addSize(sub, "--projector", commands.projector, "Size of the projector");
+  CLI::Option* photograph = sub->add_option("--camera-command", commands.cameraCommand,
+                                            "Command that photographs {exposure} seconds into {output}")
+                                ->type_name("CMD");
+  CLI::Option* camera =
+      sub->add_option_function<std::string>(
+             "--camera",
+             [places](const std::string& text) { readCamera(text, places->commands, places->size); },
+             "A camera by its address, see `devices`")
+          ->type_name("KIND:PLACE");
+  sub->add_option("--frame-rate", places->frameRate, "Pictures a second of the projector")
+      ->type_name("HZ")
+      ->capture_default_str();
+  CLI::Option* venue =
+      sub->add_option("--venue", places->venue.name, "A simulated venue, to rehearse")->type_name("NAME");
+  addCache(sub, command->cache);
+
+  return [=] {
+    if (!(places->frameRate > 0.0)) throw WrongUsage("--frame-rate must be above 0");
+    command->settings.latency.frame = 1.0 / places->frameRate;
+    const bool real = show->count() + photograph->count() + camera->count() > 0;
+    if (real && venue->count() > 0) throw WrongUsage("give --venue or real devices, not both");
+    if (!real && venue->count() == 0)
+      throw WrongUsage("say what to check: --projector-command, --projector and --camera, or --venue");
+    if (!real) {
+      command->settings.rig = places->venue;
+      return Command(*command);
+    }
+    const bool seen = photograph->count() > 0 || !places->commands.cameraAddress.empty();
+    if (show->count() == 0 || projector->count() == 0 || !seen)
+      throw WrongUsage(
+          "real devices need --projector-command, --projector, and --camera or --camera-command");
+    command->settings.rig = places->commands;
+    return Command(*command);
+  };
+}
+
+}  // namespace relucent

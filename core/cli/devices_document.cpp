@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "cli/devices_document.h"
+
+#include <fmt/format.h>
+
+namespace relucent {
+
+Json toJson(const DeviceList& devices) {
+  Json support = Json::array();
+  for (const DeviceSupport& kind : devices.support)
+    support.push_back({{"kind", kind.kind}, {"available", kind.available}, {"sentence", kind.sentence}});
+  Json cameras = Json::array();
+  for (const ListedCamera& camera : devices.cameras) {
+    Json entry = {{"address", camera.address}, {"model", camera.model}, {"usable", camera.usable}};
+    const CameraTraits& traits = camera.traits;
+    if (camera.usable)
+      entry.update({{"size", {traits.size.width, traits.size.height}},
+                    {"format", nameOf(traits.format)},
+                    {"bits", traits.format.bits},
+                    {"exposures", {traits.exposures.shortest, traits.exposures.longest}},
+                    {"gain", traits.gain},
+                    {"software_trigger", traits.triggered},
+                    {"remarks", traits.remarks}});
+    else
+      entry["problem"] = camera.problem;
+    cameras.push_back(std::move(entry));
+  }
+  return {{"support", std::move(support)}, {"cameras", std::move(cameras)}};
+}
+
+std::string textOf(const DeviceList& devices) {
+  std::string text;
+  for (const ListedCamera& camera : devices.cameras) {
+    const CameraTraits& traits = camera.traits;
+    text += fmt::format("{}  {}\n", camera.address, camera.model);
+    if (!camera.usable) {
+      text += fmt::format("  cannot be used: {}\n", camera.problem);
+      continue;
+    }
+    text += fmt::format("  {}x{} pixels of {} bits ({}), exposures {:.3g} s to {:.3g} s\n", traits.size.width,
+                        traits.size.height, traits.format.bits, nameOf(traits.format),
+                        traits.exposures.shortest, traits.exposures.longest);
+    for (const std::string& remark : traits.remarks) text += fmt::format("  {}\n", remark);
+  }
+  if (devices.cameras.empty()) text += "No cameras answer.\n";
+  text += "\nKinds of cameras:\n";
+  for (const DeviceSupport& kind : devices.support)
+    text += fmt::format("  {:<8} {} {}\n", kind.kind, kind.available ? "  " : "no", kind.sentence);
+  return text;
+}
+
+Json toJson(const Latency& latency) {
+  return {{"latency_frames", latency.frames},
+          {"latency_seconds", latency.seconds},
+          {"step", latency.step},
+          {"flicker", latency.flicker},
+          {"verdicts", latency.verdicts}};
+}
+
+std::string textOf(const Latency& latency) {
+  std::string text;
+  for (const std::string& verdict : latency.verdicts) text += verdict + "\n";
+  return text + fmt::format("Calibrate with --latency {:.3g}\n", latency.seconds);
+}
+
+}  // namespace relucent

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/camera_driver.h"
+
+namespace relucent {
+
+struct GenicamSettings {
+  std::string camera;              // serial number, identity, network address or name of the camera
+  std::optional<Size> photograph;  // a part around the sensor's middle; none: all of the sensor
+  std::string format;              // "BayerRG12"; empty: the one that loses least
+  std::optional<double> gain;      // in the camera's unit; none: its lowest, which has the least noise
+  int packetSize = 0;              // bytes, GigE only; 0: as much as the network lets through
+};
+std::vector<std::string> problems(const GenicamSettings& settings);
+
+/// A camera that answered.
+struct GenicamCamera {
+  std::string serial;
+  std::string model;     // "Aravis Fake"
+  std::string protocol;  // "GigEVision", "USB3Vision"
+  std::string address;   // "192.168.1.20"
+};
+
+/// Whether this build can speak to GenICam cameras (GigE Vision and USB3 Vision): it was made with Aravis.
+bool hasGenicam();
+/// All cameras that answer within a second. None without Aravis.
+std::vector<GenicamCamera> findGenicamCameras();
+/// Throws: Error{device} in a build without Aravis.
+std::unique_ptr<CameraDriver> makeGenicamDriver(const GenicamSettings& settings);
+
+}  // namespace relucent

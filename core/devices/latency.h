@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "rig/rig.h"
+
+namespace relucent {
+
+struct LatencySettings {
+  double frame = 1.0 / 60.0;  // seconds that the projector shows one picture
+  int mostFrames = 30;        // after these any picture is out
+  int repeats = 4;            // steps from black to white, and back, tried with each delay
+  double settled = 0.03;      // share of the step that may be missing
+  double flicker = 0.02;      // relative deviation between equal photographs that is worth a word
+};
+std::vector<std::string> problems(const LatencySettings& settings);
+
+/// How long after Projector::show() a photograph sees the new picture and nothing older.
+struct Latency {
+  int frames = 0;                     // least delay that sufficed every time
+  double seconds = 0.0;               // to be waited for: that delay and one frame of margin
+  double step = 0.0;                  // mean signal of white less black
+  double flicker = 0.0;               // relative standard deviation of white between photographs
+  std::vector<std::string> verdicts;  // plain words
+};
+
+/// Lets time pass. Seconds.
+using Wait = std::function<void(double)>;
+
+/// Steps between black and white, photographed after a delay that is halved until it no longer suffices:
+///   a delay suffices if |1 - (signal - old) / (new - old)| <= settled in every step, both ways.
+/// Every step starts from a picture that has been out for mostFrames, so that there are no more than three
+/// opposite full-field changes a second with the usual settings.
+/// Throws: Error{device} if the camera does not see the projector, or the picture takes longer than
+/// mostFrames; Cancelled.
+Latency measureLatency(Projector& projector, Camera& camera, double exposure, const LatencySettings& settings,
+                       const Wait& wait, Progress& progress);
+
+/// The same projector, whose show() returns so many seconds later.
+std::unique_ptr<Projector> delayed(std::unique_ptr<Projector> projector, double seconds, Wait wait);
+
+}  // namespace relucent

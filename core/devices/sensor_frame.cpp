@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "devices/sensor_frame.h"
+
+#include <array>
+#include <charconv>
+#include <tuple>
+#include <utility>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace relucent {
+namespace {
+
+using Named = std::pair<std::string_view, SensorLayout>;
+constexpr std::array<Named, 7> layouts{{{"Mono", SensorLayout::mono},
+                                        {"BayerRG", SensorLayout::bayerRG},
+                                        {"BayerGR", SensorLayout::bayerGR},
+                                        {"BayerGB", SensorLayout::bayerGB},
+                                        {"BayerBG", SensorLayout::bayerBG},
+                                        {"RGB", SensorLayout::rgb},
+                                        {"BGR", SensorLayout::bgr}}};
+
+bool isInterleaved(SensorLayout layout) {
+  return layout == SensorLayout::rgb || layout == SensorLayout::bgr;
+}
+bool isFiltered(SensorLayout layout) {
+  return layout != SensorLayout::mono && !isInterleaved(layout);
+}
+
+std::size_t bytesOf(const SensorFrame& frame) {
+  const std::size_t samples = frame.size.count() * (isInterleaved(frame.format.layout) ? 3 : 1);
+  return samples * (frame.format.bits > 8 ? 2 : 1);
+}
+
+/// The samples of a frame by their index.
+template <typename Sample>
+class Samples {
+ public:
+  explicit Samples(const SensorFrame& frame) : bytes_(frame.bytes.data()) {}
+  std::uint32_t operator[](std::size_t index) const {
+    if constexpr (sizeof(Sample) == 1) return bytes_[index];
+    return bytes_[2 * index] | static_cast<std::uint32_t>(bytes_[2 * index + 1]) << 8;
+  }
+
+ private:
+  const std::uint8_t* bytes_;
+};
+
+/// Where in a 2x2 cell (index 2 y + x) red lies; blue lies opposite, green in the other two.
+std::size_t redIn(SensorLayout layout) {
+  switch (layout) {
+    case SensorLayout::bayerGR:
+      return 1;
+    case SensorLayout::bayerGB:
+      return 2;
+    case SensorLayout::bayerBG:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+template <typename Sample>
+Image decoded(const SensorFrame& frame) {
+  const Samples<Sample> samples(frame);
+  const SensorLayout layout = frame.format.layout;
+  const Size size = photographSize(frame.size, frame.format);
+  const double full = static_cast<double>((1u << static_cast<unsigned>(photographBits(frame.format))) - 1u);
+  const auto width = static_cast<std::size_t>(frame.size.width);
+  const std::size_t red = redIn(layout);
+
+  Image image(size, 3);
+  parallelFor(0, static_cast<std::size_t>(size.height), 16, [&](std::size_t y) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(size.width); ++x) {
+      std::array<std::uint32_t, 3> codes{};
+      if (layout == SensorLayout::mono) {
+        codes.fill(samples[y * width + x]);
+      } else if (isInterleaved(layout)) {
+        for (std::size_t c = 0; c < 3; ++c)
+          codes[layout == SensorLayout::rgb ? c : 2 - c] = samples[3 * (y * width + x) + c];
+      } else {
+        const std::size_t corner = 2 * (y * width + x);
+        const std::array<std::uint32_t, 4> cell{samples[corner], samples[corner + 1], samples[corner + width],
+                                                samples[corner + width + 1]};
+        codes = {2 * cell[red], cell[red ^ 1u] + cell[red ^ 2u], 2 * cell[red ^ 3u]};
+      }
+      for (int c = 0; c < 3; ++c)
+        image.at(static_cast<int>(x), static_cast<int>(y), c) =
+            static_cast<float>(codes[static_cast<std::size_t>(c)] / full);
+    }
+  });
+  return image;
+}
+
+}  // namespace
+
+std::optional<SensorFormat> sensorFormatFromName(std::string_view name) {
+  for (const auto& [prefix, layout] : layouts) {
+    if (!name.starts_with(prefix)) continue;
+    const std::string_view number = name.substr(prefix.size());
+    int bits = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), bits);
+    if (error != std::errc() || end != number.data() + number.size() || bits < 8 || bits > 16)
+      return std::nullopt;
+    return SensorFormat{layout, bits};
+  }
+  return std::nullopt;
+}
+
+std::string nameOf(const SensorFormat& format) {
+  for (const auto& [prefix, layout] : layouts)
+    if (layout == format.layout) return fmt::format("{}{}", prefix, format.bits);
+  return {};
+}
+
+std::optional<SensorFormat> bestFormat(const std::vector<std::string>& names) {
+  std::optional<SensorFormat> best;
+  auto worth = [](const SensorFormat& format) {
+    return std::tuple(format.layout != SensorLayout::mono, !isInterleaved(format.layout), format.bits);
+  };
+  for (const std::string& name : names) {
+    const std::optional<SensorFormat> format = sensorFormatFromName(name);
+    if (format && (!best || worth(*format) > worth(*best))) best = format;
+  }
+  return best;
+}
+
+Size photographSize(Size sensor, const SensorFormat& format) {
+  return isFiltered(format.layout) ? Size{sensor.width / 2, sensor.height / 2} : sensor;
+}
+
+Size sensorSize(Size photograph, const SensorFormat& format) {
+  return isFiltered(format.layout) ? Size{2 * photograph.width, 2 * photograph.height} : photograph;
+}
+
+int photographBits(const SensorFormat& format) {
+  return format.bits + (isFiltered(format.layout) ? 1 : 0);
+}
+
+Image photographOf(const SensorFrame& frame, const std::string& camera) {
+  if (frame.bytes.size() < bytesOf(frame))
+    throw Error(ErrorKind::device,
+                fmt::format("a photograph of {}x{} pixels as {} came with {} of {} bytes", frame.size.width,
+                            frame.size.height, nameOf(frame.format), frame.bytes.size(), bytesOf(frame)),
+                "switch the camera off and on, or choose another of its pixel formats", camera);
+  return frame.format.bits > 8 ? decoded<std::uint16_t>(frame) : decoded<std::uint8_t>(frame);
+}
+
+}  // namespace relucent

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/image.h"
+
+namespace relucent {
+
+/// How colours lie on a sensor: the colours of the first two pixels of the first row, or of every pixel.
+enum class SensorLayout { mono, bayerRG, bayerGR, bayerGB, bayerBG, rgb, bgr };
+
+/// How a camera delivers its pixels: unpacked, one byte a sample up to 8 bits, else two, little endian.
+struct SensorFormat {
+  SensorLayout layout = SensorLayout::mono;
+  int bits = 8;
+  bool operator==(const SensorFormat&) const = default;
+};
+
+/// "Mono12", "BayerRG8", "RGB8": the names of GenICam's pixel format naming convention. None for formats
+/// that are not read: packed ones, those of more than 16 bits, and everything with brightness apart from
+/// colour.
+std::optional<SensorFormat> sensorFormatFromName(std::string_view name);
+std::string nameOf(const SensorFormat& format);
+/// Of the formats that a camera has, the one that loses least: colour before grey, a sensor's own values
+/// before those that the camera has interpolated, more bits before fewer.
+std::optional<SensorFormat> bestFormat(const std::vector<std::string>& names);
+
+/// Rows as a camera delivered them, without padding.
+struct SensorFrame {
+  Size size;  // in sensor pixels
+  SensorFormat format;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The size of the photograph that comes of a frame: half of it both ways where a colour filter lies on the
+/// sensor.
+Size photographSize(Size sensor, const SensorFormat& format);
+/// The other way round.
+Size sensorSize(Size photograph, const SensorFormat& format);
+/// Bits of the photograph's samples, as RawFrame::bits: one more than the sensor's under a colour filter.
+int photographBits(const SensorFormat& format);
+
+/// The photograph in a frame: linear, three channels, full scale 1.
+/// Under a colour filter each 2x2 cell of the sensor is one pixel: red, blue, and the sum of both greens.
+///   signal = {2 R, G1 + G2, 2 B} / (2^(bits + 1) - 1)
+/// Each value is a fixed weighted sum of that pixel's own sensor values, so light that adds up on the sensor
+/// adds up in the photograph, noise stays independent between pixels, and no light moves into a neighbour.
+/// Interpolation along edges (variable gradients, edge-aware) is not linear; bilinear interpolation is, but
+/// widens every footprint of T by a pixel and invents three quarters of the unknown samples.
+/// A grey camera's value stands in all three channels.  Source: core/devices/README.md.
+/// Throws: Error{device} if there are fewer bytes than pixels.
+Image photographOf(const SensorFrame& frame, const std::string& camera);
+
+}  // namespace relucent

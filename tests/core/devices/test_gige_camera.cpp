@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// GenICam cameras through real sockets: Aravis' GigE Vision camera on the loopback network, and what goes
+// wrong with such cameras.
+#include <QtTest>
+#include <atomic>
+#include <thread>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "devices/device_list.h"
+#include "devices/driven_camera.h"
+#include "devices/genicam_driver.h"
+#include "support/fake_gige_camera.h"
+#include "support/own_network.h"
+#include "support/sentences.h"
+
+using namespace relucent;
+using namespace relucent::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr Size photograph{32, 24};
+
+/// The camera's side of the venue: fills frames with codes that depend on `scene` alone.
+struct Sight {
+  std::atomic<unsigned> scene{1};
+  std::atomic<double> seconds{0.0};
+  std::atomic<unsigned> gain{0};
+  std::atomic<int> looks{0};
+  std::function<void(int)> whileLooking = [](int) {};
+
+  static int bitsOf(const std::string& format) {
+    return std::stoi(format.substr(format.find_first_of("0123456789")));
+  }
+  static std::vector<std::uint8_t> bytesOf(Size sensor, int bits, unsigned scene) {
+    Random random{7, scene};
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i < sensor.count(); ++i) {
+      const auto code = static_cast<unsigned>(random.below(1u << bits));
+      bytes.push_back(static_cast<std::uint8_t>(code & 0xffu));
+      if (bits > 8) bytes.push_back(static_cast<std::uint8_t>(code >> 8));
+    }
+    return bytes;
+  }
+
+  void operator()(const FakeGigeCamera::View& view) {
+    seconds = view.seconds;
+    gain = view.gain;
+    const unsigned now = scene;
+    whileLooking(++looks);
+    if (view.format == "other") return;
+    const std::vector<std::uint8_t> bytes = bytesOf(view.sensor, bitsOf(view.format), now);
+    std::copy(bytes.begin(), bytes.end(), view.bytes);
+  }
+};
+
+struct Venue {
+  Sight sight;
+  std::unique_ptr<FakeGigeCamera> fake;
+  std::unique_ptr<DrivenCamera> camera;
+
+  explicit Venue(FakeGigeSettings settings = {}) {
+    fake = std::make_unique<FakeGigeCamera>(settings, [this](const FakeGigeCamera::View& v) { sight(v); });
+  }
+  ~Venue() {
+    camera.reset();
+    fake.reset();
+  }
+  static GenicamSettings genicam(const std::string& format = "BayerRG12") {
+    GenicamSettings settings;
+    settings.camera = "127.0.0.1";
+    settings.photograph = photograph;
+    settings.format = format;
+    settings.packetSize = 1000;  // several packets a photograph
+    return settings;
+  }
+  /// Long enough for a busy machine; tests of what does not come say how long they wait.
+  static DrivenCameraSettings patience(std::chrono::milliseconds timeout = 3000ms) {
+    DrivenCameraSettings settings;
+    settings.exposureTakesTime = false;
+    settings.timeout = timeout;
+    settings.reconnectFor = 10s;
+    settings.reconnectPause = 50ms;
+    settings.attempts = 8;
+    return settings;
+  }
+  void open(const GenicamSettings& settings = genicam(), DrivenCameraSettings driven = patience()) {
+    camera.reset();
+    camera = std::make_unique<DrivenCamera>(makeGenicamDriver(settings), driven);
+  }
+  Image shows(unsigned scene, const std::string& format = "BayerRG12") const {
+    const SensorFormat sensor = *sensorFormatFromName(format);
+    const Size size = sensorSize(photograph, sensor);
+    return photographOf({size, sensor, Sight::bytesOf(size, sensor.bits, scene)}, "expected");
+  }
+  Image photographed(unsigned scene, double seconds = 0.01) {
+    sight.scene = scene;
+    return camera->capture({{"test", 1}, 0, seconds}).signal;
+  }
+};
+
+}  // namespace
+
+class TestGigeCamera : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() {
+    enterOwnNetwork();
+    if (!hasGenicam()) QSKIP("this build has no Aravis, which both ends of these tests need");
+    Venue venue;
+    if (!venue.fake->isRunning())
+      QSKIP("no GigE Vision camera can be simulated: is there a loopback network?");
+  }
+
+  void everyPixelFormatArrivesBitForBit_data() {
+    QTest::addColumn<QString>("format");
+    for (const char* format : {"Mono8", "Mono10", "Mono12", "Mono16", "BayerRG12", "BayerGB10"})
+      QTest::newRow(format) << format;
+  }
+  void everyPixelFormatArrivesBitForBit() {
+    QFETCH(QString, format);
+    Venue venue;
+    venue.open(Venue::genicam(format.toStdString()));
+    QCOMPARE(venue.camera->size(), photograph);
+    for (unsigned scene : {1u, 2u, 3u})
+      QVERIFY(venue.photographed(scene) == venue.shows(scene, format.toStdString()));
+    QCOMPARE(venue.camera->repeats(), 0);
+  }
+
+  void exposureAndGainReachTheCamera() {
+    Venue venue;
+    GenicamSettings settings = Venue::genicam();
+    settings.gain = 3.0;
+    venue.open(settings);
+    QCOMPARE(venue.camera->traits().gain, 3.0);
+    for (double seconds : {0.0001, 0.012345, 1.5}) {
+      const RawFrame frame = venue.camera->capture({{"test", 1}, 0, seconds});
+      QVERIFY(std::abs(frame.seconds - seconds) < 1e-6);  // the register holds whole microseconds
+      QCOMPARE(venue.sight.seconds.load(), frame.seconds);
+      QCOMPARE(venue.sight.gain.load(), 3u);
+    }
+    QCOMPARE(venue.camera->traits().model, std::string("Aravis Fake"));
+    QVERIFY(venue.camera->traits().triggered);
+  }
+
+  void aCameraThatCutsExposuresWithoutAWordIsFoundOut() {
+    FakeGigeSettings settings;
+    settings.longestKept = 50000;
+    Venue venue(settings);
+    venue.open();
+    QCOMPARE(venue.camera->exposures().longest, 0.05);
+    QCOMPARE(venue.camera->traits().remarks.size(), std::size_t{1});
+    QVERIFY(mentions(venue.camera->traits().remarks[0], "claims exposures up to 10 s but keeps to 0.05 s"));
+    const std::string sentence = sentenceOf(
+        [&] {
+          venue.camera->capture({{"test", 1}, 0, 0.5});
+        },
+        ErrorKind::device);
+    QVERIFY(
+        mentions(sentence, "genicam:127.0.0.1: the camera was asked to expose 0.5 s and keeps to 0.05 s"));
+  }
+
+  void whatTheCameraCannotIsRefused_data() {
+    QTest::addColumn<QString>("format");
+    QTest::addColumn<Size>("size");
+    QTest::addColumn<double>("gain");
+    QTest::addColumn<QString>("part");
+    QTest::newRow("format") << "BayerBG14" << photograph << 0.0 << "no pixel format BayerBG14";
+    QTest::newRow("size") << "Mono8" << Size{5000, 24} << 0.0
+                          << "5000x24 pixels are wanted and the camera has 2048x2048";
+    QTest::newRow("gain") << "Mono8" << photograph << 99.0
+                          << "a gain of 99 is wanted; the camera can do 0 to 10";
+  }
+  void whatTheCameraCannotIsRefused() {
+    QFETCH(QString, format);
+    QFETCH(Size, size);
+    QFETCH(double, gain);
+    QFETCH(QString, part);
+    Venue venue;
+    GenicamSettings settings = Venue::genicam(format.toStdString());
+    settings.photograph = size;
+    settings.gain = gain;
+    QVERIFY(mentions(sentenceOf([&] { venue.open(settings); }, ErrorKind::device), part.toStdString()));
+  }
+
+  void lostPacketsAreAskedForAgain() {
+    FakeGigeSettings settings;
+    settings.lostPackets = 0.05;  // of 5 to 9 packets a photograph
+    Venue venue(settings);
+    venue.open();
+    int scene = 1;
+    for (; venue.camera->repeats() == 0 && scene < 100; ++scene)
+      QVERIFY(venue.photographed(static_cast<unsigned>(scene)) == venue.shows(static_cast<unsigned>(scene)));
+    QVERIFY(venue.camera->repeats() > 0);
+  }
+
+  void aBrokenCableIsTold() {
+    Venue venue;
+    DrivenCameraSettings patience = Venue::patience(100ms);
+    patience.attempts = 2;
+    venue.open(Venue::genicam(), patience);
+    venue.fake->losePackets(1.0);
+    const std::string sentence = sentenceOf(
+        [&] {
+          venue.camera->capture({{"test", 1}, 0, 0.01});
+        },
+        ErrorKind::device);
+    QVERIFY(mentions(sentence, "2 attempts at a photograph failed: no photograph came within 0.11 s"));
+    QVERIFY(mentions(sentence, "check the camera's cable"));
+    venue.fake->losePackets(0.0);
+    QVERIFY(venue.photographed(5) == venue.shows(5));
+  }
+
+  void aPhotographThatComesTooLateIsNotTakenForTheNext() {
+    Venue venue;
+    venue.open(Venue::genicam(), Venue::patience(300ms));
+    QVERIFY(venue.photographed(1) == venue.shows(1));
+    // The camera looks at scene 2, and dawdles until the venue shows scene 3.
+    const int slow = venue.sight.looks + 1;
+    venue.sight.whileLooking = [&](int look) {
+      if (look != slow) return;
+      venue.sight.scene = 3;
+      std::this_thread::sleep_for(500ms);  // longer than the photograph is waited for
+    };
+    venue.sight.scene = 2;
+    QVERIFY(venue.camera->capture({{"test", 2}, 0, 0.01}).signal == venue.shows(3));
+    QVERIFY(venue.camera->repeats() > 0);
+    venue.sight.whileLooking = [](int) {};
+  }
+
+  void aCameraThatWasResizedIsSetUpAgain() {
+    Venue venue;
+    venue.open();
+    QVERIFY(venue.photographed(1) == venue.shows(1));
+    venue.fake->setSensorSize({16, 12});
+    QVERIFY(venue.photographed(2) == venue.shows(2));
+    QCOMPARE(venue.camera->reconnections(), 1);
+  }
+
+  void aCameraThatWasSwitchedOffAndOnGoesOn() {
+    Venue venue;
+    venue.open(Venue::genicam(), Venue::patience(150ms));
+    for (unsigned scene = 1; scene <= 2; ++scene) {
+      venue.fake->unplug();
+      venue.fake->plug();
+      QVERIFY(venue.photographed(scene) == venue.shows(scene));
+    }
+    QVERIFY(venue.camera->reconnections() >= 2);
+  }
+
+  void camerasAreFoundByTheirSerialNumber() {
+    FakeGigeSettings fake;
+    fake.serial = "RL07";
+    Venue venue(fake);
+    const DeviceList devices = listDevices();
+    auto ours = std::find_if(devices.cameras.begin(), devices.cameras.end(),
+                             [](const ListedCamera& camera) { return camera.address == "genicam:RL07"; });
+    QVERIFY(ours != devices.cameras.end());
+    QVERIFY2(ours->problem.empty(), ours->problem.c_str());
+    QVERIFY(ours->usable);
+    QCOMPARE(ours->model, std::string("Aravis Fake"));
+    QCOMPARE(nameOf(ours->traits.format), std::string("BayerRG12"));  // the best that it has
+    QCOMPARE(ours->traits.size, (Size{1024, 1024}));
+    QVERIFY(devices.support.front().available);
+    GenicamSettings settings = Venue::genicam();
+    settings.camera = "RL99";
+    DrivenCameraSettings hasty = Venue::patience();
+    hasty.connectFor = 0ms;
+    const std::string sentence = sentenceOf([&] { venue.open(settings, hasty); }, ErrorKind::device);
+    QVERIFY(mentions(sentence, "genicam:RL99: no GenICam camera 'RL99' answers; check its cable"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestGigeCamera)
+#include "test_gige_camera.moc"

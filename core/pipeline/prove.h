@@ -53,5 +53,8 @@ struct ProveResult {
 /// or nothing of the picture can be shown; Error{device, disk}; Cancelled.
 ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings,
                              const std::filesystem::path& cache, Progress& progress);
+/// The same with devices that somebody has open already.
+ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings, Rig& rig,
+                             Progress& progress);
 
 }  // namespace relucent

@@ -222,6 +222,7 @@ QToolButton* toolOf(Icon icon, const QString& name, QWidget* parent) {
 QPushButton* buttonOf(const QString& text, const char* role, QWidget* parent) {
   auto* button = new QPushButton(text, parent);
   setRole(button, role);
+  button->setIconSize({18, 18});
   button->setAutoDefault(false);
   return button;
 }

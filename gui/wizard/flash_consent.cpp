@@ -8,16 +8,17 @@
 
 namespace relucent {
 
-QString flashWarning(std::optional<double> changes) {
-  QString rate = changes
-                     ? FlashConsent::tr("The projector shows patterns that change about %1 times a second.")
-                           .arg(numberText(*changes))
-                     : FlashConsent::tr(
-                           "The projector shows patterns that change as quickly as the devices can, "
-                           "perhaps more than 3 times a second.");
-  return FlashConsent::tr("%1 Flashing light can cause seizures. Clear the room and cover the entrance.")
-      .arg(rate);
+namespace {
+
+QString rateSentence(std::optional<double> changes) {
+  return changes ? FlashConsent::tr("The projector shows patterns that change about %1 times a second.")
+                       .arg(numberText(*changes))
+                 : FlashConsent::tr(
+                       "The projector shows patterns that change as quickly as the devices can, "
+                       "perhaps more than 3 times a second.");
 }
+
+}  // namespace
 
 std::optional<double> measuredChanges(const Session& session) {
   const auto& stored = session.result(Step::linearization);
@@ -40,18 +41,19 @@ FlashConsent::FlashConsent(QWidget* parent)
   connect(tick_, &QCheckBox::toggled, this, &FlashConsent::given);
 }
 
-void FlashConsent::show(bool needed, bool given, const QString& warning) {
+void FlashConsent::show(bool needed, bool given, std::optional<double> changes) {
   setVisible(needed);
   QSignalBlocker quiet(tick_);
   tick_->setChecked(given);
-  note_->setText(warning);
+  note_->setText(rateSentence(changes),
+                 tr("Flashing light can cause seizures. Clear the room and cover the entrance."));
 }
 
 QWidget* consentPart(Session& session) {
   auto* part = new FlashConsent;
   QObject::connect(part, &FlashConsent::given, &session, &Session::setRoomClear);
   auto refresh = [part, &session] {
-    part->show(session.needsConsent(), session.isRoomClear(), flashWarning(measuredChanges(session)));
+    part->show(session.needsConsent(), session.isRoomClear(), measuredChanges(session));
   };
   QObject::connect(&session, &Session::changed, part, refresh);
   QObject::connect(&session, &Session::opened, part, refresh);

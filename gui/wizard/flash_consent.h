@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QCheckBox>
-#include <functional>
 #include <optional>
 
 #include "wizard/session.h"
@@ -11,8 +10,6 @@ namespace relucent {
 
 class Note;
 
-/// What is said of a projector that may flash. `changes`: patterns a second, where that is known.
-QString flashWarning(std::optional<double> changes);
 /// Patterns a second while the response was measured; none before.
 std::optional<double> measuredChanges(const Session& session);
 
@@ -22,7 +19,8 @@ class FlashConsent : public QWidget {
 
  public:
   explicit FlashConsent(QWidget* parent = nullptr);
-  void show(bool needed, bool given, const QString& warning);
+  /// `changes`: patterns a second, where that is known.
+  void show(bool needed, bool given, std::optional<double> changes);
 
  Q_SIGNALS:
   void given(bool clear);

@@ -132,6 +132,7 @@ void LinearizePage::setLevels(int levels) {
 }
 
 void LinearizePage::keepLevels(int levels) {
+  if (isMeasuring()) return;
   CalibrateSettings settings = session_.settings();
   settings.linearization.levels = levels;
   try {

@@ -27,7 +27,13 @@ QImage read(const fs::path& file) {
   return QImage(QString::fromStdString(file.string()));
 }
 
-std::shared_ptr<const Proof> proofOf(ProveResult figures, const fs::path& folder) {
+/// When the light transport was measured.
+std::string measurementOf(const Session& session) {
+  const auto& stored = session.result(Step::acquisition);
+  return stored ? stored->stored : std::string();
+}
+
+std::shared_ptr<Proof> proofOf(ProveResult figures, const fs::path& folder) {
   auto proof = std::make_shared<Proof>();
   proof->wanted = read(folder / "target.png");
   proof->photograph = read(folder / "after.png");
@@ -53,8 +59,16 @@ OutputProof::OutputProof(Session& session, QObject* parent) : QObject(parent), s
     drift_.reset();
     Q_EMIT changed();
   });
+  connect(&session_, &Session::changed, this, &OutputProof::forgetWhatIsNoProof);
   connect(&job_, &Job::progressed, this, &OutputProof::changed);
   connect(&job_, &Job::ended, this, &OutputProof::finished);
+}
+
+void OutputProof::forgetWhatIsNoProof() {
+  if (!proof_ || !session_.isOpen()) return;
+  if (proof_->content == session_.settings().content && proof_->measured == measurementOf(session_)) return;
+  proof_ = nullptr;
+  Q_EMIT changed();
 }
 
 void OutputProof::start(Work work, const QString& who, Job::Work job) {
@@ -69,8 +83,8 @@ void OutputProof::photograph(const QString& picture, const QString& who) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
   start(Work::photograph, who,
-        [found = found_, work = workOf(session_), picture,
-         content = session_.settings().content](Progress& progress) {
+        [found = found_, work = workOf(session_), picture, content = session_.settings().content,
+         measured = measurementOf(session_)](Progress& progress) {
           ProveSettings settings;
           settings.out = work.path / "verification";
           settings.image = fileOf(picture, settings.out);
@@ -79,7 +93,10 @@ void OutputProof::photograph(const QString& picture, const QString& who) {
           Progress opening = progress.part(0.2, tr("Opening the devices").toStdString());
           Rig& rig = work.devices->open(opening);
           Progress proving = progress.part(0.8, tr("Taking the verification photograph").toStdString());
-          found->proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
+          auto proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
+          proof->content = content;
+          proof->measured = measured;
+          found->proof = proof;
         });
 }
 

@@ -16,6 +16,9 @@ struct Proof {
   QImage wanted, photograph;  // as somebody sees them who is used to the content's white
   Image deltaE;               // CIEDE2000 of every pixel; NaN outside the content
   QDateTime taken;
+  /// What it was taken of: with other content or another measurement it proves nothing.
+  ContentSettings content;
+  std::string measured;
 
   /// Within twice of what was predicted: nothing has moved.
   bool isAsPredicted() const { return figures.after.measured.deltaE <= 2.0 * figures.after.predicted.deltaE; }
@@ -60,6 +63,7 @@ class OutputProof : public QObject {
  private:
   void start(Work work, const QString& who, Job::Work job);
   void finished();
+  void forgetWhatIsNoProof();
 
   Session& session_;
   Job job_;

@@ -6,6 +6,7 @@
 #include <QSpinBox>
 #include <cmath>
 
+#include "output/screen_identity.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "wizard/flash_consent.h"
@@ -35,29 +36,54 @@ class ScreenList : public QWidget {
       delete item->widget();
       delete item;
     }
-    for (QScreen* screen : QGuiApplication::screens()) {
-      QSize size = screen->size() * screen->devicePixelRatio();
-      bool operators = screen == QGuiApplication::primaryScreen();
-      auto* tile = new Tile(operators ? Icon::monitor : Icon::projector,
-                            operators ? VenuePage::tr("This computer") : screenTitle(*screen),
-                            VenuePage::tr("%1, %2 × %3, %4 Hz")
-                                .arg(screen->name())
-                                .arg(size.width())
-                                .arg(size.height())
-                                .arg(std::lround(screen->refreshRate())));
-      tile->setEnabled(!operators);
-      tile->setCheckable(true);
-      tile->setAutoExclusive(true);
-      connect(tile, &Tile::clicked, &model_, [this, size] {
-        CommandRigSettings script = model_.script();
-        script.projector = {size.width(), size.height()};
-        model_.setScript(script);
-      });
-      row_->addWidget(tile);
-    }
+    for (QScreen* screen : QGuiApplication::screens()) row_->addWidget(tileOf(*screen));
+    if (!chosen_ || findScreen(*chosen_) != nullptr) return;
+    auto* gone = new Tile(Icon::warning, title_, VenuePage::tr("Unplugged. Plug it in or choose another."));
+    gone->setDashed(true);
+    gone->setEnabled(false);
+    row_->addWidget(gone);
   }
+  Tile* tileOf(const QScreen& screen) {
+    QSize size = nativeSize(screen);
+    bool operators = &screen == QGuiApplication::primaryScreen();
+    auto* tile = new Tile(operators ? Icon::monitor : Icon::projector,
+                          operators ? VenuePage::tr("This computer") : screenTitle(screen),
+                          VenuePage::tr("%1, %2 × %3, %4 Hz")
+                              .arg(screen.name())
+                              .arg(size.width())
+                              .arg(size.height())
+                              .arg(std::lround(screen.refreshRate())));
+    tile->setObjectName("venue-screen-" + screen.name());
+    tile->setEnabled(!operators);
+    tile->setCheckable(true);
+    tile->setAutoExclusive(true);
+    auto tell = [tile, size](bool chosen) {
+      QString name = chosen ? VenuePage::tr("%1, %2 by %3, chosen") : VenuePage::tr("%1, %2 by %3");
+      tile->setAccessibleName(name.arg(tile->text()).arg(size.width()).arg(size.height()));
+    };
+    connect(tile, &Tile::toggled, tile, tell);
+    tile->setChecked(chosen_ && *chosen_ == identityOf(screen));
+    tell(tile->isChecked());
+    connect(tile, &Tile::clicked, &model_, [this, size, tile, identity = identityOf(screen)] {
+      chosen_ = identity;
+      title_ = tile->text();
+      CommandRigSettings script = model_.script();
+      script.projector = {size.width(), size.height()};
+      model_.setScript(script);
+      dropGone();
+    });
+    return tile;
+  }
+  /// Another was chosen: nobody waits for the one that went.
+  void dropGone() {
+    for (Tile* tile : findChildren<Tile*>())
+      if (tile->isDashed()) tile->deleteLater();
+  }
+
   VenuePage& model_;
   QHBoxLayout* row_;
+  std::optional<ScreenIdentity> chosen_;
+  QString title_;  // of the chosen one
 };
 
 QLineEdit* commandLine(VenuePage& model, QVBoxLayout* column, const QString& name, const QString& example,
@@ -78,9 +104,7 @@ QLineEdit* commandLine(VenuePage& model, QVBoxLayout* column, const QString& nam
 QWidget* consent(VenuePage& model) {
   auto* part = new FlashConsent;
   QObject::connect(part, &FlashConsent::given, &model, &VenuePage::setRoomClear);
-  auto refresh = [part, &model] {
-    part->show(model.needsConsent(), model.isRoomClear(), flashWarning(std::nullopt));
-  };
+  auto refresh = [part, &model] { part->show(model.needsConsent(), model.isRoomClear(), std::nullopt); };
   QObject::connect(&model, &VenuePage::changed, part, refresh);
   refresh();
   return part;

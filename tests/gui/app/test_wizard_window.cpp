@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QMimeData>
 #include <QSlider>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -124,6 +125,21 @@ class TestWizardWindow : public QObject {
     QVERIFY(lit(seen, seen.width() - 1, seen.height() - 1) && !lit(seen, 1, 1));
     press(QKeySequence(Qt::Key_Escape));
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+
+    // A chosen screen that is unplugged keeps its card.
+    click("venue-screen-DUMMY1");
+    QVERIFY((wizard_->venue().script().projector == Size{1024, 768}));
+    QVERIFY(find<Tile>("venue-screen-DUMMY1")->accessibleName().endsWith("chosen"));
+    auto gone = [&] {
+      QList<Tile*> tiles = wizard_->window().findChildren<Tile*>();
+      return std::count_if(tiles.begin(), tiles.end(), [](Tile* tile) { return tile->isDashed(); });
+    };
+    QCOMPARE(gone(), 0);
+    unplug();
+    QTRY_COMPARE(gone(), 1);
+    plug();
+    QTRY_COMPARE(gone(), 0);
+    QVERIFY(find<Tile>("venue-screen-DUMMY1")->isChecked());
     wizard_->venue().setMode(VenuePage::Mode::start);
   }
 
@@ -212,6 +228,10 @@ class TestWizardWindow : public QObject {
     // The law of the product: knowing the light transport is better than not correcting at all.
     QVERIFY(table[3].psnr > table[0].psnr);
     QVERIFY(table[4].psnr >= table[3].psnr - 0.5);
+    auto* methods = find<QTableWidget>("methods");
+    QTest::mouseClick(methods->viewport(), Qt::LeftButton, {},
+                      methods->visualItemRect(methods->item(4, 0)).center());
+    QCOMPARE(wizard_->preview().settings().method, std::string("optimum"));
   }
 
   void theContentIsPlacedByMouseAndKeyboard() {
@@ -326,6 +346,9 @@ class TestWizardWindow : public QObject {
     press(QKeySequence("Ctrl+Shift+V"));
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
     const Proof& proof = *output.proof().proof();
+    // What was chosen at Preview reaches the projector.
+    QCOMPARE(proof.figures.method, std::string("optimum"));
+    QVERIFY(find<QWidget>("method-note")->isVisible());
     QVERIFY(!proof.photograph.isNull() && proof.photograph.size() == proof.wanted.size());
     QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());

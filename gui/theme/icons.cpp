@@ -106,7 +106,7 @@ const char* strokesOf(Icon icon) {
       return "M 6 3.5 L 14.5 3.5 L 18.5 7.5 L 18.5 20.5 L 6 20.5 Z M 9 10 L 15.5 10 M 9 13.5 L 15.5 13.5 M 9 "
              "17 L 13 17";
     case Icon::drift:
-      return "C 10 12 5 M 10 12 L 20 12 M 16.5 8.5 L 20 12 L 16.5 15.5";
+      return "M 4.5 6 L 4.5 18 M 8 12 L 20 12 M 15.5 7.5 L 20 12 L 15.5 16.5";
   }
   return "";
 }

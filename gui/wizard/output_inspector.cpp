@@ -146,7 +146,7 @@ QWidget* handOverPart(OutputPage& page) {
                          "Installed. The show starts at the next log-in, without camera or wizard.")
                    : OutputPage::tr("Installed. Install again, and it starts no more by itself."))
             : (page.startsWithComputer()
-                   ? OutputPage::tr("Installed, the show runs unattended, without camera or wizard.")
+                   ? OutputPage::tr("Once installed, the show runs unattended, without camera or wizard.")
                    : OutputPage::tr("The show does not start by itself.")));
   };
   QObject::connect(&page, &OutputPage::changed, part, refresh);

@@ -35,7 +35,7 @@ class PlaybackCard : public Card {
     row->addStretch(1);
     body()->addLayout(row);
     rate_->setObjectName("frame-rate");
-    chart_ = new LineChart({-chartSeconds, 0.0, false, OutputPage::tr("Seconds ago")},
+    chart_ = new LineChart({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
                            {0.0, 20.0, false, OutputPage::tr("Frame time, ms")});
     chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
     body()->addWidget(chart_, 1);
@@ -63,7 +63,7 @@ class PlaybackCard : public Card {
       curve.line.emplace_back(-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]);
       highest = std::max(highest, times[i]);
     }
-    chart_->setAxes({-chartSeconds, 0.0, false, OutputPage::tr("Seconds ago")},
+    chart_->setAxes({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
                     {0.0, 1.1 * highest, false, OutputPage::tr("Frame time, ms")});
     chart_->setCurves({curve});
   }
@@ -163,8 +163,6 @@ class OutputStage : public QWidget {
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     QImage drive = page_.onProjector();
     if (drive.cacheKey() != output_->picture().cacheKey()) output_->setPicture(drive);
-    Size size = page_.projectorSize();
-    projector_->setSubtitle(QString::fromUtf8("%1 × %2").arg(size.width).arg(size.height));
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
     if (proof == shown_) return;
     shown_ = proof;

@@ -33,7 +33,7 @@ PlaylistView::PlaylistView(OutputPage& page, QWidget* parent) : QListWidget(pare
   setDefaultDropAction(Qt::MoveAction);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setTextElideMode(Qt::ElideMiddle);
-  setMinimumHeight(78);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   connect(&page_, &OutputPage::changed, this, &PlaylistView::refresh);
   connect(&Theme::instance(), &Theme::changed, this, [this] {
     clear();
@@ -42,9 +42,15 @@ PlaylistView::PlaylistView(OutputPage& page, QWidget* parent) : QListWidget(pare
   refresh();
 }
 
+QSize PlaylistView::sizeHint() const {
+  constexpr int least = 2, most = 5, row = 32;
+  return {200, row * std::clamp(count(), least, most) + 4};
+}
+
 void PlaylistView::refresh() {
   const QList<PlaylistItem>& items = page_.playlist().settings().items;
   int row = currentRow();
+  if (count() != items.size()) updateGeometry();
   while (count() > items.size()) delete takeItem(count() - 1);
   while (count() < items.size()) addItem(new QListWidgetItem);
   qsizetype playing = page_.playing();
@@ -160,8 +166,8 @@ QWidget* playlistPart(OutputPage& page) {
     fade->setValue(static_cast<int>(std::lround(10.0 * settings.fadeSeconds)));
     fadeRow->setValue(OutputPage::tr("%1 s").arg(numberText(settings.fadeSeconds)));
     bool several = settings.items.size() > 1;
-    for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow, up, down})
-      widget->setEnabled(several);
+    for (QToolButton* button : {up, down}) button->setEnabled(several);
+    for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow}) widget->setVisible(several);
     remove->setEnabled(!settings.items.isEmpty());
     QStringList wrong = page.skipped();
     skipped->setVisible(!wrong.isEmpty());

@@ -13,6 +13,8 @@ class PlaylistView : public QListWidget {
 
  public:
   explicit PlaylistView(OutputPage& page, QWidget* parent = nullptr);
+  /// As high as its items, up to a few.
+  QSize sizeHint() const override;
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

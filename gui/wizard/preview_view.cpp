@@ -70,8 +70,8 @@ class PreviewStage : public QWidget {
     views_[difference]->setAccessibleName(
         PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
     connect(place_, &CornerView::moved, &page_, &PreviewPage::setCorners);
-    column->addWidget(card_, 5);
-    column->addWidget(tableCard(), 3);
+    column->addWidget(card_, 1);
+    column->addWidget(tableCard());
     connect(kind_, &Segmented::chosen, this, [this](int index) {
       for (int i = 0; i < 3; ++i) views_[static_cast<std::size_t>(i)]->setVisible(i == index);
     });
@@ -98,6 +98,9 @@ class PreviewStage : public QWidget {
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setShowGrid(false);
+    // As high as the methods, the rest is the picture's.
+    constexpr int header = 34, rowHeight = 26, methods = 5;
+    table_->setFixedHeight(header + methods * rowHeight);
     connect(table_, &QTableWidget::cellClicked, &page_, [this](int row, int) { choose(row); });
     connect(table_, &QTableWidget::cellActivated, &page_, [this](int row, int) { choose(row); });
     card->body()->addWidget(table_);

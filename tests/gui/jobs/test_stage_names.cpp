@@ -18,12 +18,11 @@ QStringList namesIn(const QString& source) {
                                        QRegularExpression::DotMatchesEverythingOption);
   static const QRegularExpression joined("\"\\s*\\+\\s*[\\w.]+\\s*\\+\\s*\"");
   static const QRegularExpression literal("\"([^\"]*)\"(\\s*\\+\\s*[\\w.]+)?");
-  static const QRegularExpression letters("[A-Za-z]");
   QStringList names;
   for (const QRegularExpressionMatch& match : part.globalMatch(source)) {
     QString arguments = match.captured(1).replace(joined, "{}");
     QRegularExpressionMatch name = literal.match(arguments);
-    if (!name.hasMatch() || !name.captured(1).contains(letters)) continue;  // data's own names
+    if (!name.hasMatch() || name.captured(1).startsWith("{}")) continue;  // data's own names
     names << name.captured(1) + (name.captured(2).isEmpty() ? "" : "{}");
   }
   return names;

@@ -62,4 +62,14 @@
         </translation>
     </message>
 </context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>At most %n change a second</numerusform>
+            <numerusform>At most %n changes a second</numerusform>
+        </translation>
+    </message>
+</context>
 </TS>

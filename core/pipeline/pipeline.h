@@ -21,6 +21,7 @@
 #include "engine/fallback_backend.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
+#include "rig/rig.h"
 #include "venue/venue.h"
 
 /// What can be done with a calibration, one function a deed: what the command line calls, and the window too.
@@ -67,6 +68,9 @@ struct ContentSettings {
   double reachablePercentile = 15.0;  // as TargetSettings
   double blackLift = 0.0;
   Fit fit = Fit::fit;
+  std::optional<Corners> corners;  // as TargetSettings
+
+  bool operator==(const ContentSettings&) const = default;
 };
 std::vector<std::string> problems(const ContentSettings& settings);
 /// How content is fitted that was decided on so.
@@ -143,6 +147,9 @@ struct VerifyResult {
 /// devices; Error{device, disk}; Cancelled.
 VerifyResult verifyCalibration(const std::filesystem::path& folder, const VerifySettings& settings,
                                const std::filesystem::path& cache, Progress& progress);
+/// The same with devices that somebody has open already.
+VerifyResult verifyCalibration(const std::filesystem::path& folder, const VerifySettings& settings, Rig& rig,
+                               Progress& progress);
 
 struct ImportPicturesSettings {
   std::filesystem::path patterns;  // folder of pictures: what was projected, in the projector's own pixels

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "acquisition/photographer.h"
 #include "base/error.h"
@@ -154,22 +155,21 @@ std::vector<fs::path> writePictures(const fs::path& out, const Target& target, c
   return files;
 }
 
-}  // namespace
+/// Opens the devices, or hands over those that are open.
+using OpenDevices = std::function<Rig&(const RigSettings& calibrated, Progress& progress)>;
 
-ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, const fs::path& cache,
-                             Progress& progress) {
+ProveResult proved(const fs::path& path, const ProveSettings& settings, const OpenDevices& open,
+                   Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
   Image content = readLinearContent(settings.image);
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  RigSettings rig = settings.rig.value_or(settingsOf(folder).rig);
   Progress loading = progress.part(0.3, "Reading the calibration");
   MeasuredCalibration measured = loadCalibration(folder, loading);
   Progress opening = progress.part(0.2, "Preparing the devices");
-  OpenedRig devices = openRig(rig, cache, opening);
+  Rig& rig = open(settings.rig.value_or(measured.rig), opening);
   const TransportMatrix& transport = measured.venue.transport;
-  if (!(devices.rig.cameraRasters() == transport.cameras() &&
-        devices.rig.projectorRasters() == transport.projectors()))
+  if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
     throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
                 "set projector and camera as they were, or calibrate anew", path.string());
 
@@ -192,7 +192,7 @@ ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings
   Progress photographing = progress.part(0.25, "Photographing the projections");
   Stopwatch watch;
   NoShotLog log;
-  ShotTaker shots(devices.rig, log, "prove");
+  ShotTaker shots(rig, log, "prove");
   Photographer photographer(shots, measured.linearization);
   Photographed before = photograph(photographer, measured, target, plain, photographing);
   photographing.report(0.5);
@@ -205,6 +205,23 @@ ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings
   result.files = writePictures(settings.out, target, transport.cameras(), before, after);
   progress.report(1.0);
   return result;
+}
+
+}  // namespace
+
+ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, const fs::path& cache,
+                             Progress& progress) {
+  std::optional<OpenedRig> devices;
+  auto open = [&](const RigSettings& rig, Progress& opening) -> Rig& {
+    return devices.emplace(openRig(rig, cache, opening)).rig;
+  };
+  return proved(path, settings, open, progress);
+}
+
+ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, Rig& rig,
+                             Progress& progress) {
+  return proved(
+      path, settings, [&rig](const RigSettings&, Progress&) -> Rig& { return rig; }, progress);
 }
 
 }  // namespace relucent

@@ -57,5 +57,8 @@ struct ProveResult {
 /// Error{device, disk}; Cancelled.
 ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings,
                              const std::filesystem::path& cache, Progress& progress);
+/// The same with devices that somebody has open already.
+ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings, Rig& rig,
+                             Progress& progress);
 
 }  // namespace relucent

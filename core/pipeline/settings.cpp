@@ -97,6 +97,7 @@ Problems problems(const ContentSettings& settings) {
 
 TargetSettings targetOf(const ContentSettings& settings) {
   TargetSettings target;
+  target.corners = settings.corners;
   target.fit = settings.fit;
   target.reachablePercentile = settings.reachablePercentile;
   target.blackLift = settings.blackLift;

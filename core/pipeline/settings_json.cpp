@@ -43,6 +43,13 @@ using Sorted = nlohmann::json;
               "restore calibration.relucent from a copy, or calibrate again");
 }
 
+/// Of content whose place somebody chose: four pairs x, y.
+std::optional<Corners> cornersFromJson(const Sorted& settings) {
+  auto content = settings.find("content");
+  if (content == settings.end() || !content->contains("corners")) return std::nullopt;
+  return content->at("corners").get<Corners>();
+}
+
 Sorted commandRigToJson(const CommandRigSettings& settings) {
   Sorted json{{"projector_command", settings.projectorCommand},
               {"camera_command", settings.cameraCommand},
@@ -122,13 +129,15 @@ RigSettings rigFromJson(const Json& json) {
 }
 
 Json stagesToJson(const CalibrateSettings& settings) {
+  Sorted content = settings.content;
+  if (settings.content.corners) content["corners"] = *settings.content.corners;
   return Json(Sorted{{"linearization", settings.linearization},
                      {"acquisition", settings.acquisition},
                      {"threshold", settings.threshold},
                      {"windows", settings.windows},
                      {"choose_ridge", settings.chooseRidge},
                      {"clustering", settings.clustering},
-                     {"content", settings.content}});
+                     {"content", std::move(content)}});
 }
 
 void stagesFromJson(const Json& json, CalibrateSettings& settings) {
@@ -141,6 +150,7 @@ void stagesFromJson(const Json& json, CalibrateSettings& settings) {
     settings.chooseRidge = sorted.value("choose_ridge", settings.chooseRidge);
     settings.clustering = sorted.value("clustering", settings.clustering);
     settings.content = sorted.value("content", settings.content);
+    settings.content.corners = cornersFromJson(sorted);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

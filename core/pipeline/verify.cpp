@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <functional>
+
 #include "base/error.h"
 #include "base/file.h"
 #include "base/stopwatch.h"
@@ -39,10 +41,11 @@ void requireSizes(const Rig& rig, const TransportMatrix& transport, const fs::pa
                 "set projector and camera as they were, or calibrate anew", path.string());
 }
 
-}  // namespace
+/// Opens the devices, or hands over those that are open.
+using OpenDevices = std::function<Rig&(const RigSettings& calibrated, Progress& progress)>;
 
-VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, const fs::path& cache,
-                               Progress& progress) {
+VerifyResult verified(const fs::path& path, const VerifySettings& settings, const OpenDevices& open,
+                      Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
@@ -57,13 +60,13 @@ VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& setti
   progress.report(0.2);
 
   Progress opening = progress.part(0.2, "Preparing the devices");
-  OpenedRig devices = openRig(settings.rig.value_or(calibrated.rig), cache, opening);
-  requireSizes(devices.rig, acquisition.transport, path);
+  Rig& rig = open(settings.rig.value_or(calibrated.rig), opening);
+  requireSizes(rig, acquisition.transport, path);
 
   Progress verifying = progress.part(0.6, "Photographing test patterns");
   Stopwatch watch;
   NoShotLog log;
-  ShotTaker shots(devices.rig, log, "verify");
+  ShotTaker shots(rig, log, "verify");
   VerifyResult result;
   result.errorThen = acquisition.verificationError;
   result.found = verifyAgain(shots, linearization, acquisition, calibrated.acquisition, verifying);
@@ -73,6 +76,23 @@ VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& setti
     result.files = writeMaps(settings.out, result.found, acquisition.transport.cameras());
   progress.report(1.0);
   return result;
+}
+
+}  // namespace
+
+VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, const fs::path& cache,
+                               Progress& progress) {
+  std::optional<OpenedRig> devices;
+  auto open = [&](const RigSettings& rig, Progress& opening) -> Rig& {
+    return devices.emplace(openRig(rig, cache, opening)).rig;
+  };
+  return verified(path, settings, open, progress);
+}
+
+VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, Rig& rig,
+                               Progress& progress) {
+  return verified(
+      path, settings, [&rig](const RigSettings&, Progress&) -> Rig& { return rig; }, progress);
 }
 
 }  // namespace relucent

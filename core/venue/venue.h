@@ -45,7 +45,7 @@ struct VenueSettings {
   Size camera{160, 120};
   std::uint64_t seed = 1;   // of the devices' noise; the scene does not depend on it
   int pathsPerPixel = 256;  // of the light tracer
-  DeviceModelSettings devices;
+  DeviceModelSettings devices{};
 };
 std::vector<std::string> problems(const VenueSettings& settings);
 

@@ -9,12 +9,26 @@
 #include <QShortcut>
 
 #include "app/failure_dialog.h"
+#include "app/help_window.h"
+#include "app/settings_dialog.h"
 #include "theme/theme.h"
 
 namespace relucent {
+namespace {
 
-MainWindow::MainWindow(Session& session, Wizard& wizard, std::vector<PageView> views)
-    : session_(session), wizard_(wizard), views_(std::move(views)) {
+/// The one folder that is dragged, or that of the calibration's file; empty: neither.
+QString calibrationIn(const QMimeData& data) {
+  if (data.urls().size() != 1) return {};
+  QFileInfo file(data.urls().first().toLocalFile());
+  if (file.isDir()) return file.filePath();
+  return file.exists() && file.fileName() == "calibration.relucent" ? file.path() : QString();
+}
+
+}  // namespace
+
+MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preferences,
+                       std::vector<PageView> views)
+    : session_(session), wizard_(wizard), preferences_(preferences), views_(std::move(views)) {
   setWindowTitle("Relucent");
   setAcceptDrops(true);
   auto* whole = new QWidget;
@@ -28,6 +42,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, std::vector<PageView> v
   auto* right = new QVBoxLayout;
   right->setSpacing(0);
   buildHeader();
+  buildRailFooter();
   right->addWidget(header_);
 
   auto* content = new QHBoxLayout;
@@ -79,21 +94,52 @@ void MainWindow::buildHeader() {
     label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   }
   row->addLayout(titles, 1);
-  theme_ = buttonOf({}, "flat");
   dim_ = buttonOf(tr("Dim pictures"), "flat");
   dim_->setCheckable(true);
-  row->addWidget(theme_);
   row->addWidget(dim_);
-  connect(dim_, &QPushButton::toggled, this, [](bool dimmed) { Theme::instance().setDimmed(dimmed); });
+  connect(dim_, &QPushButton::toggled, &preferences_, &Preferences::setDimmed);
+  connect(&preferences_, &Preferences::changed, dim_, [this] { dim_->setChecked(preferences_.isDimmed()); });
   auto look = [this] {
-    bool dark = Theme::instance().look() == Look::dark;
-    theme_->setText(dark ? tr("Light theme") : tr("Dark theme"));
-    theme_->setIcon(iconOf(Icon::sun, colours().text));
     dim_->setText(Theme::instance().isDimmed() ? tr("Pictures dimmed") : tr("Dim pictures"));
     dim_->setIcon(iconOf(Icon::moon, colours().text));
   };
   connect(&Theme::instance(), &Theme::changed, this, look);
+  dim_->setChecked(preferences_.isDimmed());
   look();
+}
+
+void MainWindow::buildRailFooter() {
+  QPushButton* settings = buttonOf(tr("Settings"), "flat");
+  QPushButton* help = buttonOf(tr("Help"), "flat");
+  settings->setObjectName("open-settings");
+  help->setObjectName("open-help");
+  help->setToolTip(tr("F1"));
+  for (QPushButton* button : {settings, help}) {
+    button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    rail_->footer()->addWidget(button);
+  }
+  connect(settings, &QPushButton::clicked, this, &MainWindow::showSettings);
+  connect(help, &QPushButton::clicked, this, &MainWindow::showHelp);
+  auto look = [=] {
+    settings->setIcon(iconOf(Icon::settings, colours().text));
+    help->setIcon(iconOf(Icon::help, colours().text));
+  };
+  connect(&Theme::instance(), &Theme::changed, settings, look);
+  look();
+}
+
+void MainWindow::showSettings() {
+  auto* dialog = new SettingsDialog(preferences_, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
+}
+
+void MainWindow::showHelp() {
+  if (help_ == nullptr) help_ = new HelpWindow(this);
+  help_->showPage(static_cast<int>(wizard_.current()));
+  help_->show();
+  help_->raise();
+  help_->activateWindow();
 }
 
 void MainWindow::bindKeys() {
@@ -105,6 +151,9 @@ void MainWindow::bindKeys() {
   key(QKeySequence("Alt+Left"), [this] { wizard_.back(); });
   key(QKeySequence("Ctrl+Return"), [this] { actions_->runPrimary(); });
   key(QKeySequence("Ctrl+Enter"), [this] { actions_->runPrimary(); });
+  key(QKeySequence("Ctrl+Z"), [this] { wizard_.currentPage().undoStack().undo(); });
+  key(QKeySequence("Ctrl+Shift+Z"), [this] { wizard_.currentPage().undoStack().redo(); });
+  key(QKeySequence("F1"), [this] { showHelp(); });
   key(QKeySequence("F6"), [this] { moveToNextRegion(); });
   key(QKeySequence("F9"), [this] { dim_->toggle(); });
   key(QKeySequence("F11"), [this] { isFullScreen() ? showNormal() : showFullScreen(); });
@@ -152,12 +201,11 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (event->mimeData()->hasUrls() && event->mimeData()->urls().size() == 1) event->acceptProposedAction();
+  if (!calibrationIn(*event->mimeData()).isEmpty()) event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  QFileInfo file(event->mimeData()->urls().first().toLocalFile());
-  if (file.exists()) Q_EMIT dropped(file.isDir() ? file.filePath() : file.path());
+  if (QString folder = calibrationIn(*event->mimeData()); !folder.isEmpty()) Q_EMIT dropped(folder);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -11,8 +11,11 @@
 #include "app/status_strip.h"
 #include "app/step_rail.h"
 #include "wizard/page_view.h"
+#include "wizard/preferences.h"
 
 namespace relucent {
+
+class HelpWindow;
 
 /// The frame round all pages: rail, header, banner, stage, inspector, action bar, status strip, and the keys
 /// that work everywhere. Knows pages by their contract only.
@@ -21,8 +24,7 @@ class MainWindow : public QMainWindow {
 
  public:
   /// `views`: one for each page of the wizard.
-  MainWindow(Session& session, Wizard& wizard, std::vector<PageView> views);
-  QPushButton* themeButton() const { return theme_; }
+  MainWindow(Session& session, Wizard& wizard, Preferences& preferences, std::vector<PageView> views);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -36,6 +38,9 @@ class MainWindow : public QMainWindow {
 
  private:
   void buildHeader();
+  void buildRailFooter();
+  void showSettings();
+  void showHelp();
   void bindKeys();
   void refresh();
   void moveToNextRegion();
@@ -44,13 +49,15 @@ class MainWindow : public QMainWindow {
 
   Session& session_;
   Wizard& wizard_;
+  Preferences& preferences_;
   std::vector<PageView> views_;
   StepRail* rail_;
   BannerBar* banner_;
   ActionBar* actions_;
   QWidget* header_;
   QLabel *title_, *subtitle_;
-  QPushButton *dim_, *theme_;
+  QPushButton* dim_;
+  HelpWindow* help_ = nullptr;  // once it has been asked for
   QStackedWidget *stages_, *inspectors_;
 };
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "app/installation.h"
+#include "output/installation.h"
 #include "output/show_settings.h"
 
 namespace relucent {

@@ -26,6 +26,7 @@ class WizardWindow {
 
   MainWindow& window() { return *window_; }
   Wizard& wizard() { return wizard_; }
+  Preferences& preferences() { return preferences_; }
   Session& session() { return session_; }
   VenuePage& venue() { return venue_; }
   CameraPage& camera() { return camera_; }
@@ -37,7 +38,9 @@ class WizardWindow {
   OutputPage& output() { return output_; }
 
  private:
-  QSettings& settings_;
+  void follow();
+
+  Preferences preferences_;
   Session session_;
   VenuePage venue_;
   CameraPage camera_;

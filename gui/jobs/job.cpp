@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "jobs/stage_names.h"
+
 namespace relucent {
 
 /// Called on the worker's thread: keeps the latest report and wakes the job once.
@@ -86,7 +88,7 @@ void Job::takeReports() {
     QMutexLocker lock(&reports_->guard);
     reports_->posted = false;
     fraction_ = reports_->fraction;
-    stage_ = QString::fromStdString(reports_->stage);
+    stage_ = stageText(reports_->stage);
     left = std::exchange(reports_->left, std::nullopt);
   }
   if (left) Q_EMIT expected(*left);

@@ -40,6 +40,7 @@ class Job : public QObject {
   bool isRunning() const { return state_ == State::running; }
   bool isStopping() const { return stop_ != nullptr && stop_->asked() != StopRequest::Kind::none; }
   double fraction() const { return fraction_; }
+  /// In the user's language.
   QString stage() const { return stage_; }
   /// Of the last work that failed.
   const Failure& failure() const { return failure_; }

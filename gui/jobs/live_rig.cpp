@@ -7,9 +7,20 @@ LiveRig::LiveRig(int interval) : interval_(interval) {}
 
 void LiveRig::beforeShowing(std::size_t, Projector& projector) {
   QMutexLocker lock(&guard_);
-  if (!paused_) return;
-  projector.show(Image(projector.size(), 3, 0.0f));
-  while (paused_) resumed_.wait(&guard_);
+  if (paused_) {
+    projector.show(Image(projector.size(), 3, 0.0f));
+    while (paused_) resumed_.wait(&guard_);
+  }
+  // Resuming ends no wait but a pause.
+  auto left = [&] { return shownLast_.isValid() ? leastBetween_ - shownLast_.elapsed() : 0; };
+  for (qint64 wait = left(); wait > 0; wait = left())
+    resumed_.wait(&guard_, static_cast<unsigned long>(wait));
+  shownLast_.start();
+}
+
+void LiveRig::setLeastInterval(int milliseconds) {
+  QMutexLocker lock(&guard_);
+  leastBetween_ = milliseconds;
 }
 
 void LiveRig::shown(std::size_t index, const Image& encodedDrive) {

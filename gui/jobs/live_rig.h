@@ -33,6 +33,9 @@ class LiveRig : public QObject, public RigWatcher {
   void shown(std::size_t index, const Image& encodedDrive) override;
   void photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) override;
 
+  /// Between two patterns, milliseconds: people may be looking. 0: none.
+  void setLeastInterval(int milliseconds);
+
   LivePictures pictures() const;
   std::array<std::map<double, double>, 3> ramps() const;
 
@@ -46,6 +49,8 @@ class LiveRig : public QObject, public RigWatcher {
 
  private:
   int interval_;
+  int leastBetween_ = 0;
+  QElapsedTimer shownLast_;
   mutable QMutex guard_;
   QWaitCondition resumed_;
   bool paused_ = false;

@@ -24,14 +24,17 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
   calibration_ = loadCalibration(folder, progress);
   EngineSettings settings;
-  settings.target = targetOf(settingsOf(folder).content);
-  settings.target.fit = Fit::fill;  // the canvas has the shape already
+  CalibrateSettings chosen = settingsOf(folder);
+  settings.target = targetOf(chosen.content);
   venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
                               settings));
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
   backend_ = makeBackend(*venue_, choice, told);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
+  Method method = methodFromName(chosen.content.method).value_or(Method::refined);
+  if (method != Method::refined)
+    still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
   words_.resize(calibration_.venue.transport.projectors().count());
 }
 
@@ -58,6 +61,16 @@ int EngineRenderer::stepsFor(const RenderRequest& request) {
 }
 
 RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request) {
+  if (still_ && request.thorough && request.compensated)
+    if (std::optional<RenderedFrame> solved = still_->solve(content)) return *solved;
+  return framed(content, request);
+}
+
+void EngineRenderer::interrupt() {
+  if (still_) still_->interrupt();
+}
+
+RenderedFrame EngineRenderer::framed(const ContentPicture& content, const RenderRequest& request) {
   Size size{content.image.width(), content.image.height()};
   require(size == content_->warp.content(), "content of {}x{} on a canvas of {}x{}", size.width, size.height,
           content_->warp.content().width, content_->warp.content().height);

@@ -13,6 +13,7 @@
 #include "engine/fallback_backend.h"
 #include "engine/step_budget.h"
 #include "output/frame_renderer.h"
+#include "output/still_solver.h"
 #include "pipeline/measured_venue.h"
 
 namespace relucent {
@@ -21,9 +22,10 @@ namespace relucent {
 class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
-  /// offset follow the content, see AdaptiveRange. Brightness and black are those that the calibration keeps
-  /// for its content. `told` hears once, on the thread that renders, when a graphics card is lost or of no
-  /// use and the processor goes on. Throws: as loadCalibration(), prepareVenue() and prepareContent().
+  /// offset follow the content, see AdaptiveRange. Place, brightness and black are those that the calibration
+  /// keeps for its content; its method is that of pictures that stand, see StillSolver. `told` hears once, on
+  /// the thread that renders, when a graphics card is lost or of no use and the processor goes on. Throws: as
+  /// loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
                  Progress& progress, const FallbackBackend::Told& told = {},
                  BackendChoice choice = BackendChoice::automatic);
@@ -32,8 +34,10 @@ class EngineRenderer : public FrameRenderer {
   Canvas canvas() const override { return canvas_; }
   QString name() const override;
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override;
+  void interrupt() override;
 
  private:
+  RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
   int stepsFor(const RenderRequest& request);
 
   Canvas canvas_;
@@ -43,6 +47,7 @@ class EngineRenderer : public FrameRenderer {
   std::unique_ptr<EngineBackend> backend_;
   std::optional<AdaptiveRange> range_;
   std::chrono::steady_clock::time_point rangeAsked_{};
+  std::unique_ptr<StillSolver> still_;  // none: the engine's own steps
   std::vector<std::uint32_t> words_;
   std::optional<StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // that the budget is for

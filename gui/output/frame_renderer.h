@@ -41,6 +41,8 @@ class FrameRenderer {
   virtual QString name() const = 0;
   /// Throws: Error{device} if there is nothing left that could render.
   virtual RenderedFrame render(const ContentPicture& content, const RenderRequest& request) = 0;
+  /// From another thread: what is being rendered thoroughly may end soon, as well as it is by then.
+  virtual void interrupt() {}
 };
 
 }  // namespace relucent

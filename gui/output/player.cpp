@@ -54,6 +54,7 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
 
 Player::~Player() {
   working_.disconnect(this);
+  renderer_->interrupt();
   working_.waitForFinished();
 }
 
@@ -68,6 +69,7 @@ void Player::start() {
 void Player::stop() {
   playing_ = false;
   pace_.stop();
+  renderer_->interrupt();
   clock_.pause();
   last_ = {};
   present();
@@ -169,6 +171,10 @@ void Player::setCompensated(bool compensated) {
 void Player::setOverlay(bool shown) {
   shown ? overlayed_.start() : overlayed_.stop();
   present();
+}
+
+void Player::setContent(std::shared_ptr<ContentSource> content) {
+  content_ = std::move(content);
 }
 
 void Player::setChart(std::optional<TestChart> chart) {

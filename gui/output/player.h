@@ -46,6 +46,8 @@ class Player : public QObject {
   void setCompensated(bool compensated);
   /// Figures over the picture, renewed twice a second.
   void setOverlay(bool shown);
+  /// Other content from the next frame on, of the renderer's canvas.
+  void setContent(std::shared_ptr<ContentSource> content);
   /// A test chart in place of the content; none: the content, which has gone on.
   void setChart(std::optional<TestChart> chart);
   bool isFrozen() const { return clock_.isPaused(); }

@@ -209,9 +209,20 @@ void Choice::setRemark(const QString& text) {
   remark_->setText(text);
 }
 
+QToolButton* toolOf(Icon icon, const QString& name, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  auto paint = [button, icon] { button->setIcon(iconOf(icon, colours().text)); };
+  QObject::connect(&Theme::instance(), &Theme::changed, button, paint);
+  paint();
+  button->setAccessibleName(name);
+  button->setToolTip(name);
+  return button;
+}
+
 QPushButton* buttonOf(const QString& text, const char* role, QWidget* parent) {
   auto* button = new QPushButton(text, parent);
   setRole(button, role);
+  button->setIconSize({18, 18});
   button->setAutoDefault(false);
   return button;
 }

@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "theme/icons.h"
@@ -125,6 +126,9 @@ class Choice : public QPushButton {
  private:
   QLabel* remark_;
 };
+
+/// A small button of an icon that follows the theme; `name` is said and shown when the pointer rests on it.
+QToolButton* toolOf(Icon icon, const QString& name, QWidget* parent = nullptr);
 
 /// A button with a role of the style sheet.
 QPushButton* buttonOf(const QString& text, const char* role = "", QWidget* parent = nullptr);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "theme/icons.h"
 
+#include <QFile>
 #include <QPainterPath>
+#include <QTemporaryDir>
 #include <QTextStream>
 
 namespace relucent {
@@ -88,6 +90,23 @@ const char* strokesOf(Icon icon) {
       return "R 4 5 16 14 2 M 4.5 18.5 L 19.5 5.5";
     case Icon::compare:
       return "R 4 5 16 14 2 M 12 3 L 12 21";
+    case Icon::power:
+      return "M 12 3.5 L 12 11 M 7.5 6.5 Q 4.5 9 4.5 12.8 Q 4.5 20 12 20 Q 19.5 20 19.5 12.8 Q 19.5 9 16.5 "
+             "6.5";
+    case Icon::film:
+      return "R 4 5 16 14 2 M 8 5 L 8 19 M 16 5 L 16 19 M 8 12 L 16 12 M 4 9.5 L 8 9.5 M 4 14.5 L 8 14.5 M "
+             "16 9.5 L 20 9.5 M 16 14.5 L 20 14.5";
+    case Icon::up:
+      return "M 6 14.5 L 12 8.5 L 18 14.5";
+    case Icon::down:
+      return "M 6 9.5 L 12 15.5 L 18 9.5";
+    case Icon::remove:
+      return "M 6.5 6.5 L 17.5 17.5 M 17.5 6.5 L 6.5 17.5";
+    case Icon::report:
+      return "M 6 3.5 L 14.5 3.5 L 18.5 7.5 L 18.5 20.5 L 6 20.5 Z M 9 10 L 15.5 10 M 9 13.5 L 15.5 13.5 M 9 "
+             "17 L 13 17";
+    case Icon::drift:
+      return "M 4.5 6 L 4.5 18 M 8 12 L 20 12 M 15.5 7.5 L 20 12 L 15.5 16.5";
   }
   return "";
 }
@@ -148,6 +167,22 @@ QPixmap pixmapOf(Icon icon, const QColor& colour, int side, double devicePixelRa
   QPainter painter(&pixmap);
   drawIcon(painter, icon, QRectF(0, 0, side, side), colour);
   return pixmap;
+}
+
+QString iconFile(Icon icon, const QColor& colour, int side) {
+  static const QTemporaryDir folder;
+  QString name =
+      folder.filePath(QString("%1-%2-%3").arg(static_cast<int>(icon)).arg(colour.name().mid(1)).arg(side));
+  if (QFile::exists(name + ".png")) return name + ".png";
+  for (auto [ending, ratio] : {std::pair(".png", 1), std::pair("@2x.png", 2), std::pair("@3x.png", 3)}) {
+    QImage image(QSize(side, side) * ratio, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::transparent);
+    QPainter painter(&image);
+    drawIcon(painter, icon, image.rect(), colour);
+    painter.end();
+    image.save(name + ending);
+  }
+  return name + ".png";
 }
 
 QIcon iconOf(Icon icon, const QColor& colour) {

@@ -39,13 +39,22 @@ enum class Icon {
   monitor,
   house,
   black,
-  compare
+  compare,
+  power,
+  film,
+  up,
+  down,
+  remove,
+  report,
+  drift
 };
 
 /// Draws it into a square. The colour is that of the text beside it.
 void drawIcon(QPainter& painter, Icon icon, const QRectF& square, const QColor& colour);
 /// Sharp at any scale of the screen: painted when it is asked for.
 QIcon iconOf(Icon icon, const QColor& colour);
+/// A picture file of it, as style sheets want one; kept as long as the program runs.
+QString iconFile(Icon icon, const QColor& colour, int side);
 QPixmap pixmapOf(Icon icon, const QColor& colour, int side, double devicePixelRatio);
 
 }  // namespace relucent

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "theme/icons.h"
 #include "theme/theme.h"
 
 namespace relucent {
@@ -68,9 +69,11 @@ QLineEdit:focus, QComboBox:focus, QSpinBox:focus, QDoubleSpinBox:focus { border:
   min-height: 30px; }
 QComboBox QAbstractItemView { background: {raised}; border: 1px solid {border}; selection-background-color: {accentGround};
   selection-color: {text}; outline: none; }
+QComboBox::drop-down { border: none; width: 30px; }
+QComboBox::down-arrow { image: url("{arrow}"); width: 16px; height: 16px; }
 QCheckBox { spacing: 10px; }
 QCheckBox::indicator { width: 16px; height: 16px; border: 1px solid {border}; border-radius: 4px; background: {input}; }
-QCheckBox::indicator:checked { background: {accent}; border-color: {accent}; }
+QCheckBox::indicator:checked { background: {accent}; border-color: {accent}; image: url("{tick}"); }
 QCheckBox:focus { text-decoration: underline; }
 QRadioButton::indicator { width: 14px; height: 14px; border: 1px solid {border}; border-radius: 8px; background: {input}; }
 QRadioButton::indicator:checked { border: 5px solid {accent}; width: 6px; height: 6px; background: {onAccent}; }
@@ -83,6 +86,12 @@ QSlider::handle:horizontal:focus { border: 2px solid {text}; }
 QSlider::handle:horizontal:disabled, QSlider::sub-page:horizontal:disabled { background: {disabled}; }
 QProgressBar { background: {line}; border: none; max-height: 3px; min-height: 3px; }
 QProgressBar::chunk { background: {accent}; }
+QListWidget { background: {input}; border: 1px solid {line}; border-radius: 6px; }
+QListWidget:focus { border: 2px solid {text}; }
+QListWidget::item { padding: 5px 8px; border-radius: 4px; }
+QListWidget::item:selected { background: {accentGround}; color: {text}; }
+QTextBrowser { background: {card}; border: 1px solid {line}; border-radius: 8px; padding: 12px; }
+QTextBrowser:focus { border: 2px solid {text}; }
 QTableWidget { background: transparent; border: none; gridline-color: transparent; selection-background-color: {accentGround};
   selection-color: {text}; }
 QTableWidget:focus { border: 2px solid {text}; border-radius: 6px; }
@@ -102,6 +111,8 @@ QString styleSheetOf(const Colours& colours) {
   auto fill = [&](const char* name, const QColor& colour) {
     sheet.replace("{" + QString::fromLatin1(name) + "}", colour.name());
   };
+  sheet.replace("{arrow}", iconFile(Icon::down, colours.secondary, 16));
+  sheet.replace("{tick}", iconFile(Icon::tick, colours.onAccent, 16));
   fill("window", colours.window);
   fill("rail", colours.rail);
   fill("card", colours.card);

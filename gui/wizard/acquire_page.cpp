@@ -96,6 +96,7 @@ QString AcquirePage::hint() const {
   if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
   if (session_.progress(Step::acquisition) == StepProgress::done)
     return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
+  if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   return tr("Leave the room dark and still, then start.");
 }
 
@@ -103,10 +104,11 @@ Command AcquirePage::primary() const {
   auto* self = const_cast<AcquirePage*>(this);
   if (isMeasuring() || session_.progress(Step::acquisition) == StepProgress::done)
     return {tr("Show threshold"), Icon::next, !isMeasuring(), {}, [self] { Q_EMIT self->nextWanted(); }};
-  return {
-      kept_ > 0 ? tr("Resume") : tr("Start measuring"), Icon::play, session_.busy().isEmpty(), {}, [self] {
-        self->start();
-      }};
+  return {kept_ > 0 ? tr("Resume") : tr("Start measuring"),
+          Icon::play,
+          session_.busy().isEmpty() && session_.mayMeasure(),
+          {},
+          [self] { self->start(); }};
 }
 
 std::vector<Command> AcquirePage::secondary() const {
@@ -139,7 +141,11 @@ std::optional<Banner> AcquirePage::banner() const {
                   tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
                      nullptr, kept_),
-                  {tr("Resume"), Icon::play, session_.busy().isEmpty(), {}, [self] { self->start(); }},
+                  {tr("Resume"),
+                   Icon::play,
+                   session_.busy().isEmpty() && session_.mayMeasure(),
+                   {},
+                   [self] { self->start(); }},
                   {}};
   return std::nullopt;
 }
@@ -159,7 +165,13 @@ Fineness AcquirePage::fineness() const {
   return settings.relativeThreshold <= fineThreshold ? Fineness::fine : Fineness::usual;
 }
 
-void AcquirePage::change(const AcquisitionSettings& acquisition) {
+void AcquirePage::change(const QString& what, const AcquisitionSettings& acquisition) {
+  changeUndoably(what, session_.settings().acquisition, acquisition,
+                 [this](const AcquisitionSettings& wanted) { keep(wanted); });
+}
+
+void AcquirePage::keep(const AcquisitionSettings& acquisition) {
+  if (isMeasuring()) return;
   CalibrateSettings settings = session_.settings();
   settings.acquisition = acquisition;
   settings.acquisition.seed = session_.settings().acquisition.seed;
@@ -174,14 +186,14 @@ void AcquirePage::setFineness(Fineness fineness) {
   if (isMeasuring() || fineness == this->fineness()) return;
   AcquisitionSettings settings = acquisitionMode(fineness == Fineness::fast ? "fast" : "adaptive");
   if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
-  change(settings);
+  change(tr("Fineness"), settings);
 }
 
 void AcquirePage::setWhite(bool white) {
   if (isMeasuring() || white == isWhite()) return;
   AcquisitionSettings settings = session_.settings().acquisition;
   settings.colours = white ? LitColours::white : LitColours::rgb;
-  change(settings);
+  change(tr("Colours"), settings);
 }
 
 std::optional<double> AcquirePage::figure(const char* name) const {
@@ -208,7 +220,7 @@ void AcquirePage::stopAndKeep() {
 }
 
 void AcquirePage::start() {
-  if (isMeasuring() || !session_.busy().isEmpty()) return;
+  if (isMeasuring() || !session_.busy().isEmpty() || !session_.mayMeasure()) return;
   asking_->setClosed(false);
   session_.setBusy(name());
   lastCount_ = session_.live().pictures().photographs;
@@ -262,6 +274,7 @@ void AcquirePage::ended() {
     kept_ = session_.photographsKept(Step::acquisition);
   }
   if (session_.busy() == name()) session_.setBusy({});
+  if (job_.state() != Job::State::cancelled) Q_EMIT measured();
   if (job_.state() == Job::State::failed) {
     Command again{tr("Resume"), Icon::play, true, {}, [this] { start(); }};
     Q_EMIT failed(

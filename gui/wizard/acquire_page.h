@@ -35,6 +35,8 @@ class AcquirePage : public PageModel {
   std::optional<Banner> banner() const override;
   void finish() override;
 
+  Session& session() const { return session_; }
+
   bool isMeasuring() const { return job_.isRunning(); }
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
   bool isStopping() const { return job_.isStopping(); }
@@ -60,10 +62,15 @@ class AcquirePage : public PageModel {
   void resume();
   void stopAndKeep();
 
+ Q_SIGNALS:
+  /// It has ended, in any way.
+  void measured();
+
  private:
   class Asking;
   void start();
-  void change(const AcquisitionSettings& settings);
+  void change(const QString& what, const AcquisitionSettings& settings);
+  void keep(const AcquisitionSettings& settings);
   void askAbout(const Alarm& alarm);
   void answer(Answer answer);
   void ended();

@@ -4,6 +4,7 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/acquire_page.h"
+#include "wizard/flash_consent.h"
 #include "wizard/page_view.h"
 
 namespace relucent {
@@ -126,6 +127,7 @@ QWidget* inspectorOf(AcquirePage& model) {
   QWidget* run = runOf(model);
   column->addWidget(plan);
   column->addWidget(run);
+  column->addWidget(consentPart(model.session()));
   column->addStretch(1);
   auto refresh = [&model, plan, run] {
     plan->setVisible(!model.isMeasuring());

@@ -115,6 +115,10 @@ void CameraPage::finish() {
 
 void CameraPage::setFocusArea(const Region& area) {
   if (area == area_) return;
+  changeUndoably(tr("Focus area"), area_, area, [this](const Region& wanted) { watch(wanted); });
+}
+
+void CameraPage::watch(const Region& area) {
   area_ = area;
   best_ = 0.0;
   if (shared_) {

@@ -60,6 +60,7 @@ class CameraPage : public PageModel {
  private:
   struct Shared;
   void start();
+  void watch(const Region& area);
   void takeNews();
   void ended();
 

@@ -71,6 +71,7 @@ QString LinearizePage::hint() const {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
     if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
   }
+  if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   return tr("About %1 test patterns").arg(3 * levels() + 60);
 }
 
@@ -81,9 +82,11 @@ Command LinearizePage::primary() const {
     return {addsUp() ? tr("Plan acquisition") : tr("Continue anyway"), Icon::next, true, {}, [self] {
               Q_EMIT self->nextWanted();
             }};
-  return {tr("Measure response"), Icon::play, !isMeasuring() && session_.busy().isEmpty(), {}, [self] {
-            self->measure(false);
-          }};
+  return {tr("Measure response"),
+          Icon::play,
+          !isMeasuring() && session_.busy().isEmpty() && session_.mayMeasure(),
+          {},
+          [self] { self->measure(false); }};
 }
 
 std::vector<Command> LinearizePage::secondary() const {
@@ -91,8 +94,8 @@ std::vector<Command> LinearizePage::secondary() const {
   if (isMeasuring())
     return {{tr("Stop"), Icon::stop, !job_.isStopping(), QKeySequence("Ctrl+K"), [self] { self->finish(); }}};
   if (session_.progress(Step::linearization) != StepProgress::done) return {};
-  return {{tr("Measure again"), Icon::retry, session_.busy().isEmpty(), QKeySequence("Ctrl+R"),
-           [self] { self->measure(true); }}};
+  return {{tr("Measure again"), Icon::retry, session_.busy().isEmpty() && session_.mayMeasure(),
+           QKeySequence("Ctrl+R"), [self] { self->measure(true); }}};
 }
 
 std::optional<double> LinearizePage::progress() const {
@@ -102,11 +105,12 @@ std::optional<double> LinearizePage::progress() const {
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() || session_.progress(Step::linearization) != StepProgress::stale) return std::nullopt;
   auto* self = const_cast<LinearizePage*>(this);
-  return Banner{Banner::Kind::amber,
-                tr("These curves belong to earlier settings"),
-                tr("They still work and stay until the new ones are measured."),
-                {tr("Measure again"), Icon::retry, true, {}, [self] { self->measure(false); }},
-                {}};
+  return Banner{
+      Banner::Kind::amber,
+      tr("These curves belong to earlier settings"),
+      tr("They still work and stay until the new ones are measured."),
+      {tr("Measure again"), Icon::retry, session_.mayMeasure(), {}, [self] { self->measure(false); }},
+      {}};
 }
 
 std::optional<double> LinearizePage::seconds() const {
@@ -124,6 +128,11 @@ bool LinearizePage::addsUp() const {
 
 void LinearizePage::setLevels(int levels) {
   if (levels == this->levels()) return;
+  changeUndoably(tr("Levels"), this->levels(), levels, [this](int wanted) { keepLevels(wanted); });
+}
+
+void LinearizePage::keepLevels(int levels) {
+  if (isMeasuring()) return;
   CalibrateSettings settings = session_.settings();
   settings.linearization.levels = levels;
   try {
@@ -134,7 +143,7 @@ void LinearizePage::setLevels(int levels) {
 }
 
 void LinearizePage::measure(bool again) {
-  if (isMeasuring() || !session_.busy().isEmpty()) return;
+  if (isMeasuring() || !session_.busy().isEmpty() || !session_.mayMeasure()) return;
   session_.setBusy(name());
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again](Progress& progress) {

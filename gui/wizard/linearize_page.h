@@ -29,6 +29,8 @@ class LinearizePage : public PageModel {
   std::optional<Banner> banner() const override;
   void finish() override;
 
+  Session& session() const { return session_; }
+
   bool isMeasuring() const { return job_.isRunning(); }
   /// What has been measured, perhaps with other settings; none before.
   const std::optional<Linearization>& result() const { return result_; }
@@ -44,6 +46,7 @@ class LinearizePage : public PageModel {
   bool addsUp() const;
 
  private:
+  void keepLevels(int levels);
   void measure(bool again);
   void look();
   void ended();

@@ -7,6 +7,7 @@
 #include "views/image_view.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
+#include "wizard/flash_consent.h"
 #include "wizard/linearize_page.h"
 #include "wizard/page_view.h"
 
@@ -142,6 +143,7 @@ QWidget* inspectorOf(LinearizePage& model) {
   for (int count : {9, 17, 33, 65}) levels->addItem(QString::number(count), count);
   row->addWidget(levels);
   column->addLayout(row);
+  column->addWidget(consentPart(model.session()));
   column->addStretch(1);
   QObject::connect(levels, &QComboBox::activated, &model,
                    [&model, levels] { model.setLevels(levels->currentData().toInt()); });

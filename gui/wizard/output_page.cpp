@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output_page.h"
 
+#include <QCoreApplication>
+#include <QDesktopServices>
+#include <QFileInfo>
 #include <QGuiApplication>
-#include <QMutex>
+#include <QImageReader>
 #include <QScreen>
+#include <QStandardPaths>
+#include <QUrl>
 
-#include "content/still_image.h"
+#include "base/error.h"
+#include "output/installation.h"
+#include "wizard/output_tap.h"
 #include "wizard/preview_page.h"
 
 namespace relucent {
 namespace {
 
-/// A canvas of the picture's shape, so that it lies where Preview has put it; larger than this it would only
-/// be slower.
+/// Larger than this a canvas would only be slower.
 constexpr QSize largestCanvas(1920, 1080);
+constexpr std::size_t frameTimesKept = 120;
 
-Canvas canvasOf(const QImage& picture) {
-  QSize size = picture.size();
+/// A canvas of the first picture's shape, so that it lies where Preview has put it; films have the usual one.
+Canvas canvasFor(const PlaylistSettings& list, Fit fit) {
+  QSize size = OutputPlaylist::isStill(list.items.front()) ? QImageReader(list.items.front().path).size()
+                                                           : largestCanvas;
+  if (!size.isValid()) size = largestCanvas;  // core's own formats
   if (size.width() > largestCanvas.width() || size.height() > largestCanvas.height())
     size.scale(largestCanvas, Qt::KeepAspectRatio);
-  return {size.expandedTo({1, 1}), Fit::fill};
-}
-
-QImage pictureOf(const ContentSettings& settings) {
-  if (settings.picture.empty()) return QImage(ownPicture()).convertToFormat(QImage::Format_RGBX8888);
-  return readContent(QString::fromStdString(settings.picture));
+  return {size.expandedTo({8, 8}), fit};
 }
 
 }  // namespace
@@ -32,63 +37,51 @@ QImage pictureOf(const ContentSettings& settings) {
 /// What a player needs, made on another thread.
 struct OutputPage::Made {
   std::unique_ptr<FrameRenderer> renderer;
-  std::shared_ptr<ContentSource> content;
+  std::shared_ptr<Playlist> content;
 };
-
-/// Keeps a copy of what went to the first projector, for the operator to see.
-class OutputPage::Tap {
- public:
-  void put(const QImage& drive) {
-    QMutexLocker lock(&guard_);
-    drive_ = drive;
-  }
-  QImage get() const {
-    QMutexLocker lock(&guard_);
-    return drive_;
-  }
-
- private:
-  mutable QMutex guard_;
-  QImage drive_;
-};
-
-namespace {
-
-/// A renderer that lets somebody look on.
-class Tapped : public FrameRenderer {
- public:
-  Tapped(std::unique_ptr<FrameRenderer> renderer, std::function<void(const QImage&)> see)
-      : renderer_(std::move(renderer)), see_(std::move(see)) {}
-  std::vector<QSize> projectors() const override { return renderer_->projectors(); }
-  Canvas canvas() const override { return renderer_->canvas(); }
-  QString name() const override { return renderer_->name(); }
-  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
-    RenderedFrame frame = renderer_->render(content, request);
-    if (!frame.drives.empty()) see_(frame.drives.front());
-    return frame;
-  }
-
- private:
-  std::unique_ptr<FrameRenderer> renderer_;
-  std::function<void(const QImage&)> see_;
-};
-
-}  // namespace
 
 OutputPage::OutputPage(Session& session, QObject* parent)
-    : PageModel(parent), session_(session), tap_(std::make_shared<Tap>()) {
-  connect(&session_, &Session::opened, this, [this] { close(); });
-  connect(&session_, &Session::changed, this, &OutputPage::changed);
+    : PageModel(parent),
+      session_(session),
+      proof_(session),
+      tap_(std::make_shared<OutputTap>()),
+      config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
+  connect(&session_, &Session::opened, this, [this] {
+    close();
+    preferred_ = QString::fromStdString(session_.settings().content.picture);
+    playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
+                   preferred_);
+  });
+  connect(&session_, &Session::changed, this, [this] {
+    QString picture = QString::fromStdString(session_.settings().content.picture);
+    if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
+    Q_EMIT changed();
+  });
+  connect(&playlist_, &OutputPlaylist::unreadable, this, [this](const QString& sentence) {
+    tell({ErrorKind::format, sentence, tr("Make the list again."), sentence});
+  });
+  connect(&playlist_, &OutputPlaylist::changed, this, &OutputPage::changed);
+  connect(&proof_, &OutputProof::changed, this, &OutputPage::changed);
+  connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
+  connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
+  connect(&proof_, &OutputProof::reported, this,
+          [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
   connect(&job_, &Job::progressed, this, &OutputPage::changed);
   connect(&job_, &Job::ended, this, &OutputPage::opened);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
   connect(qApp, &QGuiApplication::screenRemoved, this, &OutputPage::listScreens);
   often_.setInterval(500);
-  connect(&often_, &QTimer::timeout, this, &OutputPage::changed);
+  connect(&often_, &QTimer::timeout, this, &OutputPage::sample);
   listScreens();
 }
 
 OutputPage::~OutputPage() {
+  finish();
+}
+
+void OutputPage::finish() {
+  reopen_ = false;
+  proof_.cancel();
   close();
 }
 
@@ -123,19 +116,28 @@ StepStatus OutputPage::status() const {
 
 QString OutputPage::hint() const {
   if (job_.isRunning()) return job_.stage();
-  if (screens_.size() < 2 && !isOpen())
-    return tr("There is one screen only. The output will cover it; Esc closes the output.");
+  if (proof_.work() != OutputProof::Work::none) return proof_.stage();
+  if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (!chosen_) return tr("Choose the projector's screen.");
-  if (isOpen()) return tr("Playing. At the projector, C compares, space freezes, B is black, Esc closes.");
+  if (isOpen())
+    return proof_.proof() ? tr("Playing. Hold A to compare.")
+                          : tr("Take a verification photograph, or install without proof.");
+  if (screens_.size() < 2)
+    return tr("There is one screen only. The output will cover it; Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
 }
 
 Command OutputPage::primary() const {
   auto* self = const_cast<OutputPage*>(this);
-  if (isOpen()) return {tr("Close output"), Icon::stop, true, {}, [self] { self->close(); }};
+  if (isOpen())
+    return {proof_.proof() ? tr("Install show") : tr("Install without proof"),
+            Icon::power,
+            !playlist_.isEmpty(),
+            {},
+            [self] { self->install(); }};
   return {tr("Open output"),
           Icon::play,
-          chosen_.has_value() && !job_.isRunning() && session_.busy().isEmpty(),
+          chosen_.has_value() && !playlist_.isEmpty() && !job_.isRunning() && session_.busy().isEmpty(),
           {},
           [self] { self->open(); }};
 }
@@ -146,66 +148,132 @@ std::vector<Command> OutputPage::secondary() const {
   return {{isFrozen() ? tr("Play") : tr("Freeze"), isFrozen() ? Icon::play : Icon::pause, true,
            QKeySequence("Ctrl+P"), [self] { self->setFrozen(!self->isFrozen()); }},
           {isBlack() ? tr("Show again") : tr("Black"), Icon::black, true, QKeySequence("Ctrl+B"),
-           [self] { self->setBlack(!self->isBlack()); }}};
+           [self] { self->setBlack(!self->isBlack()); }},
+          {tr("Close output"), Icon::stop, true, {}, [self] { self->close(); }}};
 }
 
 std::optional<double> OutputPage::progress() const {
-  return job_.isRunning() ? std::optional(job_.fraction()) : std::nullopt;
+  if (job_.isRunning()) return job_.fraction();
+  return proof_.work() != OutputProof::Work::none ? std::optional(proof_.fraction()) : std::nullopt;
+}
+
+qsizetype OutputPage::playing() const {
+  return isOpen() && content_ ? content_->status().playing : -1;
+}
+
+QStringList OutputPage::skipped() const {
+  return isOpen() && content_ ? content_->status().skipped : QStringList();
+}
+
+void OutputPage::setPlaylist(const PlaylistSettings& settings) {
+  try {
+    playlist_.set(settings);
+  } catch (...) {
+    tell(failureOf(std::current_exception()));
+  }
+  if (!isOpen()) return;
+  if (playlist_.isEmpty()) return close();
+  content_ = std::make_shared<Playlist>(settings, canvas_);
+  player_->setContent(content_);
+}
+
+void OutputPage::edit(const QString& what, const PlaylistSettings& after) {
+  if (after == playlist_.settings()) return;
+  changeUndoably(what, playlist_.settings(), after,
+                 [this](const PlaylistSettings& settings) { setPlaylist(settings); });
+}
+
+void OutputPage::addFiles(const QStringList& files) {
+  edit(tr("Add to the playlist"), playlist_.withAdded(files));
+}
+
+void OutputPage::removeItem(qsizetype index) {
+  edit(tr("Remove from the playlist"), playlist_.without(index));
+}
+
+void OutputPage::moveItem(qsizetype index, qsizetype by) {
+  edit(tr("Order of the playlist"), playlist_.withMoved(index, by));
+}
+
+void OutputPage::setRepeat(bool repeat) {
+  PlaylistSettings after = playlist_.settings();
+  after.loop = repeat;
+  edit(tr("Repeat"), after);
+}
+
+void OutputPage::setFade(double seconds) {
+  PlaylistSettings after = playlist_.settings();
+  after.fadeSeconds = seconds;
+  edit(tr("Cross-fade"), after);
+}
+
+QString OutputPage::stillMethod() const {
+  const std::string& method = session_.settings().content.method;
+  return method == toString(Method::refined) ? QString() : methodName(method);
 }
 
 void OutputPage::open() {
-  if (isOpen() || job_.isRunning() || !chosen_) return;
+  if (isOpen() || job_.isRunning() || !chosen_ || playlist_.isEmpty() || !session_.busy().isEmpty()) return;
   wanted_ = true;
   made_ = std::make_shared<Made>();
-  job_.start([made = made_, tap = tap_, path = session_.path(),
-              settings = session_.settings().content](Progress& progress) {
+  job_.start([made = made_, tap = tap_, path = session_.path(), list = playlist_.settings(),
+              fit = session_.settings().content.fit](Progress& progress) {
     Progress preparing = progress.part(1.0, tr("Preparing the engine").toStdString());
-    QImage picture = pictureOf(settings);
-    Canvas canvas = canvasOf(picture);
-    made->content = std::make_shared<StillImage>(onCanvas(picture, canvas), canvas);
-    auto engine = std::make_unique<EngineRenderer>(path, canvas, false, preparing);
-    made->renderer =
-        std::make_unique<Tapped>(std::move(engine), [tap](const QImage& drive) { tap->put(drive); });
+    Canvas canvas = canvasFor(list, fit);
+    made->content = std::make_shared<Playlist>(list, canvas);
+    made->renderer = std::make_unique<TappedRenderer>(
+        std::make_unique<EngineRenderer>(path, canvas, false, preparing), tap);
   });
   Q_EMIT changed();
 }
 
 void OutputPage::opened() {
-  if (job_.state() == Job::State::failed)
-    Q_EMIT failed({job_.failure(), tr("The calibration is as it was."), {}, {}});
+  if (job_.state() == Job::State::failed) tell(job_.failure());
   if (job_.state() == Job::State::done && chosen_ && wanted_) {
     try {
-      engine_ = made_->renderer->name();
-      window_ = std::make_unique<ProjectorWindow>(screens_[*chosen_].identity);
-      player_ = std::make_unique<Player>(std::move(made_->renderer), made_->content,
-                                         std::vector<ProjectorWindow*>{window_.get()});
-      connect(window_.get(), &ProjectorWindow::keyPressed, this, [this](int key) {
-        if (key == Qt::Key_Escape)
-          QMetaObject::invokeMethod(
-              this, [this] { close(); }, Qt::QueuedConnection);
-        else
-          player_->handleKey(key);
-        Q_EMIT changed();
-      });
-      connect(player_.get(), &Player::failed, this, [this](const QString& sentence) {
-        QMetaObject::invokeMethod(
-            this, [this] { close(); }, Qt::QueuedConnection);
-        Q_EMIT failed({{ErrorKind::device, sentence, tr("Open the output again."), sentence},
-                       tr("The calibration is as it was."),
-                       {},
-                       {}});
-      });
-      connect(player_.get(), &Player::shown, this, &OutputPage::changed);
-      awake_.emplace(tr("Relucent is projecting"));
-      window_->shine();
-      player_->start();
-      often_.start();
+      play();
     } catch (...) {
       close();
-      Q_EMIT failed({failureOf(std::current_exception()), tr("The calibration is as it was."), {}, {}});
+      tell(failureOf(std::current_exception()));
     }
   }
   made_ = nullptr;
+  Q_EMIT changed();
+}
+
+void OutputPage::play() {
+  engine_ = made_->renderer->name();
+  canvas_ = made_->renderer->canvas();
+  content_ = std::exchange(made_->content, nullptr);
+  window_ = std::make_unique<ProjectorWindow>(screens_[*chosen_].identity);
+  player_ = std::make_unique<Player>(std::move(made_->renderer), content_,
+                                     std::vector<ProjectorWindow*>{window_.get()});
+  // What these lead to ends the objects that tell it: later, when they are done telling.
+  auto closeLater = [this] {
+    QMetaObject::invokeMethod(
+        this, [this] { close(); }, Qt::QueuedConnection);
+  };
+  // The player itself looks at the projector's other keys.
+  connect(window_.get(), &ProjectorWindow::keyPressed, this, [this, closeLater](int key) {
+    if (key == Qt::Key_Escape) closeLater();
+    Q_EMIT changed();
+  });
+  connect(player_.get(), &Player::failed, this, [this, closeLater](const QString& sentence) {
+    closeLater();
+    tell({ErrorKind::device, sentence, tr("Open the output again."), sentence});
+  });
+  connect(player_.get(), &Player::shown, this, &OutputPage::changed);
+  awake_.emplace(tr("Relucent is projecting"));
+  frameTimes_.clear();
+  window_->shine();
+  player_->start();
+  often_.start();
+}
+
+void OutputPage::sample() {
+  PlayerStatistics now = statistics();
+  frameTimes_.push_back(now.frames > 0 ? 1000.0 * now.frameSeconds : 0.0);
+  if (frameTimes_.size() > frameTimesKept) frameTimes_.pop_front();
   Q_EMIT changed();
 }
 
@@ -217,6 +285,7 @@ void OutputPage::close() {
   if (window_) window_->stop();
   player_ = nullptr;
   window_ = nullptr;
+  content_ = nullptr;
   awake_.reset();
   tap_->put({});
   Q_EMIT changed();
@@ -242,6 +311,75 @@ QImage OutputPage::onProjector() const {
   QImage drive = tap_->get();
   if (isBlack() && !drive.isNull()) drive.fill(Qt::black);
   return drive;
+}
+
+void OutputPage::whileClosed(const std::function<void()>& work) {
+  if (!proof_.isPossible() || job_.isRunning()) return;
+  // A real camera would photograph the show.
+  if (isOpen() && !session_.isSimulated()) {
+    close();
+    reopen_ = true;
+  }
+  work();
+}
+
+void OutputPage::verify() {
+  whileClosed([this] { proof_.photograph(pictureToProve(), name()); });
+}
+
+void OutputPage::proofEnded() {
+  if (std::exchange(reopen_, false)) open();
+}
+
+QString OutputPage::pictureToProve() const {
+  const QList<PlaylistItem>& items = playlist_.settings().items;
+  qsizetype now = playing();
+  if (now >= 0 && now < items.size() && OutputPlaylist::isStill(items[now])) return items[now].path;
+  auto still = std::find_if(items.begin(), items.end(), OutputPlaylist::isStill);
+  return still != items.end() ? still->path : ownPicture();
+}
+
+void OutputPage::report() {
+  if (proof_.isPossible()) proof_.report(pictureToProve(), name());
+}
+
+void OutputPage::setStartsWithComputer(bool starts) {
+  starts_ = starts;
+  Q_EMIT changed();
+}
+
+bool OutputPage::isInstalled() const {
+  return relucent::isInstalled(Start::service, config_) || relucent::isInstalled(Start::autostart, config_);
+}
+
+QStringList OutputPage::showArguments() const {
+  Canvas canvas = isOpen() ? canvas_ : canvasFor(playlist_.settings(), Fit::fit);
+  QStringList arguments{"show",      QString::fromStdString(session_.path().string()),
+                        "--content", playlist_.file(),
+                        "--canvas",  QString("%1x%2").arg(canvas.size.width()).arg(canvas.size.height()),
+                        "--log",     QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)};
+  if (chosen_ && !screens_[*chosen_].identity.connector.isEmpty())
+    arguments << "--screen" << screens_[*chosen_].identity.connector;
+  return arguments;
+}
+
+void OutputPage::install() {
+  try {
+    playlist_.save();
+    if (starts_)
+      // Where systemd does not run the session, the desktop starts it.
+      relucent::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
+                        QCoreApplication::applicationFilePath(), showArguments());
+    else
+      for (Start start : {Start::service, Start::autostart}) uninstall(start, config_);
+  } catch (...) {
+    tell(failureOf(std::current_exception()));
+  }
+  Q_EMIT changed();
+}
+
+void OutputPage::tell(const Failure& failure) {
+  Q_EMIT failed({failure, tr("The calibration is as it was."), {}, {}});
 }
 
 }  // namespace relucent

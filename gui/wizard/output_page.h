@@ -3,15 +3,20 @@
 
 #include <QImage>
 #include <QTimer>
+#include <deque>
 
 #include "jobs/job.h"
 #include "output/awake.h"
 #include "output/engine_renderer.h"
 #include "output/player.h"
+#include "wizard/output_playlist.h"
+#include "wizard/output_proof.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
 
 namespace relucent {
+
+class OutputTap;
 
 /// A screen that the output can shine on.
 struct OutputScreen {
@@ -20,7 +25,7 @@ struct OutputScreen {
   bool operators = false;  // the one with this window
 };
 
-/// Step 8: the content on the projector, corrected in real time.
+/// Step 8: the content on the projector, corrected in real time; proved; handed over.
 class OutputPage : public PageModel {
   Q_OBJECT
 
@@ -30,7 +35,7 @@ class OutputPage : public PageModel {
 
   QString name() const override { return tr("Output"); }
   QString subtitle() const override {
-    return tr("Play corrected content on the projector, and compare it with the original.");
+    return tr("Play corrected content, prove that it works with one photograph, and hand the venue over.");
   }
   StepStatus status() const override;
   QString hint() const override;
@@ -38,11 +43,22 @@ class OutputPage : public PageModel {
   std::vector<Command> secondary() const override;
   std::optional<double> progress() const override;
   void enter() override;
-  void finish() override { close(); }
+  void finish() override;
 
   const std::vector<OutputScreen>& screens() const { return screens_; }
   std::optional<std::size_t> chosen() const { return chosen_; }
   void choose(std::size_t index);
+
+  const OutputPlaylist& playlist() const { return playlist_; }
+  /// Which item plays; -1: none.
+  qsizetype playing() const;
+  /// What of the list could not be read, the newest last.
+  QStringList skipped() const;
+  void addFiles(const QStringList& files);
+  void removeItem(qsizetype index);
+  void moveItem(qsizetype index, qsizetype by);
+  void setRepeat(bool repeat);
+  void setFade(double seconds);
 
   bool isOpen() const { return player_ != nullptr; }
   bool isBlack() const { return player_ && player_->isBlack(); }
@@ -52,24 +68,59 @@ class OutputPage : public PageModel {
   void setFrozen(bool frozen);
   void setCompensated(bool compensated);
   PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }
+  /// Frame times of the last minute, milliseconds, twice a second; the newest last.
+  const std::deque<double>& frameTimes() const { return frameTimes_; }
   QString engineName() const { return engine_; }
   /// What the projector shows now, as far as this program knows; null while it is closed.
   QImage onProjector() const;
   Size projectorSize() const { return session_.projectorSize(); }
+  /// Not the one for films: how pictures that stand are solved. Empty: like films.
+  QString stillMethod() const;
 
   void open();
   void close();
 
+  Session& session() const { return session_; }
+  const OutputProof& proof() const { return proof_; }
+  /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
+  void verify();
+  void checkDrift() {
+    whileClosed([this] { proof_.checkDrift(name()); });
+  }
+  /// Writes the report and lets the desktop show it.
+  void report();
+
+  /// Whether installing makes the show start with the computer; yes at first.
+  bool startsWithComputer() const { return starts_; }
+  void setStartsWithComputer(bool starts);
+  bool isInstalled() const;
+  /// Keeps the playlist and makes the show start at log-in, or no more.
+  void install();
+  /// Of the user; tests have their own.
+  void setConfigFolder(const QString& folder) { config_ = folder; }
+
  private:
-  class Tap;
   struct Made;
   void listScreens();
   void opened();
+  void play();
+  void sample();
+  void edit(const QString& what, const PlaylistSettings& after);
+  void setPlaylist(const PlaylistSettings& settings);
+  void whileClosed(const std::function<void()>& work);
+  void proofEnded();
+  QString pictureToProve() const;
+  QStringList showArguments() const;
+  void tell(const Failure& failure);
 
   Session& session_;
+  OutputPlaylist playlist_;
+  OutputProof proof_;
   Job job_;
   std::shared_ptr<Made> made_;
-  std::shared_ptr<Tap> tap_;
+  std::shared_ptr<OutputTap> tap_;
+  std::shared_ptr<Playlist> content_;
+  Canvas canvas_;
   std::vector<OutputScreen> screens_;
   std::optional<std::size_t> chosen_;
   std::unique_ptr<ProjectorWindow> window_;
@@ -77,6 +128,11 @@ class OutputPage : public PageModel {
   std::optional<Awake> awake_;
   QString engine_;
   bool wanted_ = false;  // closed meanwhile, it does not open
+  bool reopen_ = false;  // when the photographs are taken
+  std::deque<double> frameTimes_;
+  QString preferred_;  // Preview's picture
+  QString config_;
+  bool starts_ = true;
   QTimer often_;
 };
 

@@ -1,128 +1,206 @@
 // SPDX-License-Identifier: MIT
+#include <QDropEvent>
+#include <QKeyEvent>
+#include <QMimeData>
+#include <QShortcut>
 #include <cmath>
 
 #include "theme/controls.h"
+#include "theme/readout.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
+#include "views/line_chart.h"
 #include "views/number_text.h"
+#include "wizard/output_inspector.h"
 #include "wizard/output_page.h"
 #include "wizard/page_view.h"
+#include "wizard/playlist_view.h"
 
 namespace relucent {
 namespace {
 
-QWidget* stageOf(OutputPage& page) {
-  auto* card = new Card(OutputPage::tr("On the projector now"));
-  auto* compare = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
-  compare->setObjectName("compare");
-  card->addAction(compare);
-  auto* view = new ImageView;
-  view->setObjectName("output-view");
-  view->setAccessibleName(OutputPage::tr("What the projector shows"));
-  view->setEmptyText(OutputPage::tr("The output is closed. Nothing is projected."));
-  card->body()->addWidget(view, 1);
-  QObject::connect(compare, &Segmented::chosen, &page,
-                   [&page](int index) { page.setCompensated(index == 0); });
-  auto refresh = [&page, card, view, compare] {
-    compare->setEnabled(page.isOpen());
-    compare->setCurrent(page.isCompensated() ? 0 : 1);
-    QImage drive = page.onProjector();
-    if (drive.cacheKey() != view->picture().cacheKey()) view->setPicture(drive);
-    Size size = page.projectorSize();
-    card->setSubtitle(QString::fromUtf8("%1 × %2").arg(size.width).arg(size.height));
-  };
-  QObject::connect(&page, &OutputPage::changed, card, refresh);
-  refresh();
-  return card;
-}
+constexpr double worstDeltaE = 12.0;  // of the map
+constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
 
-/// A choice for each screen, made again when one is plugged in or out.
-class ScreenChoices : public QWidget {
+/// Three figures, and the time of every frame in the last minute.
+class PlaybackCard : public Card {
  public:
-  explicit ScreenChoices(OutputPage& page) : page_(page) {
-    column_ = new QVBoxLayout(this);
-    column_->setContentsMargins(0, 0, 0, 0);
-    connect(&page, &OutputPage::changed, this, [this] { refresh(); });
+  explicit PlaybackCard(OutputPage& page) : Card(OutputPage::tr("Playback")), page_(page) {
+    auto* row = new QHBoxLayout;
+    row->setSpacing(space::page);
+    for (auto [readout, what] :
+         {std::pair(&rate_, OutputPage::tr("frames a second")),
+          std::pair(&time_, OutputPage::tr("frame time")), std::pair(&late_, OutputPage::tr("frames late"))})
+      row->addWidget(*readout = new Readout(what));
+    row->addStretch(1);
+    body()->addLayout(row);
+    rate_->setObjectName("frame-rate");
+    chart_ = new LineChart({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
+                           {0.0, 20.0, false, OutputPage::tr("Frame time, ms")});
+    chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
+    body()->addWidget(chart_, 1);
+    connect(&page_, &OutputPage::changed, this, &PlaybackCard::refresh);
     refresh();
   }
 
  private:
   void refresh() {
-    QStringList now;
-    for (const OutputScreen& screen : page_.screens())
-      now << QString("%1 %2").arg(screen.identity.connector).arg(screen.size.width());
-    if (now != shown_) fill();
-    shown_ = now;
-    for (std::size_t i = 0; i < choices_.size(); ++i) choices_[i]->setChecked(page_.chosen() == i);
-  }
-  void fill() {
-    for (Choice* choice : choices_) delete choice;
-    choices_.clear();
-    for (std::size_t i = 0; i < page_.screens().size(); ++i) {
-      const OutputScreen& screen = page_.screens()[i];
-      auto* choice =
-          new Choice(screen.operators ? OutputPage::tr("This screen") : screen.identity.connector,
-                     OutputPage::tr("%1 × %2 pixels").arg(screen.size.width()).arg(screen.size.height()));
-      Size size = page_.projectorSize();
-      if (screen.size == QSize(size.width, size.height)) choice->setRemark(OutputPage::tr("fits"));
-      choice->setObjectName("screen-" + screen.identity.connector);
-      connect(choice, &Choice::clicked, &page_, [this, i] { page_.choose(i); });
-      column_->addWidget(choice);
-      choices_.push_back(choice);
+    PlayerStatistics s = page_.statistics();
+    bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 1.0;
+    QString none = QString::fromUtf8("–");
+    rate_->setValue(open && moves ? QLocale().toString(s.framesPerSecond, 'f', 1) : none);
+    time_->setValue(open && s.frameSeconds > 0.0
+                        ? OutputPage::tr("%1 ms").arg(QLocale().toString(1000.0 * s.frameSeconds, 'f', 1))
+                        : none);
+    late_->setValue(open ? countText(s.late) : none, s.late > 0);
+    setSubtitle(!open   ? OutputPage::tr("closed")
+                : moves ? OutputPage::tr("on %1").arg(page_.engineName())
+                        : OutputPage::tr("still picture, on %1").arg(page_.engineName()));
+    Curve curve{OutputPage::tr("Frame time"), accentColour, Marker::none, {}, {}};
+    const std::deque<double>& times = page_.frameTimes();
+    double highest = 20.0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      curve.line.emplace_back(-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]);
+      highest = std::max(highest, times[i]);
     }
+    chart_->setAxes({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
+                    {0.0, 1.1 * highest, false, OutputPage::tr("Frame time, ms")});
+    chart_->setCurves({curve});
   }
   OutputPage& page_;
-  QVBoxLayout* column_;
-  QStringList shown_;
-  std::vector<Choice*> choices_;
+  Readout *rate_, *time_, *late_;
+  LineChart* chart_;
 };
 
-QWidget* inspectorOf(OutputPage& page) {
-  QVBoxLayout* column = nullptr;
-  QWidget* card = inspectorCard(column);
-  column->addWidget(labelOf(OutputPage::tr("Projector's screen"), "section"));
-  column->addWidget(new ScreenChoices(page));
-  auto* note = new Note(Note::Kind::information);
-  column->addWidget(note);
-  column->addWidget(lineOf());
-  column->addWidget(labelOf(OutputPage::tr("Playback"), "section"));
-  auto* rate = new ValueRow(OutputPage::tr("Frames a second"));
-  auto* time = new ValueRow(OutputPage::tr("Frame time"));
-  auto* late = new ValueRow(OutputPage::tr("Late frames"));
-  auto* clipped = new ValueRow(OutputPage::tr("Beyond the projector"));
-  auto* engine = new ValueRow(OutputPage::tr("Computed on"));
-  for (ValueRow* row : {rate, time, late, clipped, engine}) column->addWidget(row);
-  column->addStretch(1);
-  auto refresh = [=, &page] {
-    PlayerStatistics s = page.statistics();
-    bool open = page.isOpen();
-    QString none = QString::fromUtf8("–");
-    rate->setValue(!open                     ? none
-                   : s.framesPerSecond > 0.0 ? numberText(s.framesPerSecond)
-                                             : OutputPage::tr("still picture"));
-    time->setValue(open && s.frames > 0 ? OutputPage::tr("%1 ms").arg(numberText(1000.0 * s.frameSeconds))
-                                        : none);
-    late->setValue(open ? countText(s.late) : none, s.late > 0 ? "amber" : "strong");
-    clipped->setValue(open && s.frames > 0 ? percentText(s.clipped) : none);
-    engine->setValue(open ? page.engineName() : none);
-    bool differs = false;
-    if (page.chosen()) {
-      Size size = page.projectorSize();
-      differs = page.screens()[*page.chosen()].size != QSize(size.width, size.height);
+/// Pictures beside each other. While it has the focus: A held shows the original, space freezes, B blackens.
+class OutputStage : public QWidget {
+ public:
+  explicit OutputStage(OutputPage& page) : page_(page) {
+    setObjectName("output-stage");
+    setAcceptDrops(true);
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setSpacing(space::gap);
+    grid->addWidget(projectorCard(), 0, 0);
+    grid->addWidget(photographCard(), 0, 1);
+    grid->addWidget(differenceCard(), 1, 0);
+    grid->addWidget(new PlaybackCard(page_), 1, 1);
+    for (int i : {0, 1}) {
+      grid->setColumnStretch(i, 1);
+      grid->setRowStretch(i, 1);
     }
-    note->setVisible(differs);
-    note->setText(OutputPage::tr("This screen has other pixels than the projector that was measured."),
-                  OutputPage::tr("The picture stands in its middle, pixel for pixel."));
-  };
-  QObject::connect(&page, &OutputPage::changed, card, refresh);
-  refresh();
-  return card;
-}
+    connect(new QShortcut(QKeySequence("Ctrl+Shift+V"), this), &QShortcut::activated, &page_,
+            &OutputPage::verify);
+    connect(&page_, &OutputPage::changed, this, [this] { refresh(); });
+    refresh();
+  }
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override {
+    if (event->isAutoRepeat()) return;
+    switch (event->key()) {
+      case Qt::Key_A:
+        return page_.setCompensated(false);
+      case Qt::Key_Space:
+        return page_.setFrozen(!page_.isFrozen());
+      case Qt::Key_B:
+        return page_.setBlack(!page_.isBlack());
+      default:
+        QWidget::keyPressEvent(event);
+    }
+  }
+  void keyReleaseEvent(QKeyEvent* event) override {
+    if (event->key() == Qt::Key_A && !event->isAutoRepeat()) return page_.setCompensated(true);
+    QWidget::keyReleaseEvent(event);
+  }
+  void dragEnterEvent(QDragEnterEvent* event) override {
+    if (!draggedFiles(*event->mimeData()).isEmpty()) event->acceptProposedAction();
+  }
+  void dropEvent(QDropEvent* event) override { page_.addFiles(draggedFiles(*event->mimeData())); }
+
+ private:
+  Card* projectorCard() {
+    projector_ = new Card(OutputPage::tr("On the projector now"));
+    compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
+    compare_->setObjectName("compare");
+    projector_->addAction(compare_);
+    output_ = new ImageView;
+    output_->setObjectName("output-view");
+    output_->setAccessibleName(OutputPage::tr("What the projector shows"));
+    output_->setAccessibleDescription(
+        OutputPage::tr("Hold A for the original, space freezes, B makes it black."));
+    output_->setEmptyText(OutputPage::tr("The output is closed. Nothing is projected."));
+    projector_->body()->addWidget(output_, 1);
+    connect(compare_, &Segmented::chosen, &page_, [this](int index) { page_.setCompensated(index == 0); });
+    return projector_;
+  }
+  Card* photographCard() {
+    photograph_ = new Card(OutputPage::tr("Photograph of the surface"));
+    photo_ = new ImageView;
+    photo_->setObjectName("photograph-view");
+    photo_->setLink(&link_);
+    photo_->setAccessibleName(
+        OutputPage::tr("What was wanted at the left of the divider, the photograph at the right"));
+    photo_->setEmptyText(OutputPage::tr("No verification photograph has been taken."));
+    photograph_->body()->addWidget(photo_, 1);
+    return photograph_;
+  }
+  Card* differenceCard() {
+    auto* card = new Card(OutputPage::tr("Photograph against wanted"));
+    card->setSubtitle(OutputPage::tr("colour difference"));
+    difference_ = new ImageView;
+    difference_->setObjectName("proof-difference");
+    difference_->setLink(&link_);
+    difference_->setAccessibleName(
+        OutputPage::tr("Colour difference between the photograph and what was wanted"));
+    difference_->setEmptyText(OutputPage::tr("A verification photograph shows here what is left to see."));
+    difference_->setScale({ColourMap::cividis, 0.0, worstDeltaE, false}, QString::fromUtf8("ΔE₀₀"), false);
+    card->body()->addWidget(difference_, 1);
+    return card;
+  }
+  void refresh() {
+    compare_->setEnabled(page_.isOpen());
+    compare_->setCurrent(page_.isCompensated() ? 0 : 1);
+    QImage drive = page_.onProjector();
+    if (drive.cacheKey() != output_->picture().cacheKey()) output_->setPicture(drive);
+    const std::shared_ptr<const Proof>& proof = page_.proof().proof();
+    if (proof == shown_) return;
+    shown_ = proof;
+    showProof();
+  }
+  void showProof() {
+    if (!shown_) {
+      photo_->setPicture({});
+      photo_->setCompared({}, {}, {});
+      difference_->setPicture({});
+      return photograph_->setSubtitle({});
+    }
+    photograph_->setSubtitle(
+        OutputPage::tr("taken %1").arg(QLocale().toString(shown_->taken.time(), QLocale::ShortFormat)));
+    photo_->setPicture(shown_->wanted);
+    photo_->setCompared(shown_->photograph, OutputPage::tr("Wanted"), OutputPage::tr("Photograph"));
+    ColourScale scale{ColourMap::cividis, 0.0, worstDeltaE, false};
+    difference_->setPicture(mapped(shown_->deltaE.data(), shown_->deltaE.size(), scale));
+    difference_->setReadout([proof = shown_](QPoint pixel) {
+      return QString::fromUtf8("%1, %2: ΔE %3")
+          .arg(pixel.x())
+          .arg(pixel.y())
+          .arg(numberText(static_cast<double>(proof->deltaE.at(pixel.x(), pixel.y(), 0))));
+    });
+  }
+
+  OutputPage& page_;
+  ViewLink link_;
+  Card *projector_, *photograph_;
+  Segmented* compare_;
+  ImageView *output_, *photo_, *difference_;
+  std::shared_ptr<const Proof> shown_;
+};
 
 }  // namespace
 
 PageView viewOf(OutputPage& page) {
-  return {stageOf(page), inspectorOf(page)};
+  return {new OutputStage(page), outputInspector(page)};
 }
 
 }  // namespace relucent

@@ -3,12 +3,14 @@
 
 #include <QKeySequence>
 #include <QObject>
+#include <QUndoStack>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "jobs/failure.h"
 #include "theme/icons.h"
+#include "wizard/undoable.h"
 
 namespace relucent {
 
@@ -73,12 +75,25 @@ class PageModel : public QObject {
   virtual bool canGoBack() const { return false; }
   /// Ends what goes on in the background, keeping what is measured.
   virtual void finish() {}
+  /// What the user changed on this page. Emptied when another calibration is opened.
+  QUndoStack& undoStack() { return undo_; }
 
  Q_SIGNALS:
   void changed();
   /// The step is done: the next one, please.
   void nextWanted();
   void failed(const relucent::FailureReport& report);
+
+ protected:
+  /// Makes a change that can be taken back: apply(after) now, apply(before) when it is undone. `name`: what
+  /// was changed; changes of one name in quick succession are one.
+  template <typename Value, typename Apply>
+  void changeUndoably(const QString& name, Value before, Value after, Apply apply) {
+    undo_.push(new Undoable<Value>(name, std::move(before), std::move(after), std::move(apply)));
+  }
+
+ private:
+  QUndoStack undo_;
 };
 
 }  // namespace relucent

@@ -21,7 +21,40 @@ namespace {
 constexpr std::array comparedMethods{Method::none, Method::mix, Method::clusters, Method::refined,
                                      Method::optimum};
 
+/// The picture of the settings, or the product's own where that is gone.
+std::shared_ptr<const Image> contentFor(const ContentSettings& settings) {
+  if (!settings.picture.empty()) {
+    try {
+      return std::make_shared<Image>(linearContentOf(QString::fromStdString(settings.picture)));
+    } catch (const Error&) {
+    }
+  }
+  return std::make_shared<Image>(linearContentOf(ownPicture()));
+}
+
 }  // namespace
+
+QString methodName(std::string_view name) {
+  switch (methodFromName(name).value_or(Method::refined)) {
+    case Method::none:
+      return PreviewPage::tr("No correction");
+    case Method::scalar:
+      return PreviewPage::tr("Each pixel's brightness");
+    case Method::mix:
+      return PreviewPage::tr("Each pixel on its own");
+    case Method::sharpen:
+      return PreviewPage::tr("Each pixel, sharpened");
+    case Method::clusters:
+      return PreviewPage::tr("Clusters");
+    case Method::windows:
+      return PreviewPage::tr("Windows");
+    case Method::refined:
+      return PreviewPage::tr("Windows and steps");
+    case Method::optimum:
+      break;
+  }
+  return PreviewPage::tr("Best possible, still pictures");
+}
 
 QString ownPicture() {
   return ":/pictures/demo.png";
@@ -49,12 +82,12 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
       computing_(
           [this](std::shared_ptr<const ContentPreview> preview) {
             preview_ = std::move(preview);
+            problem_.clear();
+            adoptContent(preview_->picture, preview_->content);
             if (table_.empty()) compareNext();
             Q_EMIT changed();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
-          }),
+          [this](const Failure& failure) { refuse(failure); }),
       comparing_(
           [this](std::pair<int, MethodPreview> answer) {
             if (answer.first == round_) table_.push_back(answer.second);
@@ -63,6 +96,16 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
           },
           [this](const Failure& failure) {
             Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+          }),
+      reading_(
+          [this](std::pair<std::string, std::shared_ptr<const Image>> read) {
+            adoptContent(read.first, read.second);
+            ContentSettings after = settings_;
+            after.picture = read.first;
+            setSettings(after, tr("Picture"));
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("The picture of before stays."), {}, {}});
           }) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
@@ -70,6 +113,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     engine_ = nullptr;
     preview_ = nullptr;
     content_ = nullptr;
+    problem_.clear();
     preparedFor_.clear();
     table_.clear();
     looked_ = false;
@@ -137,36 +181,70 @@ QString PreviewPage::pictureName() const {
 }
 
 void PreviewPage::choosePicture(const QString& file) {
-  try {
-    content_ = std::make_shared<Image>(linearContentOf(file));
-    settings_.picture = file.toStdString();
-    table_.clear();
-    compute();
-  } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("The picture of before stays."), {}, {}});
-  }
+  reading_.ask([file]() -> std::pair<std::string, std::shared_ptr<const Image>> {
+    return {file.toStdString(), std::make_shared<Image>(linearContentOf(file))};
+  });
 }
 
-void PreviewPage::setSettings(const ContentSettings& settings) {
+void PreviewPage::adoptContent(const std::string& picture, std::shared_ptr<const Image> content) {
+  if (contentOf_ != picture || !content_) table_.clear();
+  contentOf_ = picture;
+  content_ = std::move(content);
+}
+
+void PreviewPage::setSettings(const ContentSettings& settings, const QString& what) {
+  changeUndoably(what, settings_, settings, [this](const ContentSettings& wanted) { adopt(wanted); });
+}
+
+void PreviewPage::adopt(const ContentSettings& settings) {
+  // The methods are compared with the content in one place under one light.
+  ContentSettings sameMethod = settings;
+  sameMethod.method = settings_.method;
+  if (sameMethod != settings_) table_.clear();
   settings_ = settings;
+  problem_.clear();
   compute();
+  Q_EMIT changed();
+}
+
+void PreviewPage::setCorners(const Corners& corners) {
+  if (!isConvex(corners)) {
+    problem_ = tr("The corners cross over. Drag them apart.");
+    Q_EMIT changed();
+    return;
+  }
+  ContentSettings after = settings_;
+  after.corners = corners;
+  setSettings(after, tr("Corners"));
+}
+
+void PreviewPage::placeAutomatically() {
+  ContentSettings after = settings_;
+  after.corners.reset();
+  setSettings(after, tr("Automatic place"));
+}
+
+std::optional<Corners> PreviewPage::corners() const {
+  if (settings_.corners) return settings_.corners;
+  return preview_ ? std::optional(preview_->corners) : std::nullopt;
+}
+
+/// A place where nothing can be shown is no failure: the sentence stands beside the picture.
+void PreviewPage::refuse(const Failure& failure) {
+  if (failure.kind == ErrorKind::input)
+    problem_ = failure.what + ' ' + failure.advice;
+  else
+    Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+  Q_EMIT changed();
 }
 
 void PreviewPage::compute() {
   if (!engine_) return;
-  if (!content_) {
-    try {
-      content_ = std::make_shared<Image>(linearContentOf(
-          settings_.picture.empty() ? ownPicture() : QString::fromStdString(settings_.picture)));
-    } catch (...) {
-      settings_.picture.clear();
-      content_ = std::make_shared<Image>(linearContentOf(ownPicture()));
-    }
-  }
   ++round_;
-  computing_.ask([engine = engine_, content = content_,
+  computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
                   settings = settings_]() -> std::shared_ptr<const ContentPreview> {
     Progress quiet;
+    std::shared_ptr<const Image> content = known ? known : contentFor(settings);
     const MeasuredVenue& venue = engine->measured.venue;
     const Rasters& cameras = venue.transport.cameras();
     Target target = fitTarget(*content, venue, targetOf(settings));
@@ -174,6 +252,8 @@ void PreviewPage::compute() {
     Prediction with = predict(venue, target, engine->compensator->solve(method, target, quiet));
     Prediction without = predict(venue, target, engine->compensator->solve(Method::none, target, quiet));
     auto preview = std::make_shared<ContentPreview>();
+    preview->content = content;
+    preview->picture = settings.picture;
     preview->with = imageFromStack(with.camera, cameras, 0);
     preview->without = imageFromStack(without.camera, cameras, 0);
     preview->deltaE = with.deltaE;
@@ -196,9 +276,9 @@ void PreviewPage::compute() {
     preview->reachable.assign(target.reachable.begin(),
                               target.reachable.begin() + static_cast<std::ptrdiff_t>(pixels));
     auto shares = sharesOf(uncorrectableMap(venue, target, {}, quiet));
-    preview->tooDark = shares[static_cast<std::size_t>(Uncorrectable::tooDark)] +
-                       shares[static_cast<std::size_t>(Uncorrectable::unlit)] +
-                       shares[static_cast<std::size_t>(Uncorrectable::shadowed)];
+    preview->unlit = shares[static_cast<std::size_t>(Uncorrectable::unlit)] +
+                     shares[static_cast<std::size_t>(Uncorrectable::shadowed)];
+    preview->tooDark = shares[static_cast<std::size_t>(Uncorrectable::tooDark)] + preview->unlit;
     preview->tooBright = shares[static_cast<std::size_t>(Uncorrectable::tooBright)];
     return preview;
   });
@@ -243,6 +323,7 @@ QString PreviewPage::hint() const {
   if (!engine_)
     return session_.busy().isEmpty() ? tr("The preview is not prepared.")
                                      : tr("The devices are in use at %1.").arg(session_.busy());
+  if (!problem_.isEmpty()) return problem_;
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};
   return tr("Predicted from the measurement. Nothing is projected yet.");

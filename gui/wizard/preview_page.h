@@ -28,6 +28,9 @@ struct ContentPreview {
   Corners corners{};
   double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;
   double tooDark = 0.0, tooBright = 0.0;  // shares of the content
+  double unlit = 0.0;                     // of these, what no projector lights
+  std::shared_ptr<const Image> content;   // what was placed
+  std::string picture;                    // where it came from
 };
 
 /// Step 7: content in its place, before it is projected.
@@ -53,8 +56,18 @@ class PreviewPage : public PageModel {
 
   bool isReady() const { return engine_ != nullptr; }
   const ContentSettings& settings() const { return settings_; }
-  void setSettings(const ContentSettings& settings);
-  /// Tells failed() if it is no picture; the one before stays.
+  /// `what`: changed, in the list of what can be undone.
+  void setSettings(const ContentSettings& settings, const QString& what = tr("Content"));
+  /// Where the content lies in the first camera's view. Corners that cross over are refused: problem() says
+  /// so.
+  void setCorners(const Corners& corners);
+  /// In the largest upright rectangle that can be reached.
+  void placeAutomatically();
+  /// The corners as they are, chosen or found; none before the first prediction.
+  std::optional<Corners> corners() const;
+  /// What stands against the last place that was asked for; empty: nothing.
+  const QString& problem() const { return problem_; }
+  /// Read on another thread. Tells failed() if it is no picture; the one before stays.
   void choosePicture(const QString& file);
   QString pictureName() const;
   const std::shared_ptr<const ContentPreview>& preview() const { return preview_; }
@@ -66,6 +79,9 @@ class PreviewPage : public PageModel {
   struct Engine;
   void prepare();
   void prepared();
+  void adopt(const ContentSettings& settings);
+  void adoptContent(const std::string& picture, std::shared_ptr<const Image> content);
+  void refuse(const Failure& failure);
   void compute();
   void compareNext();
   void accept();
@@ -74,18 +90,22 @@ class PreviewPage : public PageModel {
   Job job_;
   ContentSettings settings_;
   std::shared_ptr<const Image> content_;
+  std::string contentOf_;  // where it was read
+  QString problem_;
   std::shared_ptr<Engine> made_;  // by the job, taken when it ends
   std::shared_ptr<const Engine> engine_;
   std::string preparedFor_;
   std::shared_ptr<const ContentPreview> preview_;
   std::vector<MethodPreview> table_;
-  std::vector<Method> toCompare_;
   int round_ = 0;  // of comparisons: answers of earlier ones are dropped
   Latest<std::shared_ptr<const ContentPreview>> computing_;
   Latest<std::pair<int, MethodPreview>> comparing_;
+  Latest<std::pair<std::string, std::shared_ptr<const Image>>> reading_;
   bool looked_ = false;  // now
 };
 
+/// A way to compensate, for people.
+QString methodName(std::string_view name);
 /// The product's own picture where the user has chosen none.
 QString ownPicture();
 /// A picture as linear content. Throws: as readLinearContent().

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QPainter>
-#include <QSlider>
 #include <QTableWidget>
 #include <cmath>
 
@@ -10,28 +8,29 @@
 #include "theme/theme.h"
 #include "views/image_view.h"
 #include "views/number_text.h"
+#include "wizard/corner_view.h"
 #include "wizard/page_view.h"
+#include "wizard/preview_inspector.h"
 #include "wizard/preview_page.h"
 
 namespace relucent {
 namespace {
 
-/// The content's corners, and hatches where it cannot be reached. Finer than the picture, so that lines stay
+/// Hatches where the content cannot be reached, and its corners. Finer than the picture, so that lines stay
 /// thin.
-QImage overlayOf(const ContentPreview& preview, bool hatched) {
+QImage hatchesOf(const ContentPreview& preview) {
   constexpr int fine = 4;
   Size size = preview.with.size();
   QImage overlay(size.width * fine, size.height * fine, QImage::Format_ARGB32_Premultiplied);
   overlay.fill(Qt::transparent);
-  if (hatched)
-    for (int y = 0; y < overlay.height(); ++y) {
-      auto* line = reinterpret_cast<QRgb*>(overlay.scanLine(y));
-      for (int x = 0; x < overlay.width(); ++x) {
-        std::size_t at = indexOf(size, {x / fine, y / fine});
-        if (preview.inside[at] != 0 && preview.reachable[at] == 0 && (x + y) % 8 < 3)
-          line[x] = colours(Look::dark).text.rgb();
-      }
+  for (int y = 0; y < overlay.height(); ++y) {
+    auto* line = reinterpret_cast<QRgb*>(overlay.scanLine(y));
+    for (int x = 0; x < overlay.width(); ++x) {
+      std::size_t at = indexOf(size, {x / fine, y / fine});
+      if (preview.inside[at] != 0 && preview.reachable[at] == 0 && (x + y) % 8 < 3)
+        line[x] = colours(Look::dark).text.rgb();
     }
+  }
   QPainter painter(&overlay);
   painter.setRenderHint(QPainter::Antialiasing);
   QPolygonF corners;
@@ -54,8 +53,8 @@ class PreviewStage : public QWidget {
     kind_ = new Segmented(
         {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference")});
     card_->addAction(kind_);
-    for (ImageView*& view : views_) {
-      view = new ImageView;
+    views_ = {place_ = new CornerView, new ImageView, new ImageView};
+    for (ImageView* view : views_) {
       view->setLink(&link_);
       view->setEmptyText(PreviewPage::tr("Preparing the preview"));
       card_->body()->addWidget(view, 1);
@@ -70,8 +69,9 @@ class PreviewStage : public QWidget {
         PreviewPage::tr("The brightest light that can be reached; hatched where it is too little"));
     views_[difference]->setAccessibleName(
         PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
-    column->addWidget(card_, 5);
-    column->addWidget(tableCard(), 3);
+    connect(place_, &CornerView::moved, &page_, &PreviewPage::setCorners);
+    column->addWidget(card_, 1);
+    column->addWidget(tableCard());
     connect(kind_, &Segmented::chosen, this, [this](int index) {
       for (int i = 0; i < 3; ++i) views_[static_cast<std::size_t>(i)]->setVisible(i == index);
     });
@@ -98,6 +98,9 @@ class PreviewStage : public QWidget {
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setShowGrid(false);
+    // As high as the methods, the rest is the picture's.
+    constexpr int header = 34, rowHeight = 26, methods = 5;
+    table_->setFixedHeight(header + methods * rowHeight);
     connect(table_, &QTableWidget::cellClicked, &page_, [this](int row, int) { choose(row); });
     connect(table_, &QTableWidget::cellActivated, &page_, [this](int row, int) { choose(row); });
     card->body()->addWidget(table_);
@@ -107,21 +110,7 @@ class PreviewStage : public QWidget {
     if (row < 0 || static_cast<std::size_t>(row) >= page_.table().size()) return;
     ContentSettings settings = page_.settings();
     settings.method = toString(page_.table()[static_cast<std::size_t>(row)].method);
-    page_.setSettings(settings);
-  }
-  static QString nameOf(Method method) {
-    switch (method) {
-      case Method::none:
-        return PreviewPage::tr("No correction");
-      case Method::mix:
-        return PreviewPage::tr("Each pixel on its own");
-      case Method::clusters:
-        return PreviewPage::tr("Clusters");
-      case Method::refined:
-        return PreviewPage::tr("Windows and steps");
-      default:
-        return PreviewPage::tr("Best possible, still pictures");
-    }
+    page_.setSettings(settings, PreviewPage::tr("Method"));
   }
   static QString noteOf(Method method) {
     switch (method) {
@@ -140,12 +129,13 @@ class PreviewStage : public QWidget {
     table_->setRowCount(static_cast<int>(rows.size()));
     for (int row = 0; row < table_->rowCount(); ++row) {
       const MethodPreview& method = rows[static_cast<std::size_t>(row)];
-      QStringList cells{
-          nameOf(method.method), PreviewPage::tr("%1 dB").arg(QLocale().toString(method.psnr, 'f', 1)),
-          QString::fromUtf8("ΔE %1").arg(QLocale().toString(method.deltaE, 'f', 1)),
-          method.seconds < 1.0 ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
-                               : PreviewPage::tr("%1 s").arg(QLocale().toString(method.seconds, 'f', 1)),
-          noteOf(method.method)};
+      QStringList cells{methodName(toString(method.method)),
+                        PreviewPage::tr("%1 dB").arg(QLocale().toString(method.psnr, 'f', 1)),
+                        QString::fromUtf8("ΔE %1").arg(QLocale().toString(method.deltaE, 'f', 1)),
+                        method.seconds < 1.0
+                            ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
+                            : PreviewPage::tr("%1 s").arg(QLocale().toString(method.seconds, 'f', 1)),
+                        noteOf(method.method)};
       bool chosen = toString(method.method) == page_.settings().method;
       for (int cell = 0; cell < cells.size(); ++cell) {
         auto* item = new QTableWidgetItem(cells[cell]);
@@ -157,6 +147,8 @@ class PreviewStage : public QWidget {
   }
   void refresh() {
     fillTable();
+    place_->setWrong(!page_.problem().isEmpty());
+    place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
     if (preview == shown_) return;
     shown_ = preview;
@@ -168,11 +160,10 @@ class PreviewStage : public QWidget {
     views_[picture]->setPicture(pictureOf(preview->without, preview->white));
     views_[picture]->setCompared(pictureOf(preview->with, preview->white), PreviewPage::tr("Uncorrected"),
                                  PreviewPage::tr("Corrected, predicted"));
-    views_[picture]->setOverlay(overlayOf(*preview, false));
     ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};
     views_[reachable]->setScale(reach, PreviewPage::tr("of white"), true);
     views_[reachable]->setPicture(mapped(preview->reach, size, reach));
-    views_[reachable]->setOverlay(overlayOf(*preview, true));
+    views_[reachable]->setOverlay(hatchesOf(*preview));
     ColourScale deltaE{ColourMap::cividis, 0.0, 12.0, false};
     views_[difference]->setScale(deltaE, QString::fromUtf8("ΔE₀₀"), false);
     views_[difference]->setPicture(mapped(preview->deltaE.data(), size, deltaE));
@@ -188,96 +179,16 @@ class PreviewStage : public QWidget {
   ViewLink link_;
   Card* card_;
   Segmented* kind_;
+  CornerView* place_;
   std::array<ImageView*, 3> views_{};
   QTableWidget* table_;
   std::shared_ptr<const ContentPreview> shown_;
 };
 
-QWidget* inspectorOf(PreviewPage& page) {
-  QVBoxLayout* column = nullptr;
-  QWidget* card = inspectorCard(column);
-  column->addWidget(labelOf(PreviewPage::tr("Content"), "section"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(new IconLabel(Icon::picture, secondaryColour, 22));
-  QLabel* name = labelOf({}, "strong");
-  row->addWidget(name, 1);
-  QPushButton* change = buttonOf(PreviewPage::tr("Change"));
-  row->addWidget(change);
-  column->addLayout(row);
-  auto* fit = new Segmented({PreviewPage::tr("Whole"), PreviewPage::tr("Fill"), PreviewPage::tr("Stretch")});
-  column->addWidget(fit);
-  column->addWidget(lineOf());
-  column->addWidget(labelOf(PreviewPage::tr("Light"), "section"));
-  auto* bright = new ValueRow(PreviewPage::tr("May stay too dark"));
-  auto* brightness = new QSlider(Qt::Horizontal);
-  brightness->setRange(0, 60);
-  brightness->setObjectName("brightness");
-  brightness->setAccessibleName(PreviewPage::tr("Share of the content that may stay too dark, percent"));
-  column->addWidget(bright);
-  column->addWidget(brightness);
-  column->addWidget(labelOf(
-      PreviewPage::tr("Further right the picture gets brighter, and more of it falls behind."), "note"));
-  auto* black = new ValueRow(PreviewPage::tr("Lift of the blacks"));
-  auto* lift = new QSlider(Qt::Horizontal);
-  lift->setRange(0, 20);
-  lift->setAccessibleName(PreviewPage::tr("Lift of the blacks, percent"));
-  column->addWidget(black);
-  column->addWidget(lift);
-  column->addWidget(lineOf());
-  column->addWidget(labelOf(PreviewPage::tr("Reach"), "section"));
-  auto* reach = new ValueRow(PreviewPage::tr("Can be reached"));
-  auto* dark = new ValueRow(PreviewPage::tr("Too dark to reach"));
-  auto* never = new ValueRow(PreviewPage::tr("Never black enough"));
-  auto* error = new ValueRow(PreviewPage::tr("Colour error"));
-  for (ValueRow* value : {reach, dark, never, error}) column->addWidget(value);
-  column->addStretch(1);
-
-  QObject::connect(change, &QPushButton::clicked, &page, [&page, card] {
-    QString file =
-        QFileDialog::getOpenFileName(card, PreviewPage::tr("Choose a picture"), {},
-                                     PreviewPage::tr("Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)"));
-    if (!file.isEmpty()) page.choosePicture(file);
-  });
-  auto apply = [&page](auto edit) {
-    ContentSettings settings = page.settings();
-    edit(settings);
-    page.setSettings(settings);
-  };
-  static constexpr std::array fits{Fit::fit, Fit::cover, Fit::fill};
-  QObject::connect(fit, &Segmented::chosen, &page, [apply](int index) {
-    apply([index](ContentSettings& s) { s.fit = fits[static_cast<std::size_t>(index)]; });
-  });
-  QObject::connect(brightness, &QSlider::valueChanged, &page, [apply](int value) {
-    apply([value](ContentSettings& s) { s.reachablePercentile = value; });
-  });
-  QObject::connect(lift, &QSlider::valueChanged, &page, [apply](int value) {
-    apply([value](ContentSettings& s) { s.blackLift = value / 100.0; });
-  });
-  auto refresh = [=, &page] {
-    const ContentSettings& settings = page.settings();
-    name->setText(page.pictureName());
-    fit->setCurrent(static_cast<int>(std::find(fits.begin(), fits.end(), settings.fit) - fits.begin()));
-    QSignalBlocker quietBrightness(brightness), quietLift(lift);
-    brightness->setValue(static_cast<int>(settings.reachablePercentile));
-    lift->setValue(static_cast<int>(std::lround(100.0 * settings.blackLift)));
-    bright->setValue(percentText(settings.reachablePercentile / 100.0));
-    black->setValue(percentText(settings.blackLift));
-    if (const auto& preview = page.preview()) {
-      reach->setValue(percentText(preview->reachableShare), preview->reachableShare > 0.8 ? "good" : "amber");
-      dark->setValue(percentText(preview->tooDark));
-      never->setValue(percentText(preview->tooBright));
-      error->setValue(QString::fromUtf8("ΔE %1").arg(QLocale().toString(preview->deltaEMean, 'f', 1)));
-    }
-  };
-  QObject::connect(&page, &PreviewPage::changed, card, refresh);
-  refresh();
-  return card;
-}
-
 }  // namespace
 
 PageView viewOf(PreviewPage& page) {
-  return {new PreviewStage(page), inspectorOf(page)};
+  return {new PreviewStage(page), previewInspector(page)};
 }
 
 }  // namespace relucent

@@ -55,6 +55,8 @@ void Session::adopt(const CalibrationFolder& folder) {
   live_->resume();  // work that still ends must not stand still for ever
   live_ = std::make_shared<LiveRig>();
   look(folder);
+  roomClear_ = false;
+  slowDown();
   devices_ = std::make_shared<SessionDevices>(settings_.rig, cache_, live_);
   Q_EMIT opened();
   Q_EMIT changed();
@@ -126,6 +128,22 @@ void Session::wantAcquisition() {
   reading_.ask([stored = *stored]() -> std::shared_ptr<const Acquisition> {
     return std::make_shared<Acquisition>(loadAcquisition(stored));
   });
+}
+
+void Session::setFlashLimit(int changesPerSecond) {
+  flashLimit_ = changesPerSecond;
+  slowDown();
+  Q_EMIT changed();
+}
+
+void Session::slowDown() {
+  bool real = isOpen() && !isSimulated();
+  live_->setLeastInterval(real && flashLimit_ > 0 ? 1000 / flashLimit_ : 0);
+}
+
+void Session::setRoomClear(bool clear) {
+  roomClear_ = clear;
+  Q_EMIT changed();
 }
 
 void Session::setBusy(const QString& who) {

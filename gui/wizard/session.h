@@ -83,6 +83,17 @@ class Session : public QObject {
   /// Why it could not be read; none while it may still be.
   const std::optional<Failure>& acquisitionFailure() const { return readFailure_; }
 
+  /// Patterns a second at most that real projectors show; 0: as quickly as they can.
+  void setFlashLimit(int changesPerSecond);
+  int flashLimit() const { return flashLimit_; }
+  /// Somebody has said that the room is clear and everyone in it knows. Never remembered: said for each
+  /// opening.
+  bool isRoomClear() const { return roomClear_; }
+  void setRoomClear(bool clear);
+  /// Measuring may flash real light, more than three times a second, only after a consent.
+  bool needsConsent() const { return isOpen() && !isSimulated() && flashLimit_ == 0; }
+  bool mayMeasure() const { return !needsConsent() || roomClear_; }
+
   /// Devices are used by one page at a time. `who`: its name; empty: nobody.
   const QString& busy() const { return busy_; }
   void setBusy(const QString& who);
@@ -100,6 +111,7 @@ class Session : public QObject {
   };
   void look(const CalibrationFolder& folder);
   void adopt(const CalibrationFolder& folder);
+  void slowDown();
 
   std::filesystem::path path_, cache_;
   CalibrateSettings settings_;
@@ -110,6 +122,8 @@ class Session : public QObject {
   std::string acquired_;  // when the result was stored that `acquisition_` is or will be
   std::optional<Failure> readFailure_;
   QString busy_;
+  int flashLimit_ = 0;
+  bool roomClear_ = false;
   Latest<std::shared_ptr<const Acquisition>> reading_;
 };
 

@@ -29,6 +29,11 @@ void Tile::init(const QString& name, const QString& sentence) {
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
+void Tile::setDashed(bool dashed) {
+  dashed_ = dashed;
+  update();
+}
+
 void Tile::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
     click();
@@ -65,8 +70,9 @@ void Tile::paintEvent(QPaintEvent*) {
   painter.setPen(QPen(hasFocus() ? c.text
                       : chosen   ? c.accent
                       : warm     ? c.border
+                      : dashed_  ? c.amber
                                  : c.line,
-                      hasFocus() ? 2.0 : 1.0));
+                      hasFocus() ? 2.0 : 1.0, dashed_ ? Qt::DashLine : Qt::SolidLine));
   painter.setBrush(chosen ? c.accentGround : c.card);
   painter.drawRoundedRect(box, space::cardRadius, space::cardRadius);
 

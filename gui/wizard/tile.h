@@ -16,6 +16,9 @@ class Tile : public QAbstractButton {
  public:
   Tile(Icon icon, const QString& name, const QString& sentence, QWidget* parent = nullptr);
   Tile(const QImage& picture, const QString& name, const QString& sentence, QWidget* parent = nullptr);
+  /// Of something that is not there now.
+  void setDashed(bool dashed);
+  bool isDashed() const { return dashed_; }
   QSize sizeHint() const override { return {280, picture_.isNull() ? 148 : 240}; }
   QSize minimumSizeHint() const override { return {140, picture_.isNull() ? 120 : 160}; }
 
@@ -31,6 +34,7 @@ class Tile : public QAbstractButton {
   std::optional<Icon> icon_;
   QImage picture_;
   QString sentence_;
+  bool dashed_ = false;
 };
 
 }  // namespace relucent

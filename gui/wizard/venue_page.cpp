@@ -103,8 +103,14 @@ bool VenuePage::goBack() {
   return true;
 }
 
+void VenuePage::setRoomClear(bool clear) {
+  roomClear_ = clear;
+  Q_EMIT changed();
+}
+
 void VenuePage::setMode(Mode mode) {
   mode_ = mode;
+  roomClear_ = false;
   if (mode != Mode::start) suggestName();
   Q_EMIT changed();
 }
@@ -151,6 +157,10 @@ void VenuePage::setFolder(const QString& folder) {
   parent_ = QDir::cleanPath(folder);
   suggestName();
   Q_EMIT changed();
+}
+
+void VenuePage::setUsualFolder(const QString& folder) {
+  if (std::exchange(usualFolder_, folder) != folder) setFolder(folder);
 }
 
 /// A name that is not taken yet.
@@ -203,6 +213,7 @@ QString VenuePage::problem() const {
   }
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed) return tr("Free %1 or choose another folder.").arg(bytesText(needed - free));
+  if (needsConsent() && !roomClear_) return tr("Confirm that the room is clear.");
   return {};
 }
 
@@ -210,7 +221,9 @@ void VenuePage::begin() {
   if (!problem().isEmpty()) return;
   try {
     QDir().mkpath(parent_);
+    bool clear = roomClear_;  // begun, the page starts over
     session_.begin(target().toStdString(), wanted());
+    session_.setRoomClear(clear);
     named_ = false;
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was measured yet."), {}, {}});

@@ -61,9 +61,16 @@ class VenuePage : public PageModel {
   void setVenueName(const QString& name);
   QString folder() const { return parent_; }
   void setFolder(const QString& folder);
+  /// Where new ones are kept as long as nobody says otherwise.
+  void setUsualFolder(const QString& folder);
   std::uint64_t freeBytes() const;
   /// What acquiring will about take.
   WorkLeft expected() const;
+
+  /// Devices of the user's may flash more than three times a second. Off whenever a new venue is begun.
+  bool needsConsent() const { return mode_ == Mode::script && session_.flashLimit() == 0; }
+  bool isRoomClear() const { return roomClear_; }
+  void setRoomClear(bool clear);
 
   /// The first sentence against beginning; empty: nothing.
   QString problem() const;
@@ -82,6 +89,8 @@ class VenuePage : public PageModel {
   std::size_t venue_ = 0, size_ = 0;
   CommandRigSettings script_;
   QString venueName_, parent_;
+  QString usualFolder_;
+  bool roomClear_ = false;
   bool named_ = false;  // by the user
 };
 

@@ -5,6 +5,7 @@ namespace relucent {
 
 Wizard::Wizard(Session& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&session_, &Session::opened, this, [this] {
+    for (PageModel* page : pages_) page->undoStack().clear();
     if (session_.isOpen()) go(standing());
   });
 }

@@ -85,6 +85,21 @@ class TestSteps : public QObject {
     QVERIFY(!resultOf(folder, Step::linearization));
   }
 
+  void theContentsPlaceIsKept() {
+    CalibrationFolder folder = beginCalibration(path("placed"), tiny());
+    QVERIFY(!settingsOf(folder).content.corners);
+    CalibrateSettings changed = settingsOf(folder);
+    changed.content.corners = uprightCorners(1.5, 2.0, 8.0, 6.0);
+    changeSettings(folder, changed);
+    QVERIFY(settingsOf(folder).content == changed.content);
+    QVERIFY(targetOf(changed.content).corners == changed.content.corners);
+    changed.content.corners.reset();
+    changeSettings(folder, changed);
+    QVERIFY(!settingsOf(folder).content.corners);
+    changed.content.corners = uprightCorners(1.5, 2.0, -8.0, 6.0);  // mirrored
+    QVERIFY(!problems(changed.content).empty());
+  }
+
   void settingsOfOtherVersionsStay() {
     CalibrationFolder folder = beginCalibration(path("foreign"), tiny());
     Json settings = folder.settings();

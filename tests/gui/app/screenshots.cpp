@@ -3,7 +3,9 @@
 // from a finished calibration, which is changed: give it a copy. To be run on an X server of its own:
 //   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR CALIBRATION
 #include <QApplication>
+#include <QDialog>
 #include <QDir>
+#include <QPushButton>
 #include <QScreen>
 #include <QTemporaryDir>
 #include <QTest>
@@ -11,6 +13,7 @@
 
 #include "app/wizard_window.h"
 #include "theme/theme.h"
+#include "wizard/identify_overlay.h"
 
 using namespace relucent;
 
@@ -26,19 +29,31 @@ class Photographs {
  public:
   Photographs(WizardWindow& wizard, QDir folder) : wizard_(wizard), folder_(std::move(folder)) {}
 
-  void take(const QString& page) {
-    for (auto [look, name] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")})
-      for (QSize size : {QSize(1366, 768), QSize(1920, 1080)}) {
-        Theme::instance().apply(look);
-        wizard_.window().resize(size);
-        QCoreApplication::processEvents();
-        QTest::qWait(50);
-        QString file = QString("%1-%2-%3.png").arg(page, name).arg(size.width());
-        wizard_.window().grab().save(folder_.filePath(file));
-      }
+  void take(const QString& page) { take(page, wizard_.window()); }
+  /// Of a dialog that is open, which is closed then.
+  void takeDialog(const QString& page, const char* name) {
+    auto* dialog = wizard_.window().findChild<QDialog*>(name);
+    for (auto [look, theme] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")}) {
+      Theme::instance().apply(look);
+      QTest::qWait(50);
+      dialog->grab().save(folder_.filePath(QString("%1-%2.png").arg(page, theme)));
+    }
+    dialog->close();
   }
 
  private:
+  void take(const QString& page, QWidget& window) {
+    for (auto [look, name] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")})
+      for (QSize size : {QSize(1366, 768), QSize(1920, 1080)}) {
+        Theme::instance().apply(look);
+        window.resize(size);
+        QCoreApplication::processEvents();
+        QTest::qWait(50);
+        QString file = QString("%1-%2-%3.png").arg(page, name).arg(size.width());
+        window.grab().save(folder_.filePath(file));
+      }
+  }
+
   WizardWindow& wizard_;
   QDir folder_;
 };
@@ -92,10 +107,33 @@ int main(int argc, char** argv) {
   wizard.cluster().primary().run();
   until([&] { return wizard.preview().preview() && wizard.preview().table().size() >= 5; });
   photographs.take("07-preview");
+  Corners corners = *wizard.preview().corners();
+  corners[0][0] += 3.0;
+  wizard.preview().setCorners(corners);
+  until([&] { return !wizard.preview().isComputing() && wizard.preview().table().size() >= 5; });
+  wizard.window().findChild<QWidget*>("preview-view")->setFocus(Qt::TabFocusReason);
+  photographs.take("07-preview-corners");
   wizard.preview().primary().run();
   wizard.output().open();
   until([&] { return !wizard.output().onProjector().isNull(); });
+  wizard.output().verify();
+  until([&] { return wizard.output().proof().proof() != nullptr; });
+  wizard.output().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});
+  wizard.output().checkDrift();
+  until([&] { return wizard.output().proof().drift().has_value(); });
   photographs.take("08-output");
   wizard.output().close();
+  photographs.take("08-closed");
+  QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-settings"), Qt::LeftButton);
+  photographs.takeDialog("10-settings", "settings");
+  QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-help"), Qt::LeftButton);
+  photographs.takeDialog("11-help", "help");
+  IdentifyOverlay overlay;
+  overlay.show();
+  for (QScreen* screen : QGuiApplication::screens())
+    if (screen != QGuiApplication::primaryScreen()) {
+      QTest::qWait(300);
+      screen->grabWindow(0).save(folder.filePath("09-identify.png"));
+    }
   return 0;
 }

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 // The wizard driven by mouse and keyboard, from the first page to the output window, on a small simulated
 // venue. Runs on two screens, see tests/support/with-two-screens.
+#include <QCheckBox>
+#include <QDesktopServices>
 #include <QLineEdit>
+#include <QMimeData>
 #include <QSlider>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "app/help_window.h"
 #include "app/wizard_window.h"
 #include "gui/output/two_screens.h"
 #include "theme/controls.h"
+#include "theme/theme.h"
 #include "views/cut_histogram.h"
 #include "views/image_view.h"
+#include "wizard/corner_view.h"
+#include "wizard/playlist_view.h"
 #include "wizard/tile.h"
 
 using namespace relucent;
@@ -27,6 +35,7 @@ class TestWizardWindow : public QObject {
   QTemporaryDir folder_;
   std::unique_ptr<QSettings> settings_;
   std::unique_ptr<WizardWindow> wizard_;
+  QUrl shown_;
 
   template <typename Widget>
   Widget* find(const char* name) {
@@ -58,6 +67,10 @@ class TestWizardWindow : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
   }
 
+ public:
+  /// In place of the desktop, which would show a report.
+  Q_INVOKABLE void show(const QUrl& url) { shown_ = url; }
+
  private slots:
   void initTestCase() { start(); }
 
@@ -65,6 +78,69 @@ class TestWizardWindow : public QObject {
     for (std::size_t i = 1; i < wizard_->wizard().count(); ++i) QVERIFY(wizard_->wizard().isLocked(i));
     press(QKeySequence("Alt+3"));
     QCOMPARE(page(), std::size_t{0});
+  }
+
+  void theGuideIsSearched() {
+    QTest::keyClick(&wizard_->window(), Qt::Key_F1);
+    auto* help = find<HelpWindow>("help");
+    QVERIFY(help != nullptr && QTest::qWaitForWindowExposed(help));
+    auto* pages = find<QListWidget>("help-pages");
+    QCOMPARE(pages->count(), static_cast<int>(wizard_->wizard().count()));
+    auto* text = find<QTextBrowser>("help-text");
+    QVERIFY(text->toPlainText().contains("Venue"));
+    QTest::keyClicks(find<QLineEdit>("help-search"), "playlist repeats");
+    QCOMPARE(pages->count(), 1);
+    QVERIFY(text->toPlainText().contains("verification photograph"));
+    QTest::keyClick(help, Qt::Key_Escape);
+    QTRY_VERIFY(!help->isVisible());
+  }
+
+  void settingsActAtOnceAndAreKept() {
+    click("open-settings");
+    QTRY_VERIFY(find<QDialog>("settings") != nullptr);
+    auto* look = find<Segmented>("settings-look");
+    QTest::mouseClick(look->findChildren<QAbstractButton*>()[1], Qt::LeftButton);
+    QVERIFY(Theme::instance().look() == Look::light);
+    QVERIFY(Preferences(*settings_).isLight());
+    QTest::mouseClick(look->findChildren<QAbstractButton*>()[0], Qt::LeftButton);
+    QVERIFY(Theme::instance().look() == Look::dark);
+    auto* dim = find<QCheckBox>("settings-dim");
+    dim->setFocus();
+    QTest::keyClick(dim, Qt::Key_Space);
+    QVERIFY(Theme::instance().isDimmed());
+    QTest::keyClick(dim, Qt::Key_Space);
+    QVERIFY(!Theme::instance().isDimmed());
+    click("close-settings");
+    QTRY_VERIFY(wizard_->window().findChild<QDialog*>("settings") == nullptr);
+  }
+
+  void theProjectorsScreenIsIdentified() {
+    wizard_->venue().setMode(VenuePage::Mode::script);
+    click("identify");
+    QTRY_VERIFY(!allBlack(seenOn("DUMMY1")));
+    // Its outermost pixels are lit: nothing is cut off.
+    auto lit = [](const QImage& seen, int x, int y) { return (seen.pixel(x, y) & 0xffffffu) != 0; };
+    QTRY_VERIFY(lit(seenOn("DUMMY1"), 0, 0));
+    QImage seen = seenOn("DUMMY1");
+    QVERIFY(lit(seen, seen.width() - 1, seen.height() - 1) && !lit(seen, 1, 1));
+    press(QKeySequence(Qt::Key_Escape));
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+
+    // A chosen screen that is unplugged keeps its card.
+    click("venue-screen-DUMMY1");
+    QVERIFY((wizard_->venue().script().projector == Size{1024, 768}));
+    QVERIFY(find<Tile>("venue-screen-DUMMY1")->accessibleName().endsWith("chosen"));
+    auto gone = [&] {
+      QList<Tile*> tiles = wizard_->window().findChildren<Tile*>();
+      return std::count_if(tiles.begin(), tiles.end(), [](Tile* tile) { return tile->isDashed(); });
+    };
+    QCOMPARE(gone(), 0);
+    unplug();
+    QTRY_COMPARE(gone(), 1);
+    plug();
+    QTRY_COMPARE(gone(), 0);
+    QVERIFY(find<Tile>("venue-screen-DUMMY1")->isChecked());
+    wizard_->venue().setMode(VenuePage::Mode::start);
   }
 
   void aRehearsalIsChosenAndBegun() {
@@ -152,6 +228,57 @@ class TestWizardWindow : public QObject {
     // The law of the product: knowing the light transport is better than not correcting at all.
     QVERIFY(table[3].psnr > table[0].psnr);
     QVERIFY(table[4].psnr >= table[3].psnr - 0.5);
+    auto* methods = find<QTableWidget>("methods");
+    QTest::mouseClick(methods->viewport(), Qt::LeftButton, {},
+                      methods->visualItemRect(methods->item(4, 0)).center());
+    QCOMPARE(wizard_->preview().settings().method, std::string("optimum"));
+  }
+
+  void theContentIsPlacedByMouseAndKeyboard() {
+    PreviewPage& preview = wizard_->preview();
+    auto* view = find<CornerView>("preview-view");
+    Corners before = *preview.corners();
+    auto at = [&](double x, double y) { return view->widgetFromPicture({x, y}).toPoint(); };
+    QPoint grip = at(before[0][0], before[0][1]), to = at(before[0][0] + 4.0, before[0][1] + 3.0);
+    QTest::mousePress(view, Qt::LeftButton, {}, grip);
+    QTest::mouseMove(view, to);
+    QTest::mouseRelease(view, Qt::LeftButton, {}, to);
+    QVERIFY(preview.settings().corners.has_value());
+    Corners dragged = *preview.corners();
+    QVERIFY(std::abs(dragged[0][0] - before[0][0] - 4.0) < 0.5);
+    QCOMPARE(dragged[2], before[2]);
+
+    // The last corner of the Tab order, by the keys.
+    view->setFocus(Qt::TabFocusReason);
+    QCOMPARE(view->active(), 0);
+    QTest::keyClick(view, Qt::Key_Tab);
+    QTest::keyClick(view, Qt::Key_Tab);
+    QCOMPARE(view->active(), 2);
+    QTest::keyClick(view, Qt::Key_Left);
+    QCOMPARE((*preview.corners())[2][0], dragged[2][0] - 1.0);
+    QTest::keyClick(view, Qt::Key_Up, Qt::ShiftModifier);
+    QVERIFY((*preview.corners())[2][1] < dragged[2][1]);
+    QCOMPARE(view->accessibleDescription(), view->cornerText(2));
+    QVERIFY(view->accessibleDescription().startsWith("Bottom right corner, "));
+
+    // Crossed corners are said, and refused.
+    Corners good = *preview.corners();
+    preview.setCorners({good[1], good[0], good[2], good[3]});
+    QVERIFY(!preview.problem().isEmpty());
+    QCOMPARE(*preview.corners(), good);
+
+    double divider = view->divider();
+    QTest::keyClick(view, Qt::Key_D);
+    QVERIFY(view->divider() != divider);
+
+    press(QKeySequence("Ctrl+Z"));
+    QVERIFY(!(*preview.corners() == good));
+    press(QKeySequence("Ctrl+Shift+Z"));
+    QCOMPARE(*preview.corners(), good);
+    QTRY_VERIFY_WITH_TIMEOUT(!preview.isComputing() && preview.problem().isEmpty(), patience);
+    click("place-automatically");
+    QVERIFY(!preview.settings().corners);
+    QTRY_VERIFY_WITH_TIMEOUT(!preview.isComputing(), patience);
     click("primary");
     QTRY_COMPARE(page(), std::size_t{7});
   }
@@ -162,12 +289,92 @@ class TestWizardWindow : public QObject {
     click("primary");
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->output().onProjector().isNull(), patience);
     QTRY_VERIFY_WITH_TIMEOUT(!allBlack(seenOn("DUMMY1")), patience);
-    wizard_->output().setBlack(true);
+    // Only while the stage has the focus, and while A is held.
+    auto* view = find<ImageView>("output-view");
+    view->setFocus();
+    QTest::keyPress(view, Qt::Key_A);
+    QVERIFY(!wizard_->output().isCompensated());
+    QTest::keyRelease(view, Qt::Key_A);
+    QVERIFY(wizard_->output().isCompensated());
+    QTest::keyClick(view, Qt::Key_Space);
+    QVERIFY(wizard_->output().isFrozen());
+    QTest::keyClick(view, Qt::Key_Space);
+    QTest::keyClick(view, Qt::Key_B);
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
-    wizard_->output().setBlack(false);
+    QTest::keyClick(view, Qt::Key_B);
     QTRY_VERIFY(!allBlack(seenOn("DUMMY1")));
+  }
+
+  void thePlaylistIsEditedByMouseAndKeyboard() {
+    OutputPage& output = wizard_->output();
+    QImage picture(40, 30, QImage::Format_RGB32);
+    picture.fill(Qt::darkGreen);
+    QString file = folder_.filePath("green.png");
+    QVERIFY(picture.save(file));
+    auto* list = find<PlaylistView>("playlist");
+    QCOMPARE(list->count(), 1);
+    QMimeData files;
+    files.setUrls({QUrl::fromLocalFile(file)});
+    QDragEnterEvent enter(QPoint(5, 5), Qt::CopyAction, &files, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(list->viewport(), &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop(QPointF(5, 5), Qt::CopyAction, &files, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(list->viewport(), &drop);
+    QCOMPARE(list->count(), 2);
+    QCOMPARE(output.playlist().settings().items[1].path, file);
+    list->setFocus();
+    list->setCurrentRow(1);
+    QTest::keyClick(list, Qt::Key_Up, Qt::ControlModifier);
+    QCOMPARE(output.playlist().settings().items[0].path, file);
+    QCOMPARE(list->currentRow(), 0);
+    QTRY_COMPARE_WITH_TIMEOUT(output.playing(), qsizetype{0}, patience);
+    click("playlist-down");
+    QCOMPARE(output.playlist().settings().items[1].path, file);
+    QTest::keyClick(list, Qt::Key_Delete);
+    QCOMPARE(list->count(), 1);
+    press(QKeySequence("Ctrl+Z"));
+    QCOMPARE(list->count(), 2);
+    QVERIFY(QFileInfo::exists(output.playlist().file()));
+    list->setCurrentRow(1);
+    click("playlist-remove");
+    QCOMPARE(list->count(), 1);
+  }
+
+  void aPhotographProvesIt() {
+    OutputPage& output = wizard_->output();
+    QVERIFY(output.primary().text == OutputPage::tr("Install without proof"));
+    press(QKeySequence("Ctrl+Shift+V"));
+    QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
+    const Proof& proof = *output.proof().proof();
+    // What was chosen at Preview reaches the projector.
+    QCOMPARE(proof.figures.method, std::string("optimum"));
+    QVERIFY(find<QWidget>("method-note")->isVisible());
+    QVERIFY(!proof.photograph.isNull() && proof.photograph.size() == proof.wanted.size());
+    QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);
+    QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
+    QVERIFY(output.isOpen());  // a simulated camera is in nobody's way
+    QVERIFY(output.primary().text == OutputPage::tr("Install show"));
+    click("check-drift");
+    QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
+    QVERIFY(output.proof().drift()->judgement.verdict == Verdict::stillGood);
+  }
+
+  void theVenueIsHandedOver() {
+    OutputPage& output = wizard_->output();
+    output.setConfigFolder(folder_.filePath("config"));
+    QDesktopServices::setUrlHandler("file", this, "show");
+    click("report");
+    QTRY_VERIFY_WITH_TIMEOUT(shown_.isValid(), patience);
+    QDesktopServices::unsetUrlHandler("file");
+    QVERIFY(QFileInfo(shown_.toLocalFile()).size() > 1000);
+    QVERIFY(!output.isInstalled());
     click("primary");
-    QTRY_VERIFY(!wizard_->output().isOpen());
+    QVERIFY(output.isInstalled());
+    click("start-with-computer");
+    click("primary");
+    QVERIFY(!output.isInstalled());
+    click("secondary-2");
+    QTRY_VERIFY(!output.isOpen());
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
   }
 

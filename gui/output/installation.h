@@ -25,6 +25,9 @@ QString autostartEntry(const QString& program, const QStringList& arguments);
 /// Throws: Error{input, disk}.
 QString install(Start start, const QString& config, const QString& program, const QStringList& arguments);
 
+/// Whether it is there.
+bool isInstalled(Start start, const QString& config);
+
 /// Takes it away again. Returns the file, or nothing if there was none. Throws: Error{disk}.
 QString uninstall(Start start, const QString& config);
 

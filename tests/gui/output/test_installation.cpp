@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/installation.h"
+#include "output/installation.h"
 
 #include <QDir>
 #include <QFileInfo>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/installation.h"
+#include "output/installation.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -127,6 +127,10 @@ QString install(Start start, const QString& config, const QString& program, cons
   writeFileAtomically(file.toStdString(), text.toStdString());
   if (start == Start::service) link(file, switchOf(config));
   return file;
+}
+
+bool isInstalled(Start start, const QString& config) {
+  return QFileInfo::exists(fileOf(start, config));
 }
 
 QString uninstall(Start start, const QString& config) {

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "app/settings_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QLocale>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+
+namespace relucent {
+namespace {
+
+/// A name above the control that it is of.
+void addNamed(QVBoxLayout* column, const QString& name, QWidget* control) {
+  column->addWidget(labelOf(name, "note"));
+  if (control->accessibleName().isEmpty()) control->setAccessibleName(name);
+  column->addWidget(control);
+}
+
+/// The program's languages that there is a translation for.
+QStringList languages() {
+  QStringList found;
+  for (const QString& file : QDir(":/translations").entryList({"relucent_*.qm"}))
+    found << file.section('_', 1).section('.', 0, 0);
+  return found;
+}
+
+}  // namespace
+
+SettingsDialog::SettingsDialog(Preferences& preferences, QWidget* parent)
+    : QDialog(parent), preferences_(preferences) {
+  setWindowTitle(tr("Settings"));
+  setObjectName("settings");
+  setMinimumWidth(520);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(space::page, space::page, space::page, space::page);
+  column->setSpacing(space::gap);
+  column->addWidget(labelOf(tr("Settings"), "title"));
+  column->addWidget(lookPart());
+  column->addWidget(measuringPart());
+  column->addWidget(folderPart());
+  column->addStretch(1);
+  auto* row = new QHBoxLayout;
+  row->addStretch(1);
+  QPushButton* close = buttonOf(tr("Close"), "primary");
+  close->setObjectName("close-settings");
+  close->setDefault(true);
+  connect(close, &QPushButton::clicked, this, &QDialog::accept);
+  row->addWidget(close);
+  column->addLayout(row);
+}
+
+QWidget* SettingsDialog::lookPart() {
+  auto* card = new Card(tr("Look"));
+  auto* look = new Segmented({tr("Dark"), tr("Light")});
+  look->setObjectName("settings-look");
+  look->setCurrent(preferences_.isLight() ? 1 : 0);
+  connect(look, &Segmented::chosen, &preferences_, [this](int index) { preferences_.setLight(index == 1); });
+  addNamed(card->body(), tr("Theme. The dark one is for the dark room."), look);
+  auto* dim = new QCheckBox(tr("Dim pictures: the laptop is room light"));
+  dim->setObjectName("settings-dim");
+  dim->setChecked(preferences_.isDimmed());
+  connect(dim, &QCheckBox::toggled, &preferences_, &Preferences::setDimmed);
+  connect(&preferences_, &Preferences::changed, dim,
+          [this, dim] { dim->setChecked(preferences_.isDimmed()); });
+  card->body()->addWidget(dim);
+  if (QStringList there = languages(); there.size() > 1) {
+    auto* language = new QComboBox;
+    language->addItem(tr("As the computer"), QString());
+    for (const QString& code : there) language->addItem(QLocale(code).nativeLanguageName(), code);
+    language->setCurrentIndex(std::max(0, language->findData(preferences_.language())));
+    connect(language, &QComboBox::activated, &preferences_,
+            [this, language] { preferences_.setLanguage(language->currentData().toString()); });
+    addNamed(card->body(), tr("Language, from the next start on"), language);
+  }
+  return card;
+}
+
+QWidget* SettingsDialog::measuringPart() {
+  auto* card = new Card(tr("Measuring"));
+  auto* limit = new QComboBox;
+  limit->setObjectName("settings-flashes");
+  limit->addItem(tr("As quickly as the devices can, after a consent"), 0);
+  for (int changes : {3, 2, 1})
+    limit->addItem(tr("At most %n change(s) a second", nullptr, changes), changes);
+  limit->setCurrentIndex(limit->findData(preferences_.flashLimit()));
+  connect(limit, &QComboBox::activated, &preferences_,
+          [this, limit] { preferences_.setFlashLimit(limit->currentData().toInt()); });
+  addNamed(card->body(), tr("Flashing light of the projector"), limit);
+  card->body()->addWidget(labelOf(
+      tr("More than three changes a second can cause seizures. Slower measuring needs no consent."), "note"));
+  auto* sound = new QCheckBox(tr("A sound when a measurement ends"));
+  sound->setObjectName("settings-sound");
+  sound->setChecked(preferences_.hasSound());
+  connect(sound, &QCheckBox::toggled, &preferences_, &Preferences::setSound);
+  card->body()->addWidget(sound);
+  return card;
+}
+
+QWidget* SettingsDialog::folderPart() {
+  auto* card = new Card(tr("New venues"));
+  auto* line = new QWidget;
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* folder = new QLineEdit(preferences_.folder());
+  folder->setObjectName("settings-folder");
+  folder->setAccessibleName(tr("Folder for new venues"));
+  row->addWidget(folder, 1);
+  QToolButton* browse = toolOf(Icon::folder, tr("Choose a folder"));
+  row->addWidget(browse);
+  addNamed(card->body(), tr("Folder"), line);
+  connect(folder, &QLineEdit::editingFinished, &preferences_,
+          [this, folder] { preferences_.setFolder(folder->text()); });
+  connect(browse, &QToolButton::clicked, this, [this, folder] {
+    QString chosen = QFileDialog::getExistingDirectory(this, tr("Choose a folder"), preferences_.folder());
+    if (chosen.isEmpty()) return;
+    preferences_.setFolder(chosen);
+    folder->setText(chosen);
+  });
+  return card;
+}
+
+}  // namespace relucent

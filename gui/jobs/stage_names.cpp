@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "jobs/stage_names.h"
+
+#include <QCoreApplication>
+#include <QRegularExpression>
+#include <QStringList>
+#include <array>
+#include <vector>
+
+namespace relucent {
+namespace {
+
+constexpr std::array stages{
+    QT_TRANSLATE_NOOP("Stage", "Algorithm 1"),
+    QT_TRANSLATE_NOOP("Stage", "Assembling the light transport"),
+    QT_TRANSLATE_NOOP("Stage", "Calibrating"),
+    QT_TRANSLATE_NOOP("Stage", "Checking that the colours of {} add up"),
+    QT_TRANSLATE_NOOP("Stage", "Clustering the light transport"),
+    QT_TRANSLATE_NOOP("Stage", "Clusters held to a size"),
+    QT_TRANSLATE_NOOP("Stage", "Comparing the inverses of clusters in {}"),
+    QT_TRANSLATE_NOOP("Stage", "Comparing the methods"),
+    QT_TRANSLATE_NOOP("Stage", "Comparing the methods in {}"),
+    QT_TRANSLATE_NOOP("Stage", "Compensating"),
+    QT_TRANSLATE_NOOP("Stage", "Decoding"),
+    QT_TRANSLATE_NOOP("Stage", "Estimating response and colours"),
+    QT_TRANSLATE_NOOP("Stage", "Estimating the light transport"),
+    QT_TRANSLATE_NOOP("Stage", "Evaluating"),
+    QT_TRANSLATE_NOOP("Stage", "Finding the defocus"),
+    QT_TRANSLATE_NOOP("Stage", "Finding the exposure"),
+    QT_TRANSLATE_NOOP("Stage", "Fitting the spread of light"),
+    QT_TRANSLATE_NOOP("Stage", "Forming patches"),
+    QT_TRANSLATE_NOOP("Stage", "Holding clusters to a size"),
+    QT_TRANSLATE_NOOP("Stage", "Inverting the clusters"),
+    QT_TRANSLATE_NOOP("Stage", "Inverting the light transport"),
+    QT_TRANSLATE_NOOP("Stage", "Inverting {}"),
+    QT_TRANSLATE_NOOP("Stage", "Joining clusters"),
+    QT_TRANSLATE_NOOP("Stage", "Linearizing"),
+    QT_TRANSLATE_NOOP("Stage", "Looking for shadows"),
+    QT_TRANSLATE_NOOP("Stage", "Looking for what cannot be corrected"),
+    QT_TRANSLATE_NOOP("Stage", "Measuring the brightness curves of {}"),
+    QT_TRANSLATE_NOOP("Stage", "Measuring the camera"),
+    QT_TRANSLATE_NOOP("Stage", "Measuring the light transport"),
+    QT_TRANSLATE_NOOP("Stage", "Measuring {}"),
+    QT_TRANSLATE_NOOP("Stage", "Photographing test patterns"),
+    QT_TRANSLATE_NOOP("Stage", "Photographing the projections"),
+    QT_TRANSLATE_NOOP("Stage", "Predicting held-out patterns"),
+    QT_TRANSLATE_NOOP("Stage", "Preparing the benchmarks"),
+    QT_TRANSLATE_NOOP("Stage", "Preparing the devices"),
+    QT_TRANSLATE_NOOP("Stage", "Preparing the engine"),
+    QT_TRANSLATE_NOOP("Stage", "Preparing the venue"),
+    QT_TRANSLATE_NOOP("Stage", "Reading the calibration"),
+    QT_TRANSLATE_NOOP("Stage", "Reading the patterns"),
+    QT_TRANSLATE_NOOP("Stage", "Reading the photographs"),
+    QT_TRANSLATE_NOOP("Stage", "Reading the pictures"),
+    QT_TRANSLATE_NOOP("Stage", "Reading {}"),
+    QT_TRANSLATE_NOOP("Stage", "Scaling to the flood image"),
+    QT_TRANSLATE_NOOP("Stage", "Separating direct and indirect light"),
+    QT_TRANSLATE_NOOP("Stage", "Sharpening"),
+    QT_TRANSLATE_NOOP("Stage", "Solving"),
+    QT_TRANSLATE_NOOP("Stage", "Timing the engine"),
+    QT_TRANSLATE_NOOP("Stage", "Windows"),
+    QT_TRANSLATE_NOOP("Stage", "Writing"),
+    QT_TRANSLATE_NOOP("Stage", "Writing out the light transport"),
+    QT_TRANSLATE_NOOP("Stage", "Writing the results"),
+    QT_TRANSLATE_NOOP("Stage", "black and full light"),
+    QT_TRANSLATE_NOOP("Stage", "level {} of {}: {} patterns"),
+    QT_TRANSLATE_NOOP("Stage", "light transport"),
+    QT_TRANSLATE_NOOP("Stage", "measuring {} flagged pixels again"),
+    QT_TRANSLATE_NOOP("Stage", "projector {}"),
+    QT_TRANSLATE_NOOP("Stage", "test patterns"),
+    QT_TRANSLATE_NOOP("Stage", "the projector"),
+    QT_TRANSLATE_NOOP("Stage", "tracing the simulated venue"),
+};
+
+struct Pattern {
+  const char* stage;
+  QRegularExpression matches;
+};
+
+/// Those with names in them.
+const std::vector<Pattern>& patterns() {
+  static const std::vector<Pattern> all = [] {
+    std::vector<Pattern> found;
+    for (const char* stage : stages) {
+      QString text = QString::fromLatin1(stage);
+      if (!text.contains("{}")) continue;
+      found.push_back({stage, QRegularExpression(
+                                  '^' + QRegularExpression::escape(text).replace("\\{\\}", "(.+)") + '$')});
+    }
+    return found;
+  }();
+  return all;
+}
+
+/// The translation may have the names in another order only if it says so: they are filled in as they come.
+QString filled(const char* stage, const QStringList& names) {
+  QString text = QCoreApplication::translate("Stage", stage);
+  for (const QString& name : names) text.replace(text.indexOf("{}"), 2, stageText(name.toStdString()));
+  return text;
+}
+
+}  // namespace
+
+std::span<const char* const> knownStages() {
+  return stages;
+}
+
+QString stageText(std::string_view stage) {
+  QString text = QString::fromUtf8(stage.data(), static_cast<qsizetype>(stage.size()));
+  for (const char* known : stages)
+    if (stage == known) return QCoreApplication::translate("Stage", known);
+  for (const Pattern& pattern : patterns())
+    if (QRegularExpressionMatch match = pattern.matches.match(text); match.hasMatch())
+      return filled(pattern.stage, match.capturedTexts().mid(1));
+  return text;
+}
+
+}  // namespace relucent

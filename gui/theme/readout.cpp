@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "theme/readout.h"
+
+#include <QPainter>
+#include <algorithm>
+
+#include "theme/theme.h"
+
+namespace relucent {
+namespace {
+
+QFont figures() {
+  return typeOf(type::readout, QFont::DemiBold);
+}
+
+double cellOf(const QFontMetricsF& metrics) {
+  double widest = 0.0;
+  for (QChar digit : QString("0123456789")) widest = std::max(widest, metrics.horizontalAdvance(digit));
+  return widest;
+}
+
+double advance(const QFontMetricsF& metrics, QChar letter) {
+  return letter.isDigit() ? cellOf(metrics) : metrics.horizontalAdvance(letter);
+}
+
+}  // namespace
+
+Readout::Readout(const QString& what, QWidget* parent) : QWidget(parent), what_(what) {
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
+  setValue(QString::fromUtf8("–"));
+}
+
+void Readout::setValue(const QString& value, bool warning) {
+  if (value == value_ && warning == warning_) return;
+  value_ = value;
+  warning_ = warning;
+  setAccessibleName(QString("%1, %2").arg(what_, value));
+  updateGeometry();
+  update();
+}
+
+QSize Readout::sizeHint() const {
+  QFontMetricsF large(figures()), small(typeOf(type::note));
+  double width = 0.0;
+  for (QChar letter : value_) width += advance(large, letter);
+  return QSizeF(std::max({width, small.horizontalAdvance(what_), 64.0}) + 4.0,
+                large.height() + small.height())
+      .toSize();
+}
+
+void Readout::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  QFontMetricsF large(figures()), small(typeOf(type::note));
+  painter.setFont(figures());
+  painter.setPen(warning_ ? colours().amber : colours().text);
+  double x = 0.0;
+  for (QChar letter : value_) {
+    double cell = advance(large, letter);
+    painter.drawText(QPointF(x + (cell - large.horizontalAdvance(letter)) / 2.0, large.ascent()), letter);
+    x += cell;
+  }
+  painter.setFont(typeOf(type::note));
+  painter.setPen(colours().secondary);
+  painter.drawText(QPointF(0.0, large.height() + small.ascent()),
+                   small.elidedText(what_, Qt::ElideRight, width()));
+}
+
+}  // namespace relucent

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QWidget>
+
+namespace relucent {
+
+/// A large figure with what it is below. Digits stand in cells of one width, so that nothing jumps while they
+/// change.
+class Readout : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Readout(const QString& what, QWidget* parent = nullptr);
+  void setValue(const QString& value, bool warning = false);
+  QString value() const { return value_; }
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return {64, sizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QString what_, value_;
+  bool warning_ = false;
+};
+
+}  // namespace relucent

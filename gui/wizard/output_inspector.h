@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QWidget>
+
+namespace relucent {
+
+class OutputPage;
+
+/// Beside the output's pictures: the screen, what plays, what was proved, and how the venue is handed over.
+QWidget* outputInspector(OutputPage& page);
+
+}  // namespace relucent

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QWidget>
+
+namespace relucent {
+
+class PreviewPage;
+
+/// Beside the preview: the content, how bright it is wanted, and what of it can be reached.
+QWidget* previewInspector(PreviewPage& page);
+
+}  // namespace relucent

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QWidget>
+
+namespace relucent {
+
+class VenuePage;
+
+/// What the first page is made of: a stage for each of its modes, and what stands beside it.
+QWidget* startStage(VenuePage& model);
+QWidget* rehearseStage(VenuePage& model);
+QWidget* rehearseInspector(VenuePage& model);
+QWidget* scriptStage(VenuePage& model);
+QWidget* scriptInspector(VenuePage& model);
+/// Name, folder, and what it will take: the same for every kind of new venue.
+QWidget* keepingPart(VenuePage& model);
+
+}  // namespace relucent

@@ -57,7 +57,11 @@ std::vector<std::string> problems(const AcquisitionBenchSettings& settings) {
   std::vector<std::string> found;
   for (const std::string& name : venueNames(settings)) {
     CalibrateSettings one;
-    one.rig = VenueSettings{.name = name, .projector = settings.projector, .camera = settings.camera};
+    VenueSettings venue;
+    venue.name = name;
+    venue.projector = settings.projector;
+    venue.camera = settings.camera;
+    one.rig = venue;
     for (std::string& problem : problems(one)) found.push_back(std::move(problem));
   }
   return found;

@@ -49,4 +49,15 @@ PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, do
   return footprint;
 }
 
+std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pixel) {
+  require(pixel < transport.projectors().count(), "pixel {} of {}", pixel, transport.projectors().count());
+  Stack white(3 * transport.projectors().count(), 0.0f);
+  for (std::size_t channel = 0; channel < 3; ++channel) white[3 * pixel + channel] = 1.0f;
+  Stack seen = transport.apply(white);
+  std::vector<float> luminance(transport.cameras().count());
+  for (std::size_t i = 0; i < luminance.size(); ++i)
+    luminance[i] = 0.2126f * seen[3 * i] + 0.7152f * seen[3 * i + 1] + 0.0722f * seen[3 * i + 2];
+  return luminance;
+}
+
 }  // namespace relucent

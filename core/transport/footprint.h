@@ -17,4 +17,8 @@ struct PixelFootprint {
 /// Contract: row < transport.cameras().count().
 PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near = 4.0);
 
+/// A column of T: luminance of what every camera pixel sees of one projector pixel in white.
+/// Contract: pixel < transport.projectors().count().
+std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pixel);
+
 }  // namespace relucent

@@ -4,15 +4,18 @@
 #include <limits>
 
 #include "clustering/cluster_map.h"
+#include "pipeline/pictures.h"
 #include "views/number_text.h"
+#include "wizard/cluster_picture.h"
 
 namespace relucent {
 namespace {
 
 constexpr int paletteColours = 8;
 
+/// `surface`: the first camera's picture in full light.
 std::shared_ptr<const ClusterResult> resultOf(const ConnectionGraph& graph,
-                                              const ClusteringSettings& settings) {
+                                              const ClusteringSettings& settings, const QImage& surface) {
   Progress quiet;
   Clustering clustering = clustered(graph, settings, quiet);
   const Rasters& cameras = graph.transport().cameras();
@@ -31,6 +34,10 @@ std::shared_ptr<const ClusterResult> resultOf(const ConnectionGraph& graph,
   result->borders.resize(pixels);
   result->map.resize(pixels);
   result->error.resize(pixels);
+  result->picture = clusterPicture(result->map, result->colours, result->borders, surface);
+  double high = std::max(0.1, std::min(1.0, result->statistics.errorP95 * 1.1));
+  result->errorScale = {ColourMap::cividis, 0.0, high, false};
+  result->errorPicture = mapped(result->error, result->camera, result->errorScale);
   return result;
 }
 
@@ -40,6 +47,7 @@ std::shared_ptr<const ClusterResult> resultOf(const ConnectionGraph& graph,
 struct ClusterPage::Prepared {
   MeasuredVenue venue;
   std::optional<ConnectionGraph> graph;
+  QImage surface;
 };
 
 ClusterPage::ClusterPage(Session& session, QObject* parent)
@@ -95,14 +103,17 @@ void ClusterPage::prepare() {
     Progress quiet;
     prepared->graph.emplace(prepared->venue.transport, prepared->venue.usable, ConnectionGraphSettings(),
                             quiet);
+    Image flood = imageFromStack(acquisition->flood, acquisition->transport.cameras(), 0);
+    prepared->surface = relucent::pictureOf(flood, displayWhite(flood));
     return prepared;
   });
 }
 
 void ClusterPage::compute() {
   if (prepared_)
-    computing_.ask(
-        [prepared = prepared_, settings = settings_] { return resultOf(*prepared->graph, settings); });
+    computing_.ask([prepared = prepared_, settings = settings_] {
+      return resultOf(*prepared->graph, settings, prepared->surface);
+    });
   Q_EMIT changed();
 }
 

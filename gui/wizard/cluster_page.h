@@ -3,6 +3,7 @@
 
 #include "clustering/clustering.h"
 #include "jobs/latest.h"
+#include "views/colour_map.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
 
@@ -17,6 +18,8 @@ struct ClusterResult {
   std::vector<float> error;           // per camera pixel; NaN where there is no cluster
   std::vector<ClusterSize> sizes;
   Size camera;
+  QImage picture, errorPicture;  // the maps to be seen
+  ColourScale errorScale;
 };
 
 /// Step 6: clusters of pixels that can be solved on their own.

@@ -2,40 +2,18 @@
 #include <QSlider>
 #include <cmath>
 
-#include "pipeline/pictures.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
-#include "views/image_view.h"
+#include "views/map_view.h"
 #include "views/number_text.h"
+#include "views/view_actions.h"
 #include "wizard/cluster_page.h"
+#include "wizard/cluster_picture.h"
 #include "wizard/page_view.h"
 
 namespace relucent {
 namespace {
-
-/// Clusters over the flood image: its brightness, the clusters' tints, borders dark.
-QImage mapOf(const ClusterResult& result, const QImage& flood) {
-  QImage image(flood.size(), QImage::Format_RGB32);
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) {
-      std::size_t at = indexOf(result.camera, {x, y});
-      QColor under(flood.pixel(x, y));
-      if (result.map[at] == noCluster) {
-        image.setPixelColor(x, y, QColor(under.red() / 4, under.green() / 4, under.blue() / 4));
-        continue;
-      }
-      const QColor& tint = clusterPalette[result.colours[result.map[at]]];
-      double light = (result.borders[at] != 0 ? 0.45 : 1.0) * (0.3 + 0.7 * qGray(under.rgb()) / 255.0);
-      auto mix = [light](int a, int b) {
-        return std::clamp(static_cast<int>(light * (0.75 * a + 0.25 * b)), 0, 255);
-      };
-      image.setPixelColor(x, y,
-                          QColor(mix(tint.red(), under.red()), mix(tint.green(), under.green()),
-                                 mix(tint.blue(), under.blue())));
-    }
-  return image;
-}
 
 std::vector<CutHistogram::Bar> barsOf(const std::vector<ClusterSize>& sizes) {
   std::vector<CutHistogram::Bar> bars;
@@ -58,22 +36,33 @@ class ClusterStage : public QWidget {
     row->setSpacing(space::gap);
     auto* mapCard = new Card(ClusterPage::tr("Cluster map"));
     mapCard->setSubtitle(ClusterPage::tr("over the surface in full light"));
-    auto* errorCard = new Card(ClusterPage::tr("Error for each camera pixel"));
-    map_ = new ImageView;
-    error_ = new ImageView;
+    errorCard_ = new Card(ClusterPage::tr("Error for each camera pixel"));
+    map_ = new MapView;
+    error_ = new MapView;
     map_->setObjectName("cluster-view");
     error_->setObjectName("error-view");
     map_->setScaleBar(true);
     map_->setLink(&link_);
     error_->setLink(&link_);
-    for (ImageView* view : {map_, error_}) {
+    for (MapView* view : {map_, error_}) {
       view->setEmptyText(ClusterPage::tr("Grouping"));
       view->setReadout([this](QPoint pixel) { return readout(pixel); });
     }
+    connect(&link_, &ViewLink::picked, this, [this] { outline(); });
+    form_ = new Segmented({ClusterPage::tr("Flat"), ClusterPage::tr("Relief")});
+    form_->setObjectName("form");
+    connect(form_, &Segmented::chosen, error_, [this](int index) { error_->setRelief(index == 1); });
+    errorCard_->addAction(form_);
+    auto fail = [&model](const Failure& failure) {
+      Q_EMIT model.failed({failure, ClusterPage::tr("What is measured is safe."), {}, {}});
+    };
+    addViewActions(*mapCard, *map_, {{}, {}}, fail);
+    addViewActions(*errorCard_, *error_, {[view = error_] { return view->values(); }, "relative RMS error"},
+                   fail);
     mapCard->body()->addWidget(map_, 1);
-    errorCard->body()->addWidget(error_, 1);
+    errorCard_->body()->addWidget(error_, 1);
     row->addWidget(mapCard, 1);
-    row->addWidget(errorCard, 1);
+    row->addWidget(errorCard_, 1);
     column->addLayout(row, 5);
     sizeCard_ = new Card(ClusterPage::tr("Cluster sizes"));
     sizes_ = new CutHistogram({1.0, 1024.0, true, ClusterPage::tr("Projector pixels in the cluster")},
@@ -103,21 +92,24 @@ class ClusterStage : public QWidget {
     const auto& result = model_.result();
     if (result == shown_) return;
     shown_ = result;
-    if (!result || !model_.acquisition()) {
+    if (!result) {
       map_->setPicture({});
+      error_->setValues({});
       return error_->setPicture({});
     }
-    Image flood = imageFromStack(model_.acquisition()->flood, model_.acquisition()->transport.cameras(), 0);
-    map_->setPicture(mapOf(*result, pictureOf(flood, displayWhite(flood))));
+    map_->setPicture(result->picture);
     map_->setAccessibleName(ClusterPage::tr("Cluster map, %1 clusters, largest %2")
                                 .arg(countText(result->sizes.size()))
                                 .arg(result->statistics.largest));
-    double high = std::max(0.1, std::min(1.0, result->statistics.errorP95 * 1.1));
-    ColourScale scale{ColourMap::cividis, 0.0, high, false};
-    error_->setScale(scale, ClusterPage::tr("rel. RMS"), true);
-    error_->setPicture(mapped(result->error, result->camera, scale));
-    error_->setAccessibleName(
-        ClusterPage::tr("Error map, median %1").arg(percentText(result->statistics.errorMedian)));
+    error_->setScale(result->errorScale, ClusterPage::tr("rel. RMS"), true);
+    error_->setPicture(result->errorPicture);
+    error_->setValues(Image(result->camera, 1, result->error));
+    form_->setEnabled(error_->canRise());
+    QString median = percentText(result->statistics.errorMedian);
+    error_->setAccessibleName(ClusterPage::tr("Error map, median %1").arg(median));
+    errorCard_->setSubtitle(
+        ClusterPage::tr("median %1, 95 % below %2").arg(median, percentText(result->statistics.errorP95)));
+    outline();
     sizes_->setBars(barsOf(result->sizes));
     sizes_->setCut(model_.settings().mostUnknowns);
     sizes_->setCutText(ClusterPage::tr("cap %1").arg(model_.settings().mostUnknowns));
@@ -126,10 +118,23 @@ class ClusterStage : public QWidget {
                                .arg(result->statistics.medianUnknowns));
   }
 
+  /// Of the picked pixel's cluster, in both maps.
+  void outline() {
+    QImage line;
+    if (shown_ && link_.pick()) {
+      std::size_t at = indexOf(shown_->camera, {link_.pick()->x(), link_.pick()->y()});
+      if (at < shown_->map.size() && shown_->map[at] != noCluster)
+        line = clusterOutline(shown_->map, shown_->camera, shown_->map[at]);
+    }
+    map_->setOverlay(line);
+    error_->setOverlay(line);
+  }
+
   ClusterPage& model_;
   ViewLink link_;
-  ImageView *map_, *error_;
-  Card* sizeCard_;
+  MapView *map_, *error_;
+  Card *errorCard_, *sizeCard_;
+  Segmented* form_;
   CutHistogram* sizes_;
   std::shared_ptr<const ClusterResult> shown_;
 };

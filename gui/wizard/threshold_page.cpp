@@ -33,7 +33,31 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           }),
       looking_(
           [this](std::shared_ptr<const PixelFootprint> footprint) {
+            if (!adopted_ || footprint->luminance.size() != adopted_->transport.projectors().count()) return;
             footprint_ = std::move(footprint);
+            if (std::exchange(follows_, false) && footprint_->pixels > 0 &&
+                footprint_->strongest < adopted_->transport.projectors().size(0).count()) {
+              pickedProjector_ = pixelAt(adopted_->transport.projectors().size(0), footprint_->strongest);
+              lookAtColumn();
+            }
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }),
+      lighting_(
+          [this](std::shared_ptr<const std::vector<float>> lit) {
+            if (!adopted_ || lit->size() != adopted_->transport.cameras().count()) return;
+            lit_ = std::move(lit);
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }),
+      picturing_(
+          [this](std::shared_ptr<const MatrixPictures> matrix) {
+            if (!adopted_ || &matrix->transport() != &adopted_->transport) return;
+            matrix_ = std::move(matrix);
             Q_EMIT changed();
           },
           [this](const Failure& failure) {
@@ -42,8 +66,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
   connect(&session_, &Session::opened, this, [this] {
     cut_ = session_.settings().threshold;
     shareOfRow_ = cut_.shareOfRowMax > 0.0f;
-    picked_.reset();
-    footprint_ = nullptr;
+    forget();
   });
   connect(&session_, &Session::changed, this, [this] {
     adopt();
@@ -56,15 +79,22 @@ void ThresholdPage::adopt() {
   adopted_ = session_.acquisition();
   whole_.reset();
   kept_.reset();
+  matrix_ = nullptr;
+  forget();
   if (!adopted_) return;
   first_.ask([acquisition = adopted_] { return statisticsOf(acquisition->transport); });
   compute();
 }
 
 void ThresholdPage::compute() {
-  if (adopted_)
+  if (adopted_) {
     statistics_.ask(
         [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
+    picturing_.ask([acquisition = adopted_, cut = cut_]() -> std::shared_ptr<const MatrixPictures> {
+      std::shared_ptr<const TransportMatrix> transport(acquisition, &acquisition->transport);
+      return std::make_shared<MatrixPictures>(transport, cut);
+    });
+  }
   Q_EMIT changed();
 }
 
@@ -127,14 +157,54 @@ void ThresholdPage::setShare(double share) {
   compute();
 }
 
+void ThresholdPage::forget() {
+  picked_.reset();
+  pickedProjector_.reset();
+  footprint_ = nullptr;
+  lit_ = nullptr;
+  follows_ = false;
+}
+
 void ThresholdPage::pick(Pixel pixel) {
   if (!adopted_) return;
   picked_ = pixel;
-  std::size_t row = indexOf(adopted_->transport.cameras().size(0), pixel);
+  follows_ = true;
+  lookAtRow();
+  Q_EMIT changed();
+}
+
+void ThresholdPage::pickProjector(Pixel pixel) {
+  if (!adopted_) return;
+  pickedProjector_ = pixel;
+  follows_ = false;
+  lookAtColumn();
+  Q_EMIT changed();
+}
+
+void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
+  if (!adopted_) return;
+  Size camera = adopted_->transport.cameras().size(0), projector = adopted_->transport.projectors().size(0);
+  if (row >= camera.count() || column >= projector.count()) return;
+  picked_ = pixelAt(camera, row);
+  pickedProjector_ = pixelAt(projector, column);
+  follows_ = false;
+  lookAtRow();
+  lookAtColumn();
+  Q_EMIT changed();
+}
+
+void ThresholdPage::lookAtRow() {
+  std::size_t row = indexOf(adopted_->transport.cameras().size(0), *picked_);
   looking_.ask([acquisition = adopted_, row]() -> std::shared_ptr<const PixelFootprint> {
     return std::make_shared<PixelFootprint>(footprintOf(acquisition->transport, row));
   });
-  Q_EMIT changed();
+}
+
+void ThresholdPage::lookAtColumn() {
+  std::size_t column = indexOf(adopted_->transport.projectors().size(0), *pickedProjector_);
+  lighting_.ask([acquisition = adopted_, column]() -> std::shared_ptr<const std::vector<float>> {
+    return std::make_shared<std::vector<float>>(lightOfPixel(acquisition->transport, column));
+  });
 }
 
 void ThresholdPage::accept() {

@@ -3,6 +3,7 @@
 
 #include "jobs/latest.h"
 #include "transport/footprint.h"
+#include "transport/matrix_density.h"
 #include "transport/statistics.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
@@ -42,13 +43,26 @@ class ThresholdPage : public PageModel {
   void setShare(double share);
   void useSuggested() { setAbsolute(suggested_); }
 
-  /// A pixel of the first camera that is looked at, and where its light comes from.
+  /// Pictures of what the cut leaves of T; follows the cut.
+  const std::shared_ptr<const MatrixPictures>& matrix() const { return matrix_; }
+
+  /// A pixel of the first camera that is looked at, and where its light comes from: its row of T.
+  /// The first projector's strongest pixel is then looked at as well.
   void pick(Pixel pixel);
   const std::optional<Pixel>& picked() const { return picked_; }
   const std::shared_ptr<const PixelFootprint>& footprint() const { return footprint_; }
+  /// A pixel of the first projector that is looked at, and what it lights: its column of T.
+  void pickProjector(Pixel pixel);
+  const std::optional<Pixel>& pickedProjector() const { return pickedProjector_; }
+  const std::shared_ptr<const std::vector<float>>& lit() const { return lit_; }
+  /// Both at once: an entry of T. Beyond the first camera and projector nothing is picked.
+  void pickEntry(std::size_t row, std::size_t column);
 
  private:
   void adopt();
+  void forget();
+  void lookAtRow();
+  void lookAtColumn();
   void compute();
   void accept();
 
@@ -58,10 +72,15 @@ class ThresholdPage : public PageModel {
   bool shareOfRow_ = false;
   std::optional<TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;
-  std::optional<Pixel> picked_;
+  std::optional<Pixel> picked_, pickedProjector_;
   std::shared_ptr<const PixelFootprint> footprint_;
+  std::shared_ptr<const std::vector<float>> lit_;
+  std::shared_ptr<const MatrixPictures> matrix_;
+  bool follows_ = false;  // the projector's pixel is to be the picked row's strongest
   Latest<TransportStatistics> statistics_, first_;
   Latest<std::shared_ptr<const PixelFootprint>> looking_;
+  Latest<std::shared_ptr<const std::vector<float>>> lighting_;
+  Latest<std::shared_ptr<const MatrixPictures>> picturing_;
 };
 
 }  // namespace relucent

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/pictures.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
-#include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/page_view.h"
 #include "wizard/threshold_page.h"
+#include "wizard/threshold_pictures.h"
 
 namespace relucent {
 namespace {
@@ -33,82 +32,16 @@ Axis axisOf(const StrengthHistogram& histogram) {
           ThresholdPage::tr("Transport value, camera signal a second")};
 }
 
-/// The flood image to pick in, and where the picked pixel's light comes from.
-class Pictures : public QWidget {
- public:
-  explicit Pictures(ThresholdPage& model) : model_(model) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(space::gap);
-    auto* camera = new Card(ThresholdPage::tr("Camera view"));
-    camera->setSubtitle(ThresholdPage::tr("click a pixel"));
-    flood_ = new ImageView;
-    flood_->setObjectName("flood-view");
-    flood_->setAccessibleName(ThresholdPage::tr("The surface in full light"));
-    flood_->setEmptyText(ThresholdPage::tr("Reading the light transport"));
-    flood_->setScaleBar(true);
-    flood_->setReadout(
-        [](QPoint pixel) { return ThresholdPage::tr("Pixel %1, %2").arg(pixel.x()).arg(pixel.y()); });
-    camera->body()->addWidget(flood_, 1);
-    auto* projector = new Card(ThresholdPage::tr("Lit by these projector pixels"));
-    print_ = new ImageView;
-    print_->setAccessibleName(ThresholdPage::tr("Projector pixels that light the picked camera pixel"));
-    print_->setEmptyText(ThresholdPage::tr("Click a pixel in the camera view."));
-    projector->body()->addWidget(print_, 1);
-    row->addWidget(camera, 1);
-    row->addWidget(projector, 1);
-    connect(&flood_->link(), &ViewLink::picked, &model, [this] {
-      if (auto pick = flood_->link().pick()) model_.pick({pick->x(), pick->y()});
-    });
-    print_->setReadout([this](QPoint pixel) { return readout(pixel); });
-    connect(&model, &ThresholdPage::changed, this, [this] { refresh(); });
-    refresh();
-  }
-
- private:
-  QString readout(QPoint pixel) const {
-    if (!model_.footprint() || !model_.acquisition()) return {};
-    Size size = model_.acquisition()->transport.projectors().size(0);
-    return QString("%1, %2: %3")
-        .arg(pixel.x())
-        .arg(pixel.y())
-        .arg(numberText(
-            static_cast<double>(model_.footprint()->luminance[indexOf(size, {pixel.x(), pixel.y()})])));
-  }
-  void refresh() {
-    if (model_.acquisition() != shown_) {
-      shown_ = model_.acquisition();
-      if (shown_) {
-        Image flood = imageFromStack(shown_->flood, shown_->transport.cameras(), 0);
-        flood_->setPicture(pictureOf(flood, displayWhite(flood)));
-      } else {
-        flood_->setPicture({});
-      }
-    }
-    if (model_.footprint() == print()) return;
-    footprint_ = model_.footprint();
-    if (!footprint_ || !shown_) return print_->setPicture({});
-    const Rasters& projectors = shown_->transport.projectors();
-    std::span<const float> first(footprint_->luminance.data(), projectors.size(0).count());
-    double most = std::max(1e-12, static_cast<double>(footprint_->luminance[footprint_->strongest]));
-    ColourScale scale{ColourMap::viridis, most * 1e-4, most, true};
-    print_->setScale(scale, ThresholdPage::tr("transport"), false);
-    print_->setPicture(mapped(first, projectors.size(0), scale));
-  }
-  const std::shared_ptr<const PixelFootprint>& print() const { return footprint_; }
-
-  ThresholdPage& model_;
-  ImageView *flood_, *print_;
-  std::shared_ptr<const Acquisition> shown_;
-  std::shared_ptr<const PixelFootprint> footprint_;
-};
-
 QWidget* stageOf(ThresholdPage& model) {
   auto* stage = new QWidget;
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  column->addWidget(new Pictures(model), 5);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(space::gap);
+  row->addWidget(deviceCard(model), 10);
+  row->addWidget(matrixCard(model), 11);
+  column->addLayout(row, 5);
   auto* card = new Card(ThresholdPage::tr("How much light flows through each connection"));
   card->setSubtitle(ThresholdPage::tr("drag the cut, or use the arrow keys"));
   auto* histogram = new CutHistogram({1e-6, 1.0, true, {}}, ThresholdPage::tr("Connections"));

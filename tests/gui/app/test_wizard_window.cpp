@@ -17,6 +17,7 @@
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
 #include "views/image_view.h"
+#include "views/matrix_view.h"
 #include "wizard/corner_view.h"
 #include "wizard/playlist_view.h"
 #include "wizard/tile.h"
@@ -207,6 +208,19 @@ class TestWizardWindow : public QObject {
     QTest::mouseClick(flood, Qt::LeftButton, {}, flood->widgetFromPicture({24.5, 18.5}).toPoint());
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->threshold().footprint() != nullptr, patience);
     QVERIFY(wizard_->threshold().footprint()->pixels > 0);
+    // The picked row's strongest projector pixel is followed back, and both are an entry of T.
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->threshold().lit() != nullptr, patience);
+    auto* matrix = find<MatrixView>("matrix-view");
+    QTRY_VERIFY_WITH_TIMEOUT(matrix->isSettled() && matrix->valueAt({0, 0}), patience);
+    QVERIFY(matrix->link().pick().has_value());
+    QPoint entry = *matrix->link().pick();
+    QCOMPARE(entry.y(), 18 * 48 + 24);
+    QCOMPARE(static_cast<std::size_t>(entry.x()), wizard_->threshold().footprint()->strongest);
+    matrix->setFocus();
+    QTest::keyClick(matrix, entry.x() > 0 ? Qt::Key_Left : Qt::Key_Right);
+    QVERIFY(*matrix->link().pick() != entry);
+    QCOMPARE(wizard_->threshold().pickedProjector()->x + 64 * wizard_->threshold().pickedProjector()->y,
+             matrix->link().pick()->x());
     click("primary");
     QTRY_COMPARE(page(), std::size_t{5});
   }

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "views/matrix_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "views/colour_bar.h"
+#include "views/number_text.h"
+#include "views/plane_scene.h"
+#include "views/raster_axis.h"
+#include "views/vtk_view.h"
+
+namespace relucent {
+namespace {
+
+constexpr double rowsWidth = 52.0, columnsHeight = 34.0, barWidth = 64.0, margin = 8.0;
+constexpr int mostCells = 1024;       // a side of a picture: more than most views have pixels
+constexpr double around = 0.3;        // of what is seen, on each side, so that a short pan needs nothing new
+constexpr double decades = 4.0;       // that colours tell apart
+constexpr double lensShare = 0.4;     // of the frame's shorter side
+constexpr double lensPower = 4.0;     // more than the view round it
+constexpr double entryPixels = 48.0;  // of a single entry at the highest magnification
+
+enum Layer { wholeLayer, detailLayer, lensLayer };
+
+/// From the brightest cell some decades down. In half decades, so that the colours stay while one pans.
+ColourScale scaleOf(const std::vector<float>& means) {
+  float most = 0.0f;
+  for (float value : means) most = std::max(most, value);
+  double high =
+      most > 0.0f ? std::pow(10.0, std::ceil(2.0 * std::log10(static_cast<double>(most))) / 2.0) : 1.0;
+  return {ColourMap::viridis, high * std::pow(10.0, -decades), high, true};
+}
+
+/// How many entries make a cell, so that cells are about as large as the screen's pixels.
+std::size_t entriesOfACell(double entries, double pixels) {
+  double least = std::max(entries / mostCells, entries / std::max(1.0, pixels));
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(least - 1e-6)));
+}
+
+/// [first, last) widened to whole cells of equal length within `all`; all of it in cells of about that
+/// length.
+void fitCells(double first, double last, std::size_t all, std::size_t length, std::size_t& begin,
+              std::size_t& end, int& cells) {
+  length = std::min(length, all);
+  if (last - first >= static_cast<double>(all)) {
+    begin = 0;
+    end = all;
+    cells = static_cast<int>(all / length);
+    return;
+  }
+  auto wanted = static_cast<std::size_t>(std::ceil((last - first) / static_cast<double>(length))) + 1;
+  std::size_t count = std::clamp(wanted, std::size_t{1}, all / length);
+  auto from = static_cast<std::size_t>(std::max(0.0, std::floor(first)));
+  begin = std::min(from, all - count * length);
+  end = begin + count * length;
+  cells = static_cast<int>(count);
+}
+
+}  // namespace
+
+MatrixView::MatrixView(QWidget* parent)
+    : PlaneView(parent),
+      asking_([this](Answer answer) { take(std::move(answer)); },
+              [this](const Failure& failure) { setEmptyText(failure.what); }) {
+  useVtk();
+  plane_ = std::make_unique<PlaneScene>(*vtk());
+  for (Layer layer : {wholeLayer, detailLayer, lensLayer}) require(plane_->addLayer() == layer, "layers");
+  setReadout([this](QPoint entry) {
+    if (!QRect(QPoint(), planeSize()).contains(entry)) return QString();
+    QString place =
+        tr("camera %1, projector %2")
+            .arg(pixelText(matrix_->transport().cameras(), static_cast<std::size_t>(entry.y())),
+                 pixelText(matrix_->transport().projectors(), static_cast<std::size_t>(entry.x())));
+    std::optional<float> value = valueAt(entry);
+    return value ? tr("%1: %2").arg(place, numberText(static_cast<double>(*value))) : place;
+  });
+}
+
+MatrixView::~MatrixView() = default;
+
+void MatrixView::setMatrix(std::shared_ptr<const MatrixPictures> matrix) {
+  bool other = !matrix || !matrix_ || &matrix->transport() != &matrix_->transport();
+  matrix_ = std::move(matrix);
+  if (other) {
+    shown_ = {};
+    plane_->setPicture(wholeLayer, {});
+    plane_->setPicture(detailLayer, {});
+    plane_->setPicture(lensLayer, {});
+  }
+  if (matrix_ && other) {
+    QSize plane = planeSize();
+    double most = entryPixels * std::max(plane.width() / 200.0, plane.height() / 200.0);
+    link().setMostZoom(std::max(4.0, most));
+    link().look(1.0, {0.5, 0.5});
+  }
+  refresh();
+}
+
+QSize MatrixView::planeSize() const {
+  if (!matrix_) return {};
+  MatrixPart all = matrix_->whole();
+  return {static_cast<int>(all.columns()), static_cast<int>(all.rows())};
+}
+
+QRectF MatrixView::frame() const {
+  return QRectF(rect()).adjusted(rowsWidth, margin, -barWidth - margin, -columnsHeight);
+}
+
+QRectF MatrixView::barArea() const {
+  return QRectF(frame().right() + margin, 0, barWidth, height());
+}
+
+QRectF MatrixView::looked() const {
+  QRectF area = frame();
+  QPointF from = pictureFromWidget(area.topLeft()), to = pictureFromWidget(area.bottomRight());
+  return QRectF(from, to) & QRectF(QPointF(), QSizeF(planeSize()));
+}
+
+MatrixPart MatrixView::seen() const {
+  QRectF part = looked();
+  return {
+      static_cast<std::size_t>(std::floor(part.top())), static_cast<std::size_t>(std::ceil(part.bottom())),
+      static_cast<std::size_t>(std::floor(part.left())), static_cast<std::size_t>(std::ceil(part.right()))};
+}
+
+/// What to make a picture of, so that `looked` and what is round it are sharp.
+MatrixPart MatrixView::partFor(const QRectF& part, Size& cells) const {
+  double ratio = devicePixelRatioF();
+  QRectF wide = part.adjusted(-around * part.width(), -around * part.height(), around * part.width(),
+                              around * part.height()) &
+                QRectF(QPointF(), QSizeF(planeSize()));
+  MatrixPart found;
+  MatrixPart all = matrix_->whole();
+  fitCells(wide.left(), wide.right(), all.columns(), entriesOfACell(part.width(), ratio * frame().width()),
+           found.firstColumn, found.endColumn, cells.width);
+  fitCells(wide.top(), wide.bottom(), all.rows(), entriesOfACell(part.height(), ratio * frame().height()),
+           found.firstRow, found.endRow, cells.height);
+  return found;
+}
+
+/// The picture that is there is as sharp as the screen and reaches as far as one sees.
+bool MatrixView::isSharp() const {
+  if (shown_.of != matrix_ || !shown_.detail.density) return false;
+  const MatrixDensity& have = *shown_.detail.density;
+  QRectF part = looked();
+  Size cells;
+  MatrixPart wanted = partFor(part, cells);
+  auto length = [](std::size_t entries, int count) { return static_cast<double>(entries) / count; };
+  bool fine = length(have.part.columns(), have.cells.width) <= 1.01 * length(wanted.columns(), cells.width) &&
+              length(have.part.rows(), have.cells.height) <= 1.01 * length(wanted.rows(), cells.height);
+  QRectF reach(QPointF(have.part.firstColumn, have.part.firstRow),
+               QPointF(have.part.endColumn, have.part.endRow));
+  // At the far border a cell's length may not come out even; what is left there is less than a pixel.
+  double slackX = length(wanted.columns(), cells.width), slackY = length(wanted.rows(), cells.height);
+  return fine && reach.adjusted(-slackX, -slackY, slackX, slackY).contains(part);
+}
+
+QRectF MatrixView::lensFrame() const {
+  QRectF area = frame();
+  double side = lensShare * std::min(area.width(), area.height());
+  double gap = margin;
+  QRectF right(area.right() - side - gap, area.top() + gap, side, side);
+  QRectF left(area.left() + gap, area.bottom() - side - gap, side, side);
+  QPointF pick = widgetFromPicture(QPointF(link().pick().value_or(QPoint())));
+  // T is a band from upper left to lower right; beside it there is room.
+  return right.adjusted(-gap, -gap, gap, gap).contains(pick) ? left : right;
+}
+
+std::optional<MatrixPart> MatrixView::lensPart() const {
+  std::optional<QPoint> pick = link().pick();
+  if (!pick || !matrix_ || !looked().contains(QPointF(*pick) + QPointF(0.5, 0.5))) return std::nullopt;
+  QRectF lens = lensFrame();
+  QSizeF scale = fit() * link().zoom();
+  QRectF part(0.0, 0.0, lens.width() / (scale.width() * lensPower),
+              lens.height() / (scale.height() * lensPower));
+  if (part.width() < 16.0 || part.height() < 16.0) return std::nullopt;
+  part.moveCenter(QPointF(*pick));
+  QSize plane = planeSize();
+  part.moveLeft(std::clamp(part.left(), 0.0, std::max(0.0, plane.width() - part.width())));
+  part.moveTop(std::clamp(part.top(), 0.0, std::max(0.0, plane.height() - part.height())));
+  part &= QRectF(QPointF(), QSizeF(plane));
+  return MatrixPart{static_cast<std::size_t>(part.top()), static_cast<std::size_t>(part.bottom()),
+                    static_cast<std::size_t>(part.left()), static_cast<std::size_t>(part.right())};
+}
+
+bool MatrixView::hasLens() const {
+  return shown_.lens.density && lensPart() == shown_.lens.density->part;
+}
+
+MatrixView::Picture MatrixView::pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells) {
+  Picture picture;
+  picture.density = std::make_shared<MatrixDensity>(matrix.density(part, cells));
+  picture.means = picture.density->means();
+  return picture;
+}
+
+void MatrixView::want() {
+  if (!matrix_ || !vtk()->works() || frame().isEmpty() || !isVisible()) return;
+  std::optional<MatrixPart> lens = lensPart();
+  bool lensDone = shown_.of == matrix_ && (!lens || hasLens());
+  wanted_ = !isSharp() || !lensDone;
+  if (!wanted_) return;
+  Size cells;
+  MatrixPart part = partFor(looked(), cells);
+  Picture whole = shown_.of == matrix_ ? shown_.whole : Picture();
+  int side = static_cast<int>(lensFrame().width() * devicePixelRatioF());
+  asking_.ask([matrix = matrix_, part, cells, whole, lens, side] {
+    Answer answer{matrix, whole, pictureOf(*matrix, part, cells), {}, {}};
+    if (lens)
+      answer.lens = pictureOf(*matrix, *lens,
+                              {std::clamp(side, 1, static_cast<int>(lens->columns())),
+                               std::clamp(side, 1, static_cast<int>(lens->rows()))});
+    MatrixPart all = matrix->whole();
+    if (!answer.whole.density) {
+      Size coarse{static_cast<int>(std::min<std::size_t>(all.columns(), 512)),
+                  static_cast<int>(std::min<std::size_t>(all.rows(), 512))};
+      answer.whole = pictureOf(*matrix, all, coarse);
+    }
+    answer.scale = scaleOf(answer.detail.means);
+    for (Picture* picture : {&answer.whole, &answer.detail, &answer.lens})
+      if (picture->density) picture->image = mapped(picture->means, picture->density->cells, answer.scale);
+    return answer;
+  });
+}
+
+void MatrixView::take(Answer answer) {
+  if (answer.of != matrix_ && (!matrix_ || &answer.of->transport() != &matrix_->transport())) return;
+  scale_ = answer.scale;
+  shown_ = std::move(answer);
+  plane_->setPicture(wholeLayer, shown_.whole.image);
+  plane_->setPicture(detailLayer, shown_.detail.image);
+  plane_->setPicture(lensLayer, shown_.lens.image);
+  refresh();
+}
+
+QRectF MatrixView::targetOf(const MatrixPart& part) const {
+  return QRectF(widgetFromPicture(QPointF(part.firstColumn, part.firstRow)),
+                widgetFromPicture(QPointF(part.endColumn, part.endRow)));
+}
+
+void MatrixView::arrange() {
+  plane_->fill(size());
+  plane_->setShown(matrix_ != nullptr);
+  if (shown_.of && matrix_) {
+    for (auto [layer, picture] :
+         {std::pair(wholeLayer, &shown_.whole), std::pair(detailLayer, &shown_.detail)}) {
+      QRectF target = targetOf(picture->density->part);
+      bool large = target.width() >= picture->density->cells.width &&
+                   target.height() >= picture->density->cells.height;
+      plane_->place(layer, target, frame(), 1.0, !large);
+    }
+  }
+  QRectF lens = hasLens() ? lensFrame() : QRectF();
+  plane_->place(lensLayer, lens, lens, 1.0, true);
+  plane_->placeBar(matrix_ ? colourBarIn(barArea()) : QRectF(), scale_);
+  want();
+}
+
+const MatrixView::Picture* MatrixView::finestAt(QPoint entry) const {
+  auto row = static_cast<std::size_t>(entry.y()), column = static_cast<std::size_t>(entry.x());
+  for (const Picture* picture : {&shown_.detail, &shown_.whole}) {
+    if (!picture->density) continue;
+    const MatrixPart& part = picture->density->part;
+    if (row >= part.firstRow && row < part.endRow && column >= part.firstColumn && column < part.endColumn)
+      return picture;
+  }
+  return nullptr;
+}
+
+std::optional<float> MatrixView::valueAt(QPoint entry) const {
+  const Picture* picture = finestAt(entry);
+  if (picture == nullptr) return std::nullopt;
+  Pixel cell =
+      picture->density->cellOf(static_cast<std::size_t>(entry.y()), static_cast<std::size_t>(entry.x()));
+  return picture->means[indexOf(picture->density->cells, cell)];
+}
+
+Image MatrixView::values() const {
+  if (!shown_.detail.density) return {};
+  const MatrixDensity& density = *shown_.detail.density;
+  MatrixPart wanted = seen();
+  std::size_t firstRow = std::max(wanted.firstRow, density.part.firstRow);
+  std::size_t firstColumn = std::max(wanted.firstColumn, density.part.firstColumn);
+  std::size_t endRow = std::min(wanted.endRow, density.part.endRow);
+  std::size_t endColumn = std::min(wanted.endColumn, density.part.endColumn);
+  if (firstRow >= endRow || firstColumn >= endColumn) return {};
+  Pixel first = density.cellOf(firstRow, firstColumn), last = density.cellOf(endRow - 1, endColumn - 1);
+  Image image({last.x - first.x + 1, last.y - first.y + 1}, 1);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      image.at(x, y, 0) = shown_.detail.means[indexOf(density.cells, {first.x + x, first.y + y})];
+  return image;
+}
+
+}  // namespace relucent

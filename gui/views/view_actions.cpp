@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "views/view_actions.h"
+
+#include <QCoreApplication>
+#include <QFileDialog>
+#include <QMenu>
+#include <QToolButton>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/plane_view.h"
+
+namespace relucent {
+namespace {
+
+struct Words {
+  Q_DECLARE_TR_FUNCTIONS(ViewActions)
+};
+
+QToolButton* toolOf(Icon icon, const QString& name) {
+  auto* button = new QToolButton;
+  button->setToolTip(name);
+  button->setAccessibleName(name);
+  button->setFocusPolicy(Qt::StrongFocus);
+  auto paint = [button, icon] { button->setIcon(iconOf(icon, colours().text)); };
+  QObject::connect(&Theme::instance(), &Theme::changed, button, paint);
+  paint();
+  return button;
+}
+
+}  // namespace
+
+void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
+  std::filesystem::path file(path.toStdString());
+  if (path.endsWith(".exr", Qt::CaseInsensitive)) {
+    Image numbers = values.values ? values.values() : Image();
+    if (numbers.empty())
+      throw Error(ErrorKind::input, "there are no numbers to save yet", "wait until the view is complete",
+                  file.string());
+    std::map<std::string, ExrAttribute> attributes{{exr_attribute::units, values.units}};
+    return writeExr(file, numbers, ExrType::floatType, std::move(attributes));
+  }
+  if (!path.endsWith(".png", Qt::CaseInsensitive))
+    throw Error(ErrorKind::input, "a view is saved as .png or .exr", "choose one of these endings",
+                file.string());
+  if (!view.asSeen().save(path, "PNG"))
+    throw Error(ErrorKind::disk, "the picture could not be written",
+                "choose a folder that you may write to, with free space", file.string());
+}
+
+void addViewActions(Card& card, PlaneView& view, ViewValues values,
+                    std::function<void(const Failure&)> failed) {
+  QToolButton* fit = toolOf(Icon::fit, Words::tr("Show everything"));
+  QObject::connect(fit, &QToolButton::clicked, &view, [&view] { view.link().look(1.0, {0.5, 0.5}); });
+  card.addAction(fit);
+
+  QToolButton* save = toolOf(Icon::save, Words::tr("Save"));
+  auto* menu = new QMenu(save);
+  auto add = [&, save](const QString& text, const QString& title, const QString& filter,
+                       const QString& ending) {
+    QObject::connect(menu->addAction(text), &QAction::triggered, &view, [=, &view] {
+      QString path = QFileDialog::getSaveFileName(save->window(), title, {}, filter);
+      if (path.isEmpty()) return;
+      if (!path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
+      try {
+        saveView(view, values, path);
+      } catch (...) {
+        failed(failureOf(std::current_exception()));
+      }
+    });
+  };
+  add(Words::tr("Picture as seen"), Words::tr("Save the picture"), Words::tr("Pictures (*.png)"), ".png");
+  if (values.values)
+    add(Words::tr("Values"), Words::tr("Save the values"), Words::tr("OpenEXR (*.exr)"), ".exr");
+  save->setMenu(menu);
+  save->setPopupMode(QToolButton::InstantPopup);
+  card.addAction(save);
+}
+
+}  // namespace relucent

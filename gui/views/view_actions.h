@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "image/image.h"
+#include "jobs/failure.h"
+
+namespace relucent {
+
+class Card;
+class PlaneView;
+
+/// What a view can save beside its picture.
+struct ViewValues {
+  std::function<Image()> values;  // empty: there are none now
+  std::string units;
+};
+
+/// Buttons in a card's head: show everything, save what is seen as PNG or its numbers as OpenEXR.
+/// `failed` is told what could not be saved.
+void addViewActions(Card& card, PlaneView& view, ViewValues values,
+                    std::function<void(const Failure&)> failed);
+
+/// What the view shows, or its numbers, by the name's ending: .png or .exr.
+/// Throws: Error{input} for another ending or without numbers, Error{disk}.
+void saveView(PlaneView& view, const ViewValues& values, const QString& path);
+
+}  // namespace relucent

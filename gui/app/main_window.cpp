@@ -16,12 +16,11 @@
 namespace relucent {
 namespace {
 
-/// The one folder that is dragged, or that of the calibration's file; empty: neither.
+/// The one folder or calibration's file that is dragged; empty: neither.
 QString calibrationIn(const QMimeData& data) {
   if (data.urls().size() != 1) return {};
   QFileInfo file(data.urls().first().toLocalFile());
-  if (file.isDir()) return file.filePath();
-  return file.exists() && file.fileName() == "calibration.relucent" ? file.path() : QString();
+  return file.isDir() || file.fileName() == "calibration.relucent" ? file.filePath() : QString();
 }
 
 }  // namespace

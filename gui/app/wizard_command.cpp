@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QDir>
+#include <QFontDatabase>
 #include <QSettings>
 #include <QStandardPaths>
 #include <cstring>
@@ -11,6 +12,16 @@
 #include "app/wizard_window.h"
 
 namespace relucent {
+namespace {
+
+/// Where everything was packed into one folder, the type lies there too.
+void addPackedFonts() {
+  QDir fonts(QApplication::applicationDirPath() + "/../share/fonts");
+  for (const QString& file : fonts.entryList({"Inter*.otf"}, QDir::Files))
+    QFontDatabase::addApplicationFont(fonts.filePath(file));
+}
+
+}  // namespace
 
 bool asksForWizard(int argc, char** argv) {
   if (argc == 1) return true;
@@ -23,6 +34,9 @@ int runWizardCommand(int argc, char** argv) {
   QApplication::setOrganizationName("relucent");
   QApplication::setApplicationDisplayName("Relucent");
   QApplication::setApplicationVersion(RELUCENT_VERSION);
+  // The menu entry's: desktops find icon and name by it.
+  QApplication::setDesktopFileName("org.relucent.relucent");
+  addPackedFonts();
   QSettings settings;
   QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/venues";
   WizardWindow wizard(settings, cache.toStdString());

@@ -2,6 +2,7 @@
 #include "wizard/venue_page.h"
 
 #include <QDir>
+#include <QFileInfo>
 #include <QStandardPaths>
 #include <QStorageInfo>
 
@@ -115,9 +116,11 @@ void VenuePage::setMode(Mode mode) {
   Q_EMIT changed();
 }
 
-void VenuePage::open(const QString& folder) {
+void VenuePage::open(const QString& path) {
   try {
-    session_.open(folder.toStdString());
+    QFileInfo file(path);
+    bool within = file.isFile() && file.fileName() == "calibration.relucent";
+    session_.open((within ? file.path() : path).toStdString());
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder."), {}, {}});
   }

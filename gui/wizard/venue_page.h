@@ -41,8 +41,8 @@ class VenuePage : public PageModel {
   Mode mode() const { return mode_; }
   void setMode(Mode mode);
   QList<RecentVenue> recent() const { return recent_.list(); }
-  /// Tells failed() if it cannot be opened.
-  void open(const QString& folder);
+  /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened.
+  void open(const QString& path);
 
   const std::vector<RehearsalVenue>& venues() const { return venues_; }
   const std::vector<RehearsalSize>& sizes() const { return sizes_; }

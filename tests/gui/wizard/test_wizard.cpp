@@ -115,6 +115,19 @@ class TestWizard : public QObject {
     QVERIFY(!session_->isOpen());
   }
 
+  /// As the desktop opens it, and from the command line.
+  void aCalibrationOpensByItsFolderOrItsFile() {
+    std::filesystem::path folder(folder_.filePath("opened").toStdString());
+    session_->begin(folder, CalibrateSettings());
+    for (const std::filesystem::path& path : {folder, folder / "calibration.relucent"}) {
+      Session again{std::filesystem::path()};
+      VenuePage page(again, RecentVenues(*settings_));
+      page.open(QString::fromStdString(path.string()));
+      QVERIFY(again.isOpen());
+      QCOMPARE(again.path(), folder);
+    }
+  }
+
   void decisionsSurviveAndSettingsMakeThemStale() {
     CalibrateSettings settings;
     session_->begin(std::filesystem::path(folder_.filePath("kept").toStdString()), settings);

@@ -145,6 +145,7 @@ DrivenCameraSettings videoPatience() {
   DrivenCameraSettings settings;
   settings.timeout = std::chrono::milliseconds(5000);
   settings.skipAfterChange = 3;
+  settings.connectFor = std::chrono::milliseconds(0);  // nothing holds one longer than its program lives
   return settings;
 }
 

@@ -68,7 +68,8 @@ class TestDeviceAddress : public QObject {
   void aListTellsWhatIsWrong() {
     const ListedCamera camera = judged(
         "v4l2:/dev/null", "a hole",
-        [] { return makeVideoDriver(openCvVideoSource("/dev/null"), "v4l2:/dev/null", std::nullopt); }, {});
+        [] { return makeVideoDriver(openCvVideoSource("/dev/null"), "v4l2:/dev/null", std::nullopt); },
+        videoPatience());
     QVERIFY(!camera.usable);
     QVERIFY(mentions(camera.problem, "cannot be opened: another program may be using it; check its cable"));
   }

@@ -77,11 +77,23 @@ struct MatrixPictures::Scratch {
   std::vector<std::uint32_t> touched;  // of those
 };
 
+/// Columns of cells that are whole lines of one projector's picture: then a block is one interval of lines,
+/// and its sides are all that has to be noted.
+struct MatrixPictures::Lines {
+  std::size_t offset = 0, first = 0, count = 0, perCell = 1;
+};
+
 class MatrixPictures::RowOfCells {
  public:
   RowOfCells(const MatrixPictures& pictures, const MatrixPart& part, const std::vector<std::uint32_t>& cellOf,
-             std::size_t cells, Scratch& scratch)
-      : pictures_(pictures), part_(part), cellOf_(cellOf), sums_(cells, 0.0), scratch_(scratch) {}
+             const std::optional<Lines>& lines, std::size_t cells, Scratch& scratch)
+      : pictures_(pictures),
+        part_(part),
+        cellOf_(cellOf),
+        lines_(lines),
+        sums_(cells, 0.0),
+        steps_(lines ? lines->count + 1 : 0, 0.0),
+        scratch_(scratch) {}
 
   void add(std::size_t row, Of of) {
     const BlockSparse& leaves = pictures_.transport_->leaves();
@@ -113,13 +125,35 @@ class MatrixPictures::RowOfCells {
   }
 
   void finish(float* values) {
-    for (std::uint32_t node : scratch_.touched)
-      spread(pictures_.areas_[node], static_cast<double>(std::exchange(scratch_.coarse[node], 0.0f)));
+    for (std::uint32_t node : scratch_.touched) {
+      double value = static_cast<double>(std::exchange(scratch_.coarse[node], 0.0f));
+      if (lines_)
+        step(pictures_.areas_[node], value);
+      else
+        spread(pictures_.areas_[node], value);
+    }
+    double light = 0.0;
+    for (std::size_t line = 0; lines_ && line < lines_->count; ++line) {
+      light += steps_[line];
+      sums_[line / lines_->perCell] += light;
+    }
     scratch_.touched.clear();
     for (std::size_t x = 0; x < sums_.size(); ++x) values[x] = static_cast<float>(sums_[x]);
   }
 
  private:
+  /// Notes where the lines of a block begin and end.
+  void step(const Area& area, double value) {
+    if (area.offset != lines_->offset) return;
+    auto place = [&](int y) {
+      auto line = static_cast<std::size_t>(y);
+      return line <= lines_->first ? 0 : std::min(line - lines_->first, lines_->count);
+    };
+    double ofLine = value * (area.block.x1 - area.block.x0);
+    steps_[place(area.block.y0)] += ofLine;
+    steps_[place(area.block.y1)] -= ofLine;
+  }
+
   /// `value`: of each pixel of the block.
   void spread(const Area& area, double value) {
     auto lineOf = [&](std::size_t column) {
@@ -145,9 +179,24 @@ class MatrixPictures::RowOfCells {
   const MatrixPictures& pictures_;
   const MatrixPart& part_;
   const std::vector<std::uint32_t>& cellOf_;  // of each column of the part
-  std::vector<double> sums_;
+  const std::optional<Lines>& lines_;
+  std::vector<double> sums_, steps_;
   Scratch& scratch_;
 };
+
+std::optional<MatrixPictures::Lines> MatrixPictures::wholeLines(const MatrixPart& part, int cells) const {
+  const Rasters& projectors = transport_->projectors();
+  std::size_t device = 0;
+  while (device + 1 < projectors.devices() && part.firstColumn >= projectors.offset(device + 1)) ++device;
+  std::size_t offset = projectors.offset(device);
+  auto width = static_cast<std::size_t>(projectors.size(device).width);
+  bool inside = part.endColumn <= offset + projectors.size(device).count();
+  std::size_t cell = part.columns() / static_cast<std::size_t>(cells);
+  if (!inside || part.columns() % static_cast<std::size_t>(cells) != 0 || cell % width != 0 ||
+      (part.firstColumn - offset) % width != 0)
+    return std::nullopt;
+  return Lines{offset, (part.firstColumn - offset) / width, part.columns() / width, cell / width};
+}
 
 MatrixPictures::MatrixPictures(std::shared_ptr<const TransportMatrix> transport, const ThresholdSettings& cut)
     : transport_(std::move(transport)) {
@@ -188,11 +237,12 @@ MatrixDensity MatrixPictures::density(const MatrixPart& part, Size cells, Of of)
               cellOf.begin() + static_cast<std::ptrdiff_t>(pieceBegin(part.columns(), cells.width, at + 1)),
               static_cast<std::uint32_t>(x));
   }
+  std::optional<Lines> lines = wholeLines(part, cells.width);
   tbb::enumerable_thread_specific<Scratch> scratches;
   parallelFor(0, static_cast<std::size_t>(cells.height), 1, [&](std::size_t y) {
     Scratch& scratch = scratches.local();
     scratch.coarse.resize(areas_.size(), 0.0f);
-    RowOfCells line(*this, part, cellOf, static_cast<std::size_t>(cells.width), scratch);
+    RowOfCells line(*this, part, cellOf, lines, static_cast<std::size_t>(cells.width), scratch);
     std::size_t end = part.firstRow + pieceBegin(part.rows(), cells.height, y + 1);
     for (std::size_t row = part.firstRow + pieceBegin(part.rows(), cells.height, y); row < end; ++row)
       line.add(row, of);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "transport/transport_matrix.h"
 
@@ -37,7 +38,8 @@ struct MatrixDensity {
 ///   sum of a cell = sum over its rows i and columns j of l(T_ij),  T_ij = sum of leaves over j / their
 ///   pixels,
 /// l: luminance of what the camera pixel sees of the projector pixel in white (ITU-R BT.709).
-/// A picture costs one pass over the leaves of its rows: 21 million leaves in 0.1 s on two cores.
+/// A picture costs one pass over the leaves of its rows; columns of cells that are whole lines of one
+/// projector spare the time in which coarse blocks are spread line by line.
 class MatrixPictures {
  public:
   enum class Of {
@@ -62,7 +64,9 @@ class MatrixPictures {
     std::size_t offset = 0, width = 0;
   };
   struct Scratch;
+  struct Lines;
   class RowOfCells;
+  std::optional<Lines> wholeLines(const MatrixPart& part, int cells) const;
 
   std::shared_ptr<const TransportMatrix> transport_;
   std::vector<Area> areas_;    // of the nodes behind the pixels

@@ -15,7 +15,7 @@ namespace relucent {
 namespace {
 
 constexpr double rowsWidth = 52.0, columnsHeight = 34.0, barWidth = 64.0, margin = 8.0;
-constexpr int mostCells = 1024;       // a side of a picture: more than most views have pixels
+constexpr int mostCells = 640;        // a side of what is seen: software draws it while it is moved
 constexpr double around = 0.3;        // of what is seen, on each side, so that a short pan needs nothing new
 constexpr double decades = 4.0;       // that colours tell apart
 constexpr double lensShare = 0.4;     // of the frame's shorter side
@@ -33,26 +33,26 @@ ColourScale scaleOf(const std::vector<float>& means) {
   return {ColourMap::viridis, high * std::pow(10.0, -decades), high, true};
 }
 
-/// How many entries make a cell, so that cells are about as large as the screen's pixels.
-std::size_t entriesOfACell(double entries, double pixels) {
-  double least = std::max(entries / mostCells, entries / std::max(1.0, pixels));
-  return static_cast<std::size_t>(std::max(1.0, std::ceil(least - 1e-6)));
+/// How many entries make a cell, so that cells are about as large as the screen's pixels. From about a line
+/// of the device's picture on, whole lines: they are quicker to sum, and no pattern of their own is seen.
+std::size_t entriesOfACell(double entries, double pixels, int width) {
+  double least = entries / std::clamp(pixels, 1.0, static_cast<double>(mostCells));
+  auto cell = static_cast<std::size_t>(std::max(1.0, std::ceil(least - 1e-6)));
+  auto line = static_cast<std::size_t>(width);
+  return cell > 1 && 2 * cell >= line ? (cell + line / 2) / line * line : cell;
 }
 
-/// [first, last) widened to whole cells of equal length within `all`; all of it in cells of about that
-/// length.
+/// [first, last) widened to whole cells of equal length; all of it in cells of about that length.
 void fitCells(double first, double last, std::size_t all, std::size_t length, std::size_t& begin,
               std::size_t& end, int& cells) {
   length = std::min(length, all);
   if (last - first >= static_cast<double>(all)) {
-    begin = 0;
-    end = all;
-    cells = static_cast<int>(all / length);
+    begin = 0, end = all, cells = static_cast<int>(all / length);
     return;
   }
   auto wanted = static_cast<std::size_t>(std::ceil((last - first) / static_cast<double>(length))) + 1;
   std::size_t count = std::clamp(wanted, std::size_t{1}, all / length);
-  auto from = static_cast<std::size_t>(std::max(0.0, std::floor(first)));
+  auto from = static_cast<std::size_t>(std::max(0.0, first)) / length * length;
   begin = std::min(from, all - count * length);
   end = begin + count * length;
   cells = static_cast<int>(count);
@@ -133,10 +133,13 @@ MatrixPart MatrixView::partFor(const QRectF& part, Size& cells) const {
                 QRectF(QPointF(), QSizeF(planeSize()));
   MatrixPart found;
   MatrixPart all = matrix_->whole();
-  fitCells(wide.left(), wide.right(), all.columns(), entriesOfACell(part.width(), ratio * frame().width()),
-           found.firstColumn, found.endColumn, cells.width);
-  fitCells(wide.top(), wide.bottom(), all.rows(), entriesOfACell(part.height(), ratio * frame().height()),
-           found.firstRow, found.endRow, cells.height);
+  const Rasters &projectors = matrix_->transport().projectors(), &cameras = matrix_->transport().cameras();
+  fitCells(wide.left(), wide.right(), all.columns(),
+           entriesOfACell(part.width(), ratio * frame().width(), projectors.size(0).width), found.firstColumn,
+           found.endColumn, cells.width);
+  fitCells(wide.top(), wide.bottom(), all.rows(),
+           entriesOfACell(part.height(), ratio * frame().height(), cameras.size(0).width), found.firstRow,
+           found.endRow, cells.height);
   return found;
 }
 
@@ -214,8 +217,8 @@ void MatrixView::want() {
                                std::clamp(side, 1, static_cast<int>(lens->rows()))});
     MatrixPart all = matrix->whole();
     if (!answer.whole.density) {
-      Size coarse{static_cast<int>(std::min<std::size_t>(all.columns(), 512)),
-                  static_cast<int>(std::min<std::size_t>(all.rows(), 512))};
+      Size coarse{matrix->transport().projectors().size(0).height,
+                  static_cast<int>(std::min<std::size_t>(all.rows(), 256))};
       answer.whole = pictureOf(*matrix, all, coarse);
     }
     answer.scale = scaleOf(answer.detail.means);

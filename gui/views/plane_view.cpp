@@ -38,6 +38,11 @@ void drawTag(QPainter& painter, QPointF place, const QString& text, const QColor
   painter.setFont(typeOf(type::note, QFont::DemiBold));
   double width = painter.fontMetrics().horizontalAdvance(text) + 20.0;
   QRectF box(rightAligned ? place.x() - width : place.x(), place.y(), width, 26.0);
+  if (painter.hasClipping()) {
+    // What is to be read lies where it can be.
+    QRectF seen = painter.clipBoundingRect();
+    box.moveLeft(std::max(seen.left() + 2.0, std::min(box.left(), seen.right() - width - 2.0)));
+  }
   QColor ground = dark().input;
   ground.setAlphaF(0.92f);
   painter.setPen(dark().line);

@@ -35,8 +35,8 @@ class ClusterStage : public QWidget {
     auto* row = new QHBoxLayout;
     row->setSpacing(space::gap);
     auto* mapCard = new Card(ClusterPage::tr("Cluster map"));
-    mapCard->setSubtitle(ClusterPage::tr("over the surface in full light"));
-    errorCard_ = new Card(ClusterPage::tr("Error for each camera pixel"));
+    mapCard->setSubtitle(ClusterPage::tr("click a pixel"));
+    errorCard_ = new Card(ClusterPage::tr("Error map"));
     map_ = new MapView;
     error_ = new MapView;
     map_->setObjectName("cluster-view");

@@ -136,7 +136,7 @@ class DeviceViews : public Card {
 class MatrixCard : public Card {
  public:
   explicit MatrixCard(ThresholdPage& model) : Card(ThresholdPage::tr("Transport matrix")), model_(model) {
-    setSubtitle(ThresholdPage::tr("row: camera, column: projector"));
+    setSubtitle(ThresholdPage::tr("click an entry"));
     view_ = new MatrixView;
     view_->setObjectName("matrix-view");
     view_->setAccessibleName(

@@ -79,6 +79,9 @@ class TestMatrixDensity : public QObject {
     QTest::newRow("no powers of two") << MatrixPart{0, 28, 0, 105} << Size{13, 9};
     QTest::newRow("within one projector") << MatrixPart{3, 20, 17, 61} << Size{7, 5};
     QTest::newRow("over the border of two") << MatrixPart{1, 28, 80, 104} << Size{24, 27};
+    QTest::newRow("whole lines") << MatrixPart{0, 28, 0, 99} << Size{9, 4};
+    QTest::newRow("pairs of lines") << MatrixPart{0, 28, 22, 88} << Size{3, 7};
+    QTest::newRow("lines of the second") << MatrixPart{5, 28, 99, 105} << Size{2, 3};
     QTest::newRow("one row") << MatrixPart{27, 28, 0, 105} << Size{105, 1};
     QTest::newRow("one column") << MatrixPart{0, 28, 50, 51} << Size{1, 28};
     QTest::newRow("one entry") << MatrixPart{9, 10, 104, 105} << Size{1, 1};

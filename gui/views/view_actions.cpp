@@ -19,17 +19,6 @@ struct Words {
   Q_DECLARE_TR_FUNCTIONS(ViewActions)
 };
 
-QToolButton* toolOf(Icon icon, const QString& name) {
-  auto* button = new QToolButton;
-  button->setToolTip(name);
-  button->setAccessibleName(name);
-  button->setFocusPolicy(Qt::StrongFocus);
-  auto paint = [button, icon] { button->setIcon(iconOf(icon, colours().text)); };
-  QObject::connect(&Theme::instance(), &Theme::changed, button, paint);
-  paint();
-  return button;
-}
-
 }  // namespace
 
 void saveView(PlaneView& view, const ViewValues& values, const QString& path) {

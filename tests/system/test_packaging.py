@@ -172,9 +172,11 @@ class TheList(unittest.TestCase):
             self.assertRegex(text, rf"^(|\[(build|run|tests|package)\]|{package}( \?|( \| {package})*))$", line)
 
     def test_the_scripts_parse(self):
-        for script in (SOURCE / "packaging").iterdir():
-            if script.suffix == ".sh" or re.match(r"#!/bin/bash", script.read_text(errors="replace")):
-                self.assertEqual(subprocess.run(["bash", "-n", script], check=False).returncode, 0, script)
+        for script in filter(Path.is_file, (SOURCE / "packaging").rglob("*")):
+            shell = re.match(r"#!/bin/(bash|sh)", script.read_text(errors="replace"))
+            if shell or script.suffix == ".sh":
+                checked = subprocess.run([shell[1] if shell else "bash", "-n", script], check=False)
+                self.assertEqual(checked.returncode, 0, script)
 
 
 if __name__ == "__main__":

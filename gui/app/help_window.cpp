@@ -6,7 +6,9 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLocale>
+#include <QTextBlock>
 #include <QTextCursor>
+#include <QTextList>
 #include <QVBoxLayout>
 
 #include "theme/controls.h"
@@ -64,6 +66,18 @@ void HelpWindow::showPage(int index) {
   if (index >= 0 && index < list_->count()) list_->setCurrentRow(index);
 }
 
+/// Room between paragraphs, which Markdown comes without.
+void HelpWindow::spread() {
+  QTextCursor cursor(text_->document());
+  for (QTextBlock block = text_->document()->begin(); block.isValid(); block = block.next()) {
+    QTextBlockFormat format = block.blockFormat();
+    format.setBottomMargin(block.textList() != nullptr ? space::tight : space::small);
+    format.setLineHeight(130.0, QTextBlockFormat::ProportionalHeight);
+    cursor.setPosition(block.position());
+    cursor.setBlockFormat(format);
+  }
+}
+
 /// Pages that hold all the words, in any order.
 void HelpWindow::search(const QString& words) {
   QStringList wanted = words.split(' ', Qt::SkipEmptyParts);
@@ -86,6 +100,7 @@ void HelpWindow::fill() {
   QString id = list_->currentItem()->data(Qt::UserRole).toString();
   for (const HelpPage& page : pages_)
     if (page.id == id) text_->setMarkdown(page.text);
+  spread();
   QStringList wanted = search_->text().split(' ', Qt::SkipEmptyParts);
   // The place that was looked for, marked and in sight.
   text_->moveCursor(QTextCursor::Start);

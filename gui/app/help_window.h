@@ -34,6 +34,7 @@ class HelpWindow : public QDialog {
  private:
   void search(const QString& words);
   void fill();
+  void spread();
   QList<HelpPage> pages_;
   QLineEdit* search_;
   QListWidget* list_;

@@ -52,6 +52,10 @@ SettingsDialog::SettingsDialog(Preferences& preferences, QWidget* parent)
   connect(close, &QPushButton::clicked, this, &QDialog::accept);
   row->addWidget(close);
   column->addLayout(row);
+  // Wrapped lines make it higher, which a window does not ask its layout by itself.
+  ensurePolished();
+  resize(minimumWidth(), column->totalHeightForWidth(minimumWidth()));
+  setMinimumHeight(height());
 }
 
 QWidget* SettingsDialog::lookPart() {

@@ -70,11 +70,11 @@ MatrixView::MatrixView(QWidget* parent)
   setReadout([this](QPoint entry) {
     if (!QRect(QPoint(), planeSize()).contains(entry)) return QString();
     QString place =
-        tr("camera %1, projector %2")
+        tr("camera %1\nprojector %2")
             .arg(pixelText(matrix_->transport().cameras(), static_cast<std::size_t>(entry.y())),
                  pixelText(matrix_->transport().projectors(), static_cast<std::size_t>(entry.x())));
     std::optional<float> value = valueAt(entry);
-    return value ? tr("%1: %2").arg(place, numberText(static_cast<double>(*value))) : place;
+    return value ? tr("%1\n%2").arg(place, numberText(static_cast<double>(*value))) : place;
   });
 }
 

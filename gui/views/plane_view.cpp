@@ -34,10 +34,15 @@ void ViewLink::setPick(std::optional<QPoint> pick) {
   Q_EMIT picked();
 }
 
+QSizeF tagSize(const QString& text) {
+  return QFontMetricsF(typeOf(type::note, QFont::DemiBold)).size(0, text) + QSizeF(20.0, 10.0);
+}
+
 void drawTag(QPainter& painter, QPointF place, const QString& text, const QColor& colour, bool rightAligned) {
   painter.setFont(typeOf(type::note, QFont::DemiBold));
-  double width = painter.fontMetrics().horizontalAdvance(text) + 20.0;
-  QRectF box(rightAligned ? place.x() - width : place.x(), place.y(), width, 26.0);
+  QSizeF size = tagSize(text);
+  double width = size.width();
+  QRectF box(QPointF(rightAligned ? place.x() - width : place.x(), place.y()), size);
   if (painter.hasClipping()) {
     // What is to be read lies where it can be.
     QRectF seen = painter.clipBoundingRect();
@@ -308,7 +313,9 @@ void PlaneView::paintPick(QPainter& painter) {
   QString text = readout_(*pick);
   if (text.isEmpty()) return;
   bool right = place.x() > frame().center().x();
-  double y = place.y() > frame().top() + 50.0 ? place.y() - 46.0 : place.y() + 20.0;
+  double height = tagSize(text).height();
+  bool above = place.y() > frame().top() + height + 24.0;
+  double y = above ? place.y() - height - 20.0 : place.y() + 20.0;
   drawTag(painter, {right ? place.x() - 12.0 : place.x() + 12.0, y}, text, dark().text, right);
 }
 
@@ -356,7 +363,8 @@ void PlaneView::paintMarks(QPainter& painter) {
   if (!badge_.isEmpty()) drawTag(painter, frame().topLeft() + QPointF(12.0, 12.0), badge_, dark().amber);
   if (hovered_ && readout_ && hovered_ != link_->pick())
     if (QString text = readout_(*hovered_); !text.isEmpty())
-      drawTag(painter, frame().bottomRight() - QPointF(12.0, 38.0), text, dark().text, true);
+      drawTag(painter, frame().bottomRight() - QPointF(12.0, 12.0 + tagSize(text).height()), text,
+              dark().text, true);
   painter.restore();
 }
 

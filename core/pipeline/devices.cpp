@@ -58,4 +58,13 @@ OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cach
   return std::visit([&](const auto& rig) { return opened(rig, cache, progress); }, settings);
 }
 
+Rig& RigSource::open(const RigSettings& settings, const TransportMatrix& transport,
+                     const std::filesystem::path& calibration, Progress& progress) {
+  Rig& rig = given_ != nullptr ? *given_ : opened_.emplace(openRig(settings, cache_, progress)).rig;
+  if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
+    throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
+                "set projector and camera as they were, or calibrate anew", calibration.string());
+  return rig;
+}
+
 }  // namespace relucent

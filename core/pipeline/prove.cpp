@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "acquisition/photographer.h"
 #include "base/error.h"
@@ -155,10 +154,7 @@ std::vector<fs::path> writePictures(const fs::path& out, const Target& target, c
   return files;
 }
 
-/// Opens the devices, or hands over those that are open.
-using OpenDevices = std::function<Rig&(const RigSettings& calibrated, Progress& progress)>;
-
-ProveResult proved(const fs::path& path, const ProveSettings& settings, const OpenDevices& open,
+ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSource source,
                    Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
@@ -167,11 +163,8 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, const Op
   Progress loading = progress.part(0.3, "Reading the calibration");
   MeasuredCalibration measured = loadCalibration(folder, loading);
   Progress opening = progress.part(0.2, "Preparing the devices");
-  Rig& rig = open(settings.rig.value_or(measured.rig), opening);
   const TransportMatrix& transport = measured.venue.transport;
-  if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
-    throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
-                "set projector and camera as they were, or calibrate anew", path.string());
+  Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, path, opening);
 
   Target target = fitTarget(content, measured.venue, settings.target);
   Compensator compensator(measured.venue, measured.inverse);
@@ -211,17 +204,12 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, const Op
 
 ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, const fs::path& cache,
                              Progress& progress) {
-  std::optional<OpenedRig> devices;
-  auto open = [&](const RigSettings& rig, Progress& opening) -> Rig& {
-    return devices.emplace(openRig(rig, cache, opening)).rig;
-  };
-  return proved(path, settings, open, progress);
+  return proved(path, settings, RigSource(cache), progress);
 }
 
 ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, Rig& rig,
                              Progress& progress) {
-  return proved(
-      path, settings, [&rig](const RigSettings&, Progress&) -> Rig& { return rig; }, progress);
+  return proved(path, settings, RigSource(rig), progress);
 }
 
 }  // namespace relucent

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <functional>
-
 #include "base/error.h"
 #include "base/file.h"
 #include "base/stopwatch.h"
@@ -35,16 +33,7 @@ std::vector<fs::path> writeMaps(const fs::path& folder, const Reverification& fo
   return files;
 }
 
-void requireSizes(const Rig& rig, const TransportMatrix& transport, const fs::path& path) {
-  if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
-    throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
-                "set projector and camera as they were, or calibrate anew", path.string());
-}
-
-/// Opens the devices, or hands over those that are open.
-using OpenDevices = std::function<Rig&(const RigSettings& calibrated, Progress& progress)>;
-
-VerifyResult verified(const fs::path& path, const VerifySettings& settings, const OpenDevices& open,
+VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigSource source,
                       Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
@@ -60,8 +49,7 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, cons
   progress.report(0.2);
 
   Progress opening = progress.part(0.2, "Preparing the devices");
-  Rig& rig = open(settings.rig.value_or(calibrated.rig), opening);
-  requireSizes(rig, acquisition.transport, path);
+  Rig& rig = source.open(settings.rig.value_or(calibrated.rig), acquisition.transport, path, opening);
 
   Progress verifying = progress.part(0.6, "Photographing test patterns");
   Stopwatch watch;
@@ -82,17 +70,12 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, cons
 
 VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, const fs::path& cache,
                                Progress& progress) {
-  std::optional<OpenedRig> devices;
-  auto open = [&](const RigSettings& rig, Progress& opening) -> Rig& {
-    return devices.emplace(openRig(rig, cache, opening)).rig;
-  };
-  return verified(path, settings, open, progress);
+  return verified(path, settings, RigSource(cache), progress);
 }
 
 VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, Rig& rig,
                                Progress& progress) {
-  return verified(
-      path, settings, [&rig](const RigSettings&, Progress&) -> Rig& { return rig; }, progress);
+  return verified(path, settings, RigSource(rig), progress);
 }
 
 }  // namespace relucent

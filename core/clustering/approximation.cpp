@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "image/color.h"
 
 namespace relucent {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "image/color.h"
 
 namespace relucent {
 namespace {

@@ -76,9 +76,4 @@ class ConnectionGraph {
   int coarsestLevel_ = 0;
 };
 
-/// Luminance of a camera colour.  Source: ITU-R BT.709.
-inline float luminanceOf(float red, float green, float blue) {
-  return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
-}
-
 }  // namespace relucent

@@ -2,7 +2,9 @@
 #include "devices/latency.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "base/error.h"
 
@@ -49,10 +51,7 @@ class LatencyMeasurement {
  private:
   double photograph() {
     progress_.checkpoint();
-    const RawFrame frame = camera_.capture({{"latency", number_++}, 0, exposure_});
-    double sum = 0.0;
-    for (float value : frame.signal.data()) sum += static_cast<double>(value);
-    return sum / static_cast<double>(frame.signal.data().size());
+    return meanSignal(camera_.capture({{"latency", number_++}, 0, exposure_}));
   }
 
   void settle(const Image& picture) {
@@ -154,6 +153,16 @@ Latency measureLatency(Projector& projector, Camera& camera, double exposure, co
   require(problems(settings).empty(), "{}", fmt::join(problems(settings), "; "));
   require(exposure > 0.0, "an exposure of {} s", exposure);
   return LatencyMeasurement(projector, camera, exposure, settings, wait, progress).run();
+}
+
+void sleepFor(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+double meanSignal(const RawFrame& frame) {
+  double sum = 0.0;
+  for (float value : frame.signal.data()) sum += static_cast<double>(value);
+  return sum / static_cast<double>(frame.signal.data().size());
 }
 
 std::unique_ptr<Projector> delayed(std::unique_ptr<Projector> projector, double seconds, Wait wait) {

@@ -31,6 +31,11 @@ struct Latency {
 
 /// Lets time pass. Seconds.
 using Wait = std::function<void(double)>;
+/// By the clock on the wall.
+void sleepFor(double seconds);
+
+/// Mean signal of a photograph, all pixels and channels.
+double meanSignal(const RawFrame& frame);
 
 /// Steps between black and white, photographed after a delay that is halved until it no longer suffices:
 ///   a delay suffices if |1 - (signal - old) / (new - old)| <= settled in every step, both ways.

@@ -21,6 +21,10 @@ Image srgbDecoded(const Image& encoded);
 
 /// Y = 0.2126 R + 0.7152 G + 0.0722 B, of linear values.  Source: ITU-R BT.709.
 double luminance(const Color& linearRgb);
+inline constexpr std::array<float, 3> luminanceWeights{0.2126f, 0.7152f, 0.0722f};
+inline float luminanceOf(float red, float green, float blue) {
+  return luminanceWeights[0] * red + luminanceWeights[1] * green + luminanceWeights[2] * blue;
+}
 /// The same for every pixel of an image of three channels: one channel.
 Image luminance(const Image& linear);
 

@@ -2,8 +2,6 @@
 #include "pipeline/check.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "pipeline/devices.h"
 
@@ -14,26 +12,16 @@ namespace {
 constexpr double dimmest = 0.15, brightest = 0.6;
 constexpr int mostTrials = 16;
 
-void waitFor(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
-double meanOf(const Image& image) {
-  double sum = 0.0;
-  for (float value : image.data()) sum += static_cast<double>(value);
-  return image.empty() ? 0.0 : sum / static_cast<double>(image.data().size());
-}
-
 /// Exposure time at which white comes out between dim and bright, as far as the camera can.
 double exposureFor(Projector& projector, Camera& camera, const LatencySettings& settings,
                    const Progress& progress) {
   projector.show(Image(projector.size(), 3, 1.0f));
-  waitFor(settings.mostFrames * settings.frame);
+  sleepFor(settings.mostFrames * settings.frame);
   const ExposureRange range = camera.exposures();
   double exposure = std::clamp(settings.frame, range.shortest, range.longest);
   for (int trial = 0; trial < mostTrials; ++trial) {
     progress.checkpoint();
-    const double mean = meanOf(camera.capture({{"check", trial}, 0, exposure}).signal);
+    const double mean = meanSignal(camera.capture({{"check", trial}, 0, exposure}));
     if (mean >= dimmest && mean <= brightest) break;
     const double next =
         std::clamp(mean < dimmest ? 2.0 * exposure : 0.5 * exposure, range.shortest, range.longest);
@@ -61,7 +49,7 @@ Latency checkRig(const CheckSettings& settings, const std::filesystem::path& cac
   Projector& projector = *devices.rig.projectors.front();
   Camera& camera = *devices.rig.cameras.front();
   const double exposure = exposureFor(projector, camera, settings.latency, measuring);
-  return measureLatency(projector, camera, exposure, settings.latency, waitFor, measuring);
+  return measureLatency(projector, camera, exposure, settings.latency, sleepFor, measuring);
 }
 
 }  // namespace relucent

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/devices.h"
 
-#include <chrono>
-#include <thread>
-
 #include "base/error.h"
 #include "devices/command_projector.h"
 #include "devices/latency.h"
@@ -41,8 +38,7 @@ OpenedRig opened(const CommandRigSettings& settings, const std::filesystem::path
       cameraOf(settings), {settings.camera, {settings.shortestExposure, settings.longestExposure}}));
   if (settings.latency > 0.0)
     result.rig.projectors.front() =
-        delayed(std::move(result.rig.projectors.front()), settings.latency,
-                [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); });
+        delayed(std::move(result.rig.projectors.front()), settings.latency, sleepFor);
   if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
   return result;
 }

@@ -2,6 +2,7 @@
 #include "transport/footprint.h"
 
 #include "base/error.h"
+#include "image/color.h"
 
 namespace relucent {
 namespace {
@@ -28,9 +29,7 @@ double lightNear(const std::vector<float>& luminance, const Rasters& projectors,
 PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near) {
   require(row < transport.cameras().count(), "row {} of {}", row, transport.cameras().count());
   Stack eye(3 * transport.cameras().count(), 0.0f);
-  eye[3 * row] = 0.2126f;
-  eye[3 * row + 1] = 0.7152f;
-  eye[3 * row + 2] = 0.0722f;
+  for (std::size_t channel = 0; channel < 3; ++channel) eye[3 * row + channel] = luminanceWeights[channel];
   Stack seen = transport.applyTransposed(eye);
 
   PixelFootprint footprint;
@@ -56,7 +55,7 @@ std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pi
   Stack seen = transport.apply(white);
   std::vector<float> luminance(transport.cameras().count());
   for (std::size_t i = 0; i < luminance.size(); ++i)
-    luminance[i] = 0.2126f * seen[3 * i] + 0.7152f * seen[3 * i + 1] + 0.0722f * seen[3 * i + 2];
+    luminance[i] = luminanceOf(seen[3 * i], seen[3 * i + 1], seen[3 * i + 2]);
   return luminance;
 }
 

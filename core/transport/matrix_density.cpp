@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "image/color.h"
 #include "transport/block_kernels.h"
 
 namespace relucent {
@@ -28,12 +29,11 @@ std::size_t pieceAt(std::size_t length, int count, std::size_t place) {
 }
 
 /// Luminance of what a block lets through of white, in steps of its row's scale.
-float luminanceOf(const std::array<std::int16_t, 9>& code) {
+float blockLuminance(const std::array<std::int16_t, 9>& code) {
   int red = code[0] + code[1] + code[2];
   int green = code[3] + code[4] + code[5];
   int blue = code[6] + code[7] + code[8];
-  return 0.2126f * static_cast<float>(red) + 0.7152f * static_cast<float>(green) +
-         0.0722f * static_cast<float>(blue);
+  return luminanceOf(static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue));
 }
 
 int largestOf(const std::array<std::int16_t, 9>& code) {
@@ -110,7 +110,7 @@ class MatrixPictures::RowOfCells {
       const auto& code = view.code[at - view.column];
       if (limit > 0.0f && scale * static_cast<float>(largestOf(code)) < limit) continue;
       sums_[cellOf_[*at - part_.firstColumn]] +=
-          static_cast<double>(of == Of::light ? scale * luminanceOf(code) : 1.0f);
+          static_cast<double>(of == Of::light ? scale * blockLuminance(code) : 1.0f);
     }
     for (const std::uint32_t* at = coarse; at != end; ++at) {
       const auto& code = view.code[at - view.column];
@@ -120,7 +120,7 @@ class MatrixPictures::RowOfCells {
       float& sum = scratch_.coarse[node];
       // One whose sum comes back to zero is listed twice; the second time there is nothing left of it.
       if (sum == 0.0f) scratch_.touched.push_back(node);
-      sum += of == Of::light ? scale * luminanceOf(code) / count : 1.0f;
+      sum += of == Of::light ? scale * blockLuminance(code) / count : 1.0f;
     }
   }
 

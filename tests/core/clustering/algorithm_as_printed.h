@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clustering/clustering.h"
+#include "image/color.h"
 
 namespace relucent {
 

@@ -334,25 +334,8 @@ class Parser {
   }
 
   void addBench() {
-    auto command = std::make_shared<Bench>();
-    CLI::App* sub = add("bench", "Time the parts that decide how fast everything is", command);
-    sub->add_option(
-        "NAME", command->name,
-        "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all ways "
-        "to invert, and how "
-        "well each compensates, beside the paper's figures; `acquisition` (an hour): every way to measure, "
-        "what it costs and how near it comes to the truth");
-    sub->add_option("--backend", command->backend, "What `engine` runs on")
-        ->transform(CLI::CheckedTransformer(backendChoices()));
-    CLI::Option_group* measuring = sub->add_option_group("acquisition", "What `acquisition` measures");
-    measuring
-        ->add_option("--venue", command->acquisition.venues,
-                     "A simulated venue; may be given several times; all")
-        ->type_name("NAME");
-    addSize(measuring, "--projector", command->acquisition.projector, "Size of the projector")
-        ->default_str("256x192");
-    addSize(measuring, "--camera", command->acquisition.camera, "Size of the camera")->default_str("160x120");
-    addCache(sub, command->cache);
+    CLI::App* sub = app_.add_subcommand("bench", "Time the parts that decide how fast everything is");
+    sub->callback([this, make = addBenchOptions(sub)] { make_ = make; });
   }
 
   /// "auto" is nothing.

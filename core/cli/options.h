@@ -37,4 +37,7 @@ void readCamera(const std::string& text, CommandRigSettings& commands, Size& siz
 /// Defines the options of `calibrate`. Returns what makes the command once they are read.
 std::function<Command()> addCalibrateOptions(CLI::App* sub);
 
+/// Defines the options of `bench`. Returns what makes the command once they are read.
+std::function<Command()> addBenchOptions(CLI::App* sub);
+
 }  // namespace relucent

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "devices/temporary_folder.h"
 #include "pipeline/evaluation.h"
@@ -51,6 +52,19 @@ std::vector<std::string> venueNames(const AcquisitionBenchSettings& settings) {
   return names;
 }
 
+template <class Wanted, class Value>
+bool among(const std::vector<Wanted>& wanted, const Value& value) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), value) != wanted.end();
+}
+
+std::vector<Trial> trialsOf(const AcquisitionBenchSettings& settings) {
+  std::vector<Trial> chosen;
+  for (const Trial& trial : trials)
+    if (among(settings.modes, std::string_view(trial.mode)) && among(settings.thresholds, trial.threshold))
+      chosen.push_back(trial);
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<std::string> problems(const AcquisitionBenchSettings& settings) {
@@ -64,6 +78,8 @@ std::vector<std::string> problems(const AcquisitionBenchSettings& settings) {
     one.rig = venue;
     for (std::string& problem : problems(one)) found.push_back(std::move(problem));
   }
+  if (trialsOf(settings).empty())
+    found.push_back("no way to measure is compared in that mode at that threshold; name neither to see all");
   return found;
 }
 
@@ -71,13 +87,14 @@ AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings
                                         const std::filesystem::path& cache, Progress& progress) {
   AcquisitionBenchResult result{settings.projector, settings.camera, {}};
   std::vector<std::string> names = venueNames(settings);
-  double share = 1.0 / static_cast<double>(names.size() * std::size(trials));
+  std::vector<Trial> chosen = trialsOf(settings);
+  double share = 1.0 / static_cast<double>(names.size() * chosen.size());
   for (const std::string& name : names) {
     VenueSettings venue;
     venue.name = name;
     venue.projector = settings.projector;
     venue.camera = settings.camera;
-    for (const Trial& trial : trials) {
+    for (const Trial& trial : chosen) {
       Progress part = progress.part(share, fmt::format("{}: {} at {}", name, trial.mode, trial.threshold));
       result.runs.push_back(measured(venue, trial, cache, part));
     }

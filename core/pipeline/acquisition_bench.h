@@ -12,6 +12,8 @@ namespace relucent {
 
 struct AcquisitionBenchSettings {
   std::vector<std::string> venues;  // names; none: all of them
+  std::vector<std::string> modes;   // of those that are compared, only these; none: all of them
+  std::vector<double> thresholds;   // likewise
   Size projector{256, 192};
   Size camera{160, 120};
 };

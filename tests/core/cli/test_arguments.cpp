@@ -163,6 +163,12 @@ class TestArguments : public QObject {
     QVERIFY(!parsed<Report>("report d --no-evaluate").settings.evaluate);
     QCOMPARE(parsed<Bench>("bench windows").name, std::string("windows"));
     QVERIFY(parsed<Bench>("bench engine --backend opengl").backend == BackendChoice::openGl);
+    const AcquisitionBenchSettings chosen =
+        parsed<Bench>("bench acquisition --venue corner --acquisition sen --threshold 0.02 --threshold 0.05")
+            .acquisition;
+    QCOMPARE(chosen.venues, std::vector<std::string>{"corner"});
+    QCOMPARE(chosen.modes, std::vector<std::string>{"sen"});
+    QCOMPARE(chosen.thresholds, (std::vector<double>{0.02, 0.05}));
     QCOMPARE(parsed<Resume>("resume d").calibration, std::filesystem::path("d"));
     Prove prove = parsed<Prove>("prove d --image a.png --out o --method mix --black-lift 0.02");
     QCOMPARE(prove.settings.method, std::string("mix"));

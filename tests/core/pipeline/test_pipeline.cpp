@@ -11,6 +11,7 @@
 #include "image/color.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
+#include "pipeline/acquisition_bench.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/prove.h"
 #include "pipeline/standard_images.h"
@@ -211,6 +212,16 @@ class TestPipeline : public QObject {
     venue.camera = {2, 2};
     settings.rig = venue;
     QVERIFY(!problems(settings).empty());
+  }
+
+  void benchOfAcquisitionRefusesWhatItDoesNotCompare() {
+    AcquisitionBenchSettings settings;
+    settings.venues = {"corner"};
+    settings.modes = {"sen"};
+    settings.thresholds = {0.02};
+    QVERIFY(problems(settings).empty());
+    settings.thresholds = {0.03};
+    QCOMPARE(problems(settings).size(), std::size_t{1});
   }
 
   void evaluatesEveryMethodInOrder() {

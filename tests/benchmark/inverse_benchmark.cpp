@@ -5,6 +5,7 @@
 #include <string>
 
 #include "inverse/cluster_inverse.h"
+#include "inverse/windows.h"
 #include "synthetic_transport.h"
 
 namespace relucent::benchmarks {
@@ -137,6 +138,17 @@ void cappedInverse(benchmark::State& state) {
   state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
 }
 
+/// The default operator, with a given ridge.
+void windows(benchmark::State& state) {
+  usable();
+  double before = forgetPeak();
+  for (auto _ : state) {
+    WindowInverse inverse = computeWindows(venue(), usable(), {}, quiet);
+    state.counters["inverse_MiB"] = static_cast<double>(inverse.bytes()) / 1048576.0;
+  }
+  state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
+}
+
 void applyInverse(benchmark::State& state) {
   Clustering result = clustered(graph(), capped(256), quiet);
   ClusterInverse inverse = computeClusterInverse(result, usable(), {}, quiet);
@@ -158,6 +170,7 @@ BENCHMARK(cappedInverse)
     ->Iterations(1)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(windows)->Iterations(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(changeThreshold)->ArgName("cap")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(cappedClusters)->ArgName("most")->Arg(256)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(applyInverse)->UseRealTime()->Unit(benchmark::kMillisecond);

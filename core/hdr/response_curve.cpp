@@ -54,10 +54,7 @@ ResponseCurve::ResponseCurve(std::vector<double> x, std::vector<double> y)
     throw Error(ErrorKind::numerics, fmt::format("{} samples do not make an ascending curve", x_.size()),
                 "measure the response again; check that nothing moved and no light changed meanwhile");
   slope_ = monotoneSlopes(x_, y_);
-}
-
-bool ResponseCurve::isIdentity() const {
-  return x_ == y_;
+  identity_ = x_ == y_;
 }
 
 std::size_t ResponseCurve::segment(double x) const {
@@ -83,7 +80,7 @@ double ResponseCurve::slopeIn(std::size_t i, double x) const {
 }
 
 double ResponseCurve::operator()(double x) const {
-  if (isIdentity()) return x;
+  if (identity_) return x;
   if (x <= 0.0) return y_.front() + x * slope_.front();
   if (x >= 1.0) return y_.back() + (x - 1.0) * slope_.back();
   return valueIn(segment(x), x);
@@ -98,7 +95,7 @@ double ResponseCurve::slope(double x) const {
 double ResponseCurve::inverse(double y) const {
   if (!(y > y_.front())) return 0.0;
   if (y >= y_.back()) return 1.0;
-  if (isIdentity()) return y;
+  if (identity_) return y;
   auto after = std::upper_bound(y_.begin() + 1, y_.end() - 1, y);
   std::size_t i = static_cast<std::size_t>(after - y_.begin()) - 1;
 

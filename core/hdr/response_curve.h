@@ -22,7 +22,7 @@ class ResponseCurve {
   double slope(double x) const;
   /// The x for which operator() gives y, to 1e-12; y is clamped to the curve's range on [0, 1].
   double inverse(double y) const;
-  bool isIdentity() const;
+  bool isIdentity() const { return identity_; }
   const std::vector<double>& x() const { return x_; }
   const std::vector<double>& y() const { return y_; }
 
@@ -34,6 +34,7 @@ class ResponseCurve {
   double slopeIn(std::size_t segment, double x) const;
 
   std::vector<double> x_, y_, slope_;
+  bool identity_ = false;
 };
 
 }  // namespace relucent

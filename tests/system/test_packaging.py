@@ -4,6 +4,8 @@
 
     test_packaging.py SOURCE_DIR
 """
+import hashlib
+import json
 import os
 import re
 import shutil
@@ -162,6 +164,73 @@ class Run(Scripted):
         self.program("relucent-cli", "exit 1")
         self.assertEqual(self.run_it().returncode, 1)
         self.assertEqual(len(self.deeds()), 1)
+
+
+class Materials(Scripted):
+    """packaging/bill-of-materials on a system of scripted packages."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "program").write_text("a program")
+        for name, body in {
+                "ldd": r'printf "\tlibalpha.so.1 => /usr/lib/libalpha.so.1 (0x1)\n\tlinux-vdso.so.1 (0x2)\n"',
+                "dpkg-query": r'''case $1 in
+                --search) echo "libalpha1:amd64, libalpha1:i386: /usr/lib/libalpha.so.1" ;;
+                --show) printf "1:2.0+b1\namd64\nalpha\n1:2.0\nhttps://alpha.example\n" ;; esac'''}.items():
+            tool = self.folder / "tools" / name
+            tool.write_text(f"#!/bin/bash\n{body}\n")
+            tool.chmod(0o755)
+
+    def bill(self, *options):
+        return subprocess.run(
+            [sys.executable, self.folder / "packaging/bill-of-materials", "1.2.3", *options, self.folder / "program"],
+            env={"PATH": f"{self.folder}/tools:/usr/bin:/bin"}, capture_output=True, text=True, check=False)
+
+    def test_every_loaded_package_is_named_once(self):
+        done = self.bill("--package", "fonts-beta")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        bill = json.loads(done.stdout)
+        self.assertEqual((bill["bomFormat"], bill["metadata"]["component"]["version"]), ("CycloneDX", "1.2.3"))
+        self.assertEqual([part["name"] for part in bill["components"]], ["program", "fonts-beta", "libalpha1"])
+        alpha = bill["components"][-1]
+        self.assertEqual(alpha["version"], "1:2.0+b1")
+        self.assertRegex(alpha["purl"], r"^pkg:deb/\w+/libalpha1@1%3A2\.0%2Bb1\?arch=amd64")
+        self.assertEqual(bill["components"][0]["hashes"][0]["content"], hashlib.sha256(b"a program").hexdigest())
+        references = [part["bom-ref"] for part in bill["components"]]
+        self.assertEqual(bill["dependencies"][0]["dependsOn"], references)
+        self.assertEqual(len(set(references)), len(references))
+
+    def test_the_same_system_gives_the_same_bytes(self):
+        self.assertEqual(self.bill().stdout, self.bill().stdout)
+
+    def test_what_is_missing_is_said(self):
+        (self.folder / "program").unlink()
+        done = self.bill()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no", done.stderr)
+
+
+class OnePlace(unittest.TestCase):
+    def test_every_file_has_the_version_of_the_project(self):
+        version = re.search(r"project\(Relucent VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+        linux = SOURCE / "packaging/linux"
+        self.assertRegex((linux / "changelog").read_text(), rf"^relucent \({re.escape(version)}\)")
+        released = re.search(r'<release version="([^"]+)"', (linux / "org.relucent.relucent.metainfo.xml").read_text())
+        self.assertEqual(released[1], version)
+
+    def test_the_icons_are_of_the_kinds_that_they_say(self):
+        icons = SOURCE / "resources/icons"
+        picture = icons.joinpath("relucent.icns").read_bytes()
+        self.assertEqual((picture[:4], int.from_bytes(picture[4:8], "big")), (b"icns", len(picture)))
+        picture = icons.joinpath("relucent.ico").read_bytes()
+        self.assertEqual(picture[:4], b"\0\0\1\0")
+        for entry in range(picture[4]):
+            size, place = (int.from_bytes(picture[at:at + 4], "little") for at in (6 + 16 * entry + 8, 6 + 16 * entry + 12))
+            self.assertEqual(picture[place:place + 4], b"\x89PNG")
+            self.assertLessEqual(place + size, len(picture))
+
+    def test_what_vcpkg_is_asked_for_is_json(self):
+        self.assertIn("opencv4", str(json.loads((SOURCE / "vcpkg.json").read_text())["dependencies"]))
 
 
 class TheList(unittest.TestCase):

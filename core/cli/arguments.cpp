@@ -10,15 +10,18 @@
 #include <memory>
 
 #include "cli/options.h"
-
-#ifndef RELUCENT_VERSION
-#define RELUCENT_VERSION "development"
-#endif
+#include "pipeline/versions.h"
 
 namespace relucent {
 namespace {
 
 constexpr const char* programName = "relucent-cli";
+
+std::string version() {
+  std::vector<LibraryVersion> libraries = coreLibraries();
+  libraries.insert(libraries.begin(), {"CLI11", CLI11_VERSION});
+  return versionText(programName, libraries);
+}
 
 /// The parser with the places that its options fill. Each add...() defines one subcommand and says how its
 /// command is made once the options are read.
@@ -28,7 +31,7 @@ class Parser {
     app_.name(programName);
     app_.require_subcommand(1);
     app_.fallthrough();
-    app_.set_version_flag("--version", std::string("relucent-cli ") + RELUCENT_VERSION, "Print the version");
+    app_.set_version_flag("--version", version, "Print the versions of the program and of its libraries");
     app_.set_help_flag("-h,--help", "Print this help");
     app_.add_flag("--json", json_, "Print one JSON document on standard output and nothing else");
     app_.footer(
@@ -59,7 +62,7 @@ class Parser {
       app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants them so
       return {make_(), json_};
     } catch (const CLI::CallForVersion& version) {
-      return {PrintText{std::string(version.what()) + "\n"}, false};
+      return {PrintText{version.what()}, false};
     } catch (const CLI::Success&) {
       return {PrintText{app_.help()}, false};
     } catch (const CLI::ParseError& error) {
@@ -330,6 +333,16 @@ class Parser {
     sub->add_option("--image", command->settings.images, "Content to show; may be given several times")
         ->type_name("FILE");
     sub->add_flag("!--no-evaluate", command->settings.evaluate, "Leave out the comparison of methods");
+    CLI::Option* bundle =
+        sub->add_option(
+               "--bundle", command->settings.bundle,
+               "Also this .zip for whoever helps: report, settings, versions; nothing shows the venue")
+            ->type_name("FILE");
+    sub->add_flag("--photographs", command->settings.photographs, "With pictures of the venue in the bundle")
+        ->needs(bundle);
+    sub->add_option("--attach", command->settings.attachments, "A file to put into the bundle, a log")
+        ->type_name("FILE")
+        ->needs(bundle);
     addCache(sub, command->cache);
   }
 

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/versions.h"
+
 #include "acquisition/acquisition.h"
 #include "acquisition/import.h"
 #include "acquisition/pattern_plan.h"
@@ -337,7 +339,11 @@ WrittenFiles exportPlan(const PatternPlanSettings& settings, const std::filesyst
 struct ReportSettings {
   std::filesystem::path out;                  // the HTML file; empty: report.html in the calibration folder
   std::vector<std::filesystem::path> images;  // content shown before and after; none: the product's own
-  bool evaluate = true;  // simulated venues: a table of methods through the true transport
+  bool evaluate = true;          // simulated venues: a table of methods through the true transport
+  std::filesystem::path bundle;  // a .zip for whoever helps, support_bundle.h; empty: none
+  bool photographs = false;      // also what shows the venue is in that
+  std::vector<std::filesystem::path> attachments;  // files put into that, where they exist: logs
+  std::vector<LibraryVersion> libraries;           // named in the report; none: core's
 };
 
 /// One self-contained HTML file about a calibration, see report.h.

@@ -139,6 +139,18 @@ std::vector<MethodScore> meanScores(const EvaluateResult& evaluation) {
   return means;
 }
 
+std::string verification(const ReportVerification& shown) {
+  std::string body = "<div class=\"pictures\">" +
+                     figure(shown.wanted, "Wanted", "the picture as it should appear.") +
+                     figure(shown.before, "Photograph, uncompensated",
+                            fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEBefore)) +
+                     figure(shown.after, "Photograph, compensated",
+                            fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEAfter)) +
+                     "</div>";
+  return section("Verification", fmt::format("Projected in the venue and photographed, {}.", shown.taken),
+                 body);
+}
+
 std::string explained(const std::string& method) {
   for (const MethodDescription& known : methodDescriptions)
     if (known.name == method) return std::string(known.sentence);
@@ -319,7 +331,13 @@ std::string settingsAndTimes(const ReportData& data) {
           ? ""
           : "<h3>Settings</h3><details><summary>All settings</summary><div class=\"scroll\"><table><tbody>" +
                 rows + "</tbody></table></div></details>";
-  return section("Settings and times", "", times + settings);
+  std::string versions;
+  for (const LibraryVersion& library : data.libraries)
+    versions += (versions.empty() ? "" : ", ") + escaped(library.name + " " + library.version);
+  if (!versions.empty())
+    versions = fmt::format("<h3>Versions</h3><p>Written by Relucent {}, made with {}.</p>",
+                           escaped(relucentVersion()), versions);
+  return section("Settings and times", "", times + settings + versions);
 }
 
 }  // namespace
@@ -331,6 +349,7 @@ std::string reportHtml(const ReportData& data) {
       "report</title><style>{}</style></head><body>\n",
       escaped(data.title), reportStyle);
   html += head(data) + "<main>\n" + findings(data);
+  if (data.verification) html += verification(*data.verification);
   for (const ReportComparison& shown : data.comparisons) html += comparison(shown);
   if (data.evaluation && !data.evaluation->images.empty()) html += methodComparison(*data.evaluation);
   html += measuredPictures(data) + responses(data) + transport(data) + limits() + settingsAndTimes(data);

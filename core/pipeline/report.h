@@ -13,6 +13,7 @@
 #include "image/image.h"
 #include "linearization/linearization.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/versions.h"
 
 namespace relucent {
 
@@ -27,6 +28,14 @@ struct ReportComparison {
   std::vector<std::uint8_t> inside;  // per pixel: the content covers it; empty: everywhere
   double reachable = 0.0;            // share of the content's pixels
   bool truth = false;                // through a simulated venue's true transport; else predicted from T
+};
+
+/// The newest verification photograph: the content, projected as it is and compensated. To look at.
+struct ReportVerification {
+  Image wanted, before, after;
+  double deltaEBefore = 0.0;  // means over the content, CIEDE2000
+  double deltaEAfter = 0.0;
+  std::string taken;  // when, ISO 8601
 };
 
 /// Everything that a report shows. What is empty is left out.
@@ -49,7 +58,9 @@ struct ReportData {
   double ridge = 0.0;
   std::vector<ReportComparison> comparisons;
   std::optional<EvaluateResult> evaluation;
+  std::optional<ReportVerification> verification;
   Json settings;
+  std::vector<LibraryVersion> libraries;
 };
 
 /// The report as one HTML page: styles, pictures and charts inside, nothing fetched from anywhere.

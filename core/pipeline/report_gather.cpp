@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/chrono.h>
+
+#include <chrono>
+#include <cmath>
+
 #include "base/error.h"
+#include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/evaluation.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/report.h"
 #include "pipeline/stages.h"
 #include "pipeline/standard_images.h"
+#include "pipeline/support_bundle.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
@@ -74,6 +81,39 @@ ReportComparison predictedComparison(const NamedImage& image, const MeasuredCali
           false};
 }
 
+/// Mean of a map of CIEDE2000, where there is content.
+double meanDeltaE(const fs::path& map) {
+  Image values = readExr(map).pixels;
+  double sum = 0.0, count = 0.0;
+  for (float value : values.data())
+    if (!std::isnan(value)) {
+      sum += static_cast<double>(value);
+      count += 1.0;
+    }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+/// What proveCalibration() left in the calibration, unless the light transport was measured after that or
+/// something is missing.
+std::optional<ReportVerification> verificationIn(const fs::path& calibration, const fs::path& transport) {
+  fs::path folder = calibration / "verification", photograph = folder / "after.png";
+  std::error_code missing;
+  fs::file_time_type taken = fs::last_write_time(photograph, missing);
+  if (missing || taken < fs::last_write_time(transport, missing)) return std::nullopt;
+  try {
+    auto read = [&](const char* name) { return readPicture(folder / name).encoded; };
+    auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(taken));
+    return ReportVerification{read("target.png"),
+                              read("before.png"),
+                              read("after.png"),
+                              meanDeltaE(folder / "before_delta_e.exr"),
+                              meanDeltaE(folder / "after_delta_e.exr"),
+                              fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds))};
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 WrittenFiles report(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
@@ -103,6 +143,9 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.ridge = measured.ridge;
   data.ridgeCurve = measured.ridgeCurve;
   data.settings = folder.settings();
+  data.libraries = settings.libraries.empty() ? coreLibraries() : settings.libraries;
+  if (auto acquired = folder.latest("acquisition"))
+    data.verification = verificationIn(folder.path(), fileOf(*acquired, "transport.npz"));
 
   Progress comparing = progress.part(0.6, "Compensating");
   if (settings.evaluate && std::holds_alternative<VenueSettings>(measured.rig)) {
@@ -123,8 +166,13 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
 
   fs::path out = settings.out.empty() ? folder.path() / "report.html" : settings.out;
   writeReport(out, data);
+  std::vector<fs::path> files{out};
+  if (!settings.bundle.empty()) {
+    writeSupportBundle(folder.path(), data, settings);
+    files.push_back(settings.bundle);
+  }
   progress.report(1.0);
-  return {{out}};
+  return {files};
 }
 
 }  // namespace relucent

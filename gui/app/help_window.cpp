@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "app/help_window.h"
 
+#include <QDesktopServices>
 #include <QDir>
 #include <QFile>
 #include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QLocale>
+#include <QScrollBar>
 #include <QTextBlock>
 #include <QTextCursor>
 #include <QTextList>
 #include <QVBoxLayout>
 
+#include "app/versions.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 
@@ -27,11 +29,52 @@ QList<HelpPage> helpPages(const QString& language) {
     QString title = text.section('\n', 0, 0);
     pages.append({name.section('.', 0, 0), title.remove('#').trimmed(), text});
   }
+  pages.append({"about", aboutText().section('\n', 0, 0).remove('#').trimmed(), aboutText()});
   return pages;
 }
 
-HelpWindow::HelpWindow(QWidget* parent)
-    : QDialog(parent), pages_(helpPages(QLocale().name().section('_', 0, 0))) {
+void HelpText::show(const QString& markdown) {
+  markdown_ = markdown;
+  width_ = viewport()->width();
+  setMarkdown(markdown);
+  spread();
+}
+
+/// Room between paragraphs, which Markdown comes without.
+void HelpText::spread() {
+  QTextCursor cursor(document());
+  for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
+    QTextBlockFormat format = block.blockFormat();
+    format.setBottomMargin(block.textList() != nullptr ? space::tight : space::small);
+    // A picture's line is as high as the picture.
+    if (!block.text().contains(QChar::ObjectReplacementCharacter))
+      format.setLineHeight(130.0, QTextBlockFormat::ProportionalHeight);
+    cursor.setPosition(block.position());
+    cursor.setBlockFormat(format);
+  }
+}
+
+QVariant HelpText::loadResource(int type, const QUrl& name) {
+  if (type != QTextDocument::ImageResource) return QTextBrowser::loadResource(type, name);
+  QImage picture(":/help/pictures/" + name.fileName());
+  int most = width_ - static_cast<int>(2.0 * document()->documentMargin());
+  if (picture.isNull() || most <= 0) return picture;
+  auto pixels = static_cast<int>(most * devicePixelRatioF());
+  if (picture.width() > pixels) picture = picture.scaledToWidth(pixels, Qt::SmoothTransformation);
+  if (picture.width() == pixels) picture.setDevicePixelRatio(devicePixelRatioF());
+  return picture;
+}
+
+void HelpText::resizeEvent(QResizeEvent* event) {
+  QTextBrowser::resizeEvent(event);
+  if (width_ == viewport()->width() || markdown_.isEmpty()) return;
+  int place = verticalScrollBar()->value();
+  show(markdown_);
+  verticalScrollBar()->setValue(place);
+}
+
+HelpWindow::HelpWindow(const QString& language, QWidget* parent)
+    : QDialog(parent), pages_(helpPages(language)) {
   setWindowTitle(tr("Help"));
   setObjectName("help");
   resize(900, 640);
@@ -51,31 +94,20 @@ HelpWindow::HelpWindow(QWidget* parent)
   left->addWidget(list_, 1);
   for (QWidget* widget : std::initializer_list<QWidget*>{search_, list_}) widget->setFixedWidth(230);
   row->addLayout(left);
-  text_ = new QTextBrowser;
+  text_ = new HelpText;
   text_->setObjectName("help-text");
   text_->setAccessibleName(tr("The page"));
-  text_->setOpenExternalLinks(true);
+  text_->setOpenLinks(false);
   row->addWidget(text_, 1);
   connect(search_, &QLineEdit::textChanged, this, &HelpWindow::search);
   connect(list_, &QListWidget::currentRowChanged, this, &HelpWindow::fill);
+  connect(text_, &QTextBrowser::anchorClicked, this, &HelpWindow::follow);
   search({});
 }
 
 void HelpWindow::showPage(int index) {
   search_->clear();
   if (index >= 0 && index < list_->count()) list_->setCurrentRow(index);
-}
-
-/// Room between paragraphs, which Markdown comes without.
-void HelpWindow::spread() {
-  QTextCursor cursor(text_->document());
-  for (QTextBlock block = text_->document()->begin(); block.isValid(); block = block.next()) {
-    QTextBlockFormat format = block.blockFormat();
-    format.setBottomMargin(block.textList() != nullptr ? space::tight : space::small);
-    format.setLineHeight(130.0, QTextBlockFormat::ProportionalHeight);
-    cursor.setPosition(block.position());
-    cursor.setBlockFormat(format);
-  }
 }
 
 /// Pages that hold all the words, in any order.
@@ -99,12 +131,18 @@ void HelpWindow::fill() {
   if (list_->currentItem() == nullptr) return;
   QString id = list_->currentItem()->data(Qt::UserRole).toString();
   for (const HelpPage& page : pages_)
-    if (page.id == id) text_->setMarkdown(page.text);
-  spread();
+    if (page.id == id) text_->show(page.text);
   QStringList wanted = search_->text().split(' ', Qt::SkipEmptyParts);
   // The place that was looked for, marked and in sight.
   text_->moveCursor(QTextCursor::Start);
   if (!wanted.isEmpty()) text_->find(wanted.first());
+}
+
+/// To another page of the guide, or out into the world.
+void HelpWindow::follow(const QUrl& link) {
+  for (int i = 0; i < pages_.size(); ++i)
+    if (link.isRelative() && link.path() == pages_[i].id + ".md") return showPage(i);
+  QDesktopServices::openUrl(link);
 }
 
 void HelpWindow::keyPressEvent(QKeyEvent* event) {

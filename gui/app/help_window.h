@@ -15,8 +15,27 @@ struct HelpPage {
   QString text;   // Markdown
 };
 
-/// The guide in the user's language, else in English, in the order of the steps.
+/// The guide in a language ("de"), else in English, in the order of the steps; then what belongs to no step,
+/// last about the program and whose work it is made with.
 QList<HelpPage> helpPages(const QString& language);
+
+/// A page as it is read: room between paragraphs, pictures no wider than there is room for.
+class HelpText : public QTextBrowser {
+  Q_OBJECT
+
+ public:
+  explicit HelpText(QWidget* parent = nullptr) : QTextBrowser(parent) {}
+  void show(const QString& markdown);
+
+ protected:
+  QVariant loadResource(int type, const QUrl& name) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void spread();
+  QString markdown_;
+  int width_ = 0;  // that pictures were made for
+};
 
 /// The user's guide beside the program: pages at the left, what they say at the right, and a search through
 /// all of them.
@@ -24,7 +43,8 @@ class HelpWindow : public QDialog {
   Q_OBJECT
 
  public:
-  explicit HelpWindow(QWidget* parent = nullptr);
+  /// `language`: "de".
+  explicit HelpWindow(const QString& language, QWidget* parent = nullptr);
   /// Of a step, from 0.
   void showPage(int index);
 
@@ -34,11 +54,11 @@ class HelpWindow : public QDialog {
  private:
   void search(const QString& words);
   void fill();
-  void spread();
+  void follow(const QUrl& link);
   QList<HelpPage> pages_;
   QLineEdit* search_;
   QListWidget* list_;
-  QTextBrowser* text_;
+  HelpText* text_;
 };
 
 }  // namespace relucent

@@ -10,7 +10,6 @@ int main(int argc, char** argv) {
   if (relucent::asksForWizard(argc, argv)) return relucent::runWizardCommand(argc, argv);
   QGuiApplication application(argc, argv);
   QGuiApplication::setApplicationName("relucent");
-  QGuiApplication::setApplicationVersion(RELUCENT_VERSION);
   QGuiApplication::setQuitOnLastWindowClosed(false);
   return relucent::runShowCommand(QGuiApplication::arguments());
 }

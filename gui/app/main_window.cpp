@@ -25,9 +25,13 @@ QString calibrationIn(const QMimeData& data) {
 
 }  // namespace
 
-MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preferences,
+MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preferences, const Language& language,
                        std::vector<PageView> views)
-    : session_(session), wizard_(wizard), preferences_(preferences), views_(std::move(views)) {
+    : session_(session),
+      wizard_(wizard),
+      preferences_(preferences),
+      language_(language),
+      views_(std::move(views)) {
   setWindowTitle("Relucent");
   setAcceptDrops(true);
   auto* whole = new QWidget;
@@ -128,13 +132,13 @@ void MainWindow::buildRailFooter() {
 }
 
 void MainWindow::showSettings() {
-  auto* dialog = new SettingsDialog(preferences_, this);
+  auto* dialog = new SettingsDialog(preferences_, language_.available(), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->open();
 }
 
 void MainWindow::showHelp() {
-  if (help_ == nullptr) help_ = new HelpWindow(this);
+  if (help_ == nullptr) help_ = new HelpWindow(language_.spoken(), this);
   help_->showPage(static_cast<int>(wizard_.current()));
   help_->show();
   help_->raise();

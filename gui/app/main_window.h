@@ -8,6 +8,7 @@
 
 #include "app/action_bar.h"
 #include "app/banner_bar.h"
+#include "app/language.h"
 #include "app/status_strip.h"
 #include "app/step_rail.h"
 #include "wizard/page_view.h"
@@ -24,7 +25,12 @@ class MainWindow : public QMainWindow {
 
  public:
   /// `views`: one for each page of the wizard.
-  MainWindow(Session& session, Wizard& wizard, Preferences& preferences, std::vector<PageView> views);
+  MainWindow(Session& session, Wizard& wizard, Preferences& preferences, const Language& language,
+             std::vector<PageView> views);
+
+  void showSettings();
+  /// The guide, at the page of the step that is looked at.
+  void showHelp();
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -39,8 +45,6 @@ class MainWindow : public QMainWindow {
  private:
   void buildHeader();
   void buildRailFooter();
-  void showSettings();
-  void showHelp();
   void bindKeys();
   void refresh();
   void moveToNextRegion();
@@ -50,6 +54,7 @@ class MainWindow : public QMainWindow {
   Session& session_;
   Wizard& wizard_;
   Preferences& preferences_;
+  const Language& language_;
   std::vector<PageView> views_;
   StepRail* rail_;
   BannerBar* banner_;

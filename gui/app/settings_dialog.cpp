@@ -3,7 +3,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDir>
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QLocale>
@@ -21,18 +20,17 @@ void addNamed(QVBoxLayout* column, const QString& name, QWidget* control) {
   column->addWidget(control);
 }
 
-/// The program's languages that there is a translation for.
-QStringList languages() {
-  QStringList found;
-  for (const QString& file : QDir(":/translations").entryList({"relucent_*.qm"}))
-    found << file.section('_', 1).section('.', 0, 0);
-  return found;
+/// As those call it who speak it. Qt names these two after a country.
+QString nameOfLanguage(const QString& code) {
+  if (code == "en") return "English";
+  if (code == "es") return QString::fromUtf8("español");
+  return QLocale(code).nativeLanguageName();
 }
 
 }  // namespace
 
-SettingsDialog::SettingsDialog(Preferences& preferences, QWidget* parent)
-    : QDialog(parent), preferences_(preferences) {
+SettingsDialog::SettingsDialog(Preferences& preferences, QStringList languages, QWidget* parent)
+    : QDialog(parent), preferences_(preferences), languages_(std::move(languages)) {
   setWindowTitle(tr("Settings"));
   setObjectName("settings");
   setMinimumWidth(520);
@@ -72,14 +70,15 @@ QWidget* SettingsDialog::lookPart() {
   connect(&preferences_, &Preferences::changed, dim,
           [this, dim] { dim->setChecked(preferences_.isDimmed()); });
   card->body()->addWidget(dim);
-  if (QStringList there = languages(); there.size() > 1) {
+  if (languages_.size() > 1) {
     auto* language = new QComboBox;
+    language->setObjectName("settings-language");
     language->addItem(tr("As the computer"), QString());
-    for (const QString& code : there) language->addItem(QLocale(code).nativeLanguageName(), code);
+    for (const QString& code : languages_) language->addItem(nameOfLanguage(code), code);
     language->setCurrentIndex(std::max(0, language->findData(preferences_.language())));
     connect(language, &QComboBox::activated, &preferences_,
             [this, language] { preferences_.setLanguage(language->currentData().toString()); });
-    addNamed(card->body(), tr("Language, from the next start on"), language);
+    addNamed(card->body(), tr("Language"), language);
   }
   return card;
 }

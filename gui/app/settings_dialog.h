@@ -12,13 +12,15 @@ class SettingsDialog : public QDialog {
   Q_OBJECT
 
  public:
-  explicit SettingsDialog(Preferences& preferences, QWidget* parent = nullptr);
+  /// `languages`: codes of what may be chosen, "de".
+  SettingsDialog(Preferences& preferences, QStringList languages, QWidget* parent = nullptr);
 
  private:
   QWidget* lookPart();
   QWidget* measuringPart();
   QWidget* folderPart();
   Preferences& preferences_;
+  QStringList languages_;
 };
 
 }  // namespace relucent

@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
+#include "app/versions.h"
 #include "content/content_address.h"
 
 namespace relucent {
@@ -100,8 +101,7 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return PrintText{parser.helpText()};
   if (parser.isSet(version))
-    return PrintText{QCoreApplication::applicationName() + ' ' + QCoreApplication::applicationVersion() +
-                     '\n'};
+    return PrintText{QString::fromStdString(versionText("relucent", allLibraries()))};
 
   QStringList words = parser.positionalArguments();
   if (words.value(0) == "show" && words.size() == 1) {

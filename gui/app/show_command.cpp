@@ -3,9 +3,11 @@
 
 #include <QCoreApplication>
 #include <QGuiApplication>
+#include <QSettings>
 #include <QStandardPaths>
 #include <cstdio>
 
+#include "app/language.h"
 #include "app/show_arguments.h"
 #include "app/termination.h"
 #include "base/error.h"
@@ -37,6 +39,8 @@ int run(const PrintText& print) {
 }
 
 int run(const PlayShow& play) {
+  // The overlay speaks as the wizard does.
+  Language language(QSettings("relucent", "relucent").value("look/language").toString());
   const ShowSettings& settings = play.settings;
   Show show(settings, [settings](const std::function<void(const QString&)>& warn) {
     Progress quiet;

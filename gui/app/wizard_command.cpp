@@ -10,6 +10,7 @@
 
 #include "app/termination.h"
 #include "app/wizard_window.h"
+#include "pipeline/versions.h"
 
 namespace relucent {
 namespace {
@@ -33,7 +34,7 @@ int runWizardCommand(int argc, char** argv) {
   QApplication::setApplicationName("relucent");
   QApplication::setOrganizationName("relucent");
   QApplication::setApplicationDisplayName("Relucent");
-  QApplication::setApplicationVersion(RELUCENT_VERSION);
+  QApplication::setApplicationVersion(QString::fromStdString(relucentVersion()));
   // The menu entry's: desktops find icon and name by it.
   QApplication::setDesktopFileName("org.relucent.relucent");
   addPackedFonts();
@@ -44,7 +45,7 @@ int runWizardCommand(int argc, char** argv) {
   wizard.window().show();
   if (argc == 2) wizard.venue().open(QDir().absoluteFilePath(QApplication::arguments().at(1)));
   Termination termination;
-  QObject::connect(&termination, &Termination::requested, &wizard.window(), &QWidget::close);
+  QObject::connect(&termination, &Termination::requested, qApp, [&wizard] { wizard.window().close(); });
   int status = QApplication::exec();
   settings.setValue("window/size", wizard.window().size());
   return status;

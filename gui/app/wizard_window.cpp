@@ -2,31 +2,17 @@
 #include "app/wizard_window.h"
 
 #include <QApplication>
-#include <QLocale>
-#include <QTranslator>
+#include <utility>
 
+#include "app/settings_dialog.h"
 #include "theme/theme.h"
 
 namespace relucent {
-namespace {
 
-/// The user's language where there is one, else English, whose plurals need a file too.
-/// Called before any page says a word.
-QSettings& inUsersLanguage(QSettings& settings) {
-  static QTranslator translator;
-  if (!translator.isEmpty()) return settings;
-  QString chosen = Preferences(settings).language();
-  QLocale locale = chosen.isEmpty() ? QLocale() : QLocale(chosen);
-  if (translator.load(locale, "relucent", "_", ":/translations") ||
-      translator.load(":/translations/relucent_en.qm"))
-    QCoreApplication::installTranslator(&translator);
-  return settings;
-}
-
-}  // namespace
-
-WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache)
-    : preferences_(inUsersLanguage(settings)),
+WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache, const QString& translations)
+    : preferences_(settings),
+      languageCode_(preferences_.language()),
+      language_(languageCode_, translations),
       session_(std::move(cache)),
       venue_(session_, RecentVenues(settings)),
       camera_(session_),
@@ -42,15 +28,35 @@ WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache)
   for (PageModel* page : std::initializer_list<PageModel*>{&venue_, &camera_, &linearize_, &acquire_,
                                                            &threshold_, &cluster_, &preview_, &output_})
     wizard_.add(*page);
-  window_ = std::make_unique<MainWindow>(
-      session_, wizard_, preferences_,
-      std::vector<PageView>{viewOf(venue_), viewOf(camera_), viewOf(linearize_), viewOf(acquire_),
-                            viewOf(threshold_), viewOf(cluster_), viewOf(preview_), viewOf(output_)});
-  QObject::connect(&preferences_, &Preferences::changed, window_.get(), [this] { follow(); });
-  QObject::connect(&acquire_, &AcquirePage::measured, window_.get(), [this] {
+  window_ = makeWindow();
+  QObject::connect(&preferences_, &Preferences::changed, &session_, [this] { follow(); });
+  QObject::connect(&acquire_, &AcquirePage::measured, &session_, [this] {
     if (preferences_.hasSound()) QApplication::beep();
   });
-  QObject::connect(window_.get(), &MainWindow::dropped, &venue_, &VenuePage::open);
+}
+
+std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
+  auto window = std::make_unique<MainWindow>(
+      session_, wizard_, preferences_, language_,
+      std::vector<PageView>{viewOf(venue_), viewOf(camera_), viewOf(linearize_), viewOf(acquire_),
+                            viewOf(threshold_), viewOf(cluster_), viewOf(preview_), viewOf(output_)});
+  QObject::connect(window.get(), &MainWindow::dropped, &venue_, &VenuePage::open);
+  return window;
+}
+
+/// Pages know no widgets and go on with what they do; the window round them is made anew in its place.
+void WizardWindow::speakAnew() {
+  language_.choose(languageCode_);
+  std::unique_ptr<MainWindow> before = std::exchange(window_, makeWindow());
+  window_->setGeometry(before->geometry());
+  if (before->isVisible()) {
+    window_->setWindowState(before->windowState());
+    window_->show();
+    if (before->findChild<SettingsDialog*>() != nullptr) window_->showSettings();
+  }
+  before->hide();
+  // It may be its own settings that ask for this.
+  before.release()->deleteLater();
 }
 
 WizardWindow::~WizardWindow() = default;
@@ -61,6 +67,7 @@ void WizardWindow::follow() {
   Theme::instance().setDimmed(preferences_.isDimmed());
   session_.setFlashLimit(preferences_.flashLimit());
   venue_.setUsualFolder(preferences_.folder());
+  if (std::exchange(languageCode_, preferences_.language()) != preferences_.language()) speakAnew();
 }
 
 }  // namespace relucent

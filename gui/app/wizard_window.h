@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/language.h"
 #include "app/main_window.h"
 #include "wizard/acquire_page.h"
 #include "wizard/camera_page.h"
@@ -20,10 +21,12 @@ namespace relucent {
 /// The wizard with all its pages: the one place that knows which there are.
 class WizardWindow {
  public:
-  /// `cache`: folder of traced venues. `settings` outlives it.
-  WizardWindow(QSettings& settings, std::filesystem::path cache);
+  /// `cache`: folder of traced venues. `settings` outlives it. `translations`: see Language.
+  WizardWindow(QSettings& settings, std::filesystem::path cache,
+               const QString& translations = ":/translations");
   ~WizardWindow();
 
+  /// Another one after the language has changed.
   MainWindow& window() { return *window_; }
   Wizard& wizard() { return wizard_; }
   Preferences& preferences() { return preferences_; }
@@ -39,8 +42,12 @@ class WizardWindow {
 
  private:
   void follow();
+  std::unique_ptr<MainWindow> makeWindow();
+  void speakAnew();
 
   Preferences preferences_;
+  QString languageCode_;  // as it was chosen
+  Language language_;     // before any page says a word
   Session session_;
   VenuePage venue_;
   CameraPage camera_;

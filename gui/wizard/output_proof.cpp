@@ -2,9 +2,11 @@
 #include "wizard/output_proof.h"
 
 #include <QFile>
+#include <QStandardPaths>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "handover/report_pdf.h"
 #include "image/exr.h"
 
 namespace relucent {
@@ -25,6 +27,12 @@ fs::path fileOf(const QString& picture, const fs::path& folder) {
 
 QImage read(const fs::path& file) {
   return QImage(QString::fromStdString(file.string()));
+}
+
+/// Of the show that this program installs.
+std::vector<fs::path> showLogs() {
+  fs::path folder = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation).toStdString();
+  return {folder / "show.log", folder / "health.json"};
 }
 
 /// When the light transport was measured.
@@ -116,14 +124,19 @@ void OutputProof::report(const QString& picture, const QString& who) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
   start(Work::report, who,
-        [found = found_, path = session_.path(), cache = session_.cache(), picture](Progress& progress) {
+        [found = found_, path = session_.path(), cache = session_.cache(), picture,
+         logs = showLogs()](Progress& progress) {
           ReportSettings settings;
           settings.out = path / "report.html";
           settings.images = {fileOf(picture, path / "verification")};
+          settings.bundle = path / "support.zip";
+          settings.attachments = logs;
           settings.evaluate = false;  // what was measured, not what a simulation knows
           Progress writing = progress.part(1.0, tr("Writing the report").toStdString());
           WrittenFiles written = relucent::report(path, settings, cache, writing);
           found->report = QString::fromStdString(written.files.front().string());
+          writeReportPdf(QString::fromStdString(readFile(settings.out)),
+                         QString::fromStdString((path / "report.pdf").string()));
         });
 }
 

@@ -49,7 +49,8 @@ class OutputProof : public QObject {
   /// `picture`: a file or resource. `who`: the page that the devices are used by.
   void photograph(const QString& picture, const QString& who);
   void checkDrift(const QString& who);
-  /// Written into the calibration's folder; reported() names the file.
+  /// Written into the calibration's folder as report.html and report.pdf, and support.zip for whoever helps;
+  /// reported() names the first.
   void report(const QString& picture, const QString& who);
   void cancel() { job_.cancel(); }
 

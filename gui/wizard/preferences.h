@@ -28,7 +28,7 @@ class Preferences : public QObject {
   /// A sound when a measurement ends or needs somebody.
   bool hasSound() const;
   void setSound(bool sound);
-  /// "de"; empty: the computer's. Of the next start.
+  /// "de"; empty: the computer's.
   QString language() const;
   void setLanguage(const QString& language);
 

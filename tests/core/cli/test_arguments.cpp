@@ -190,6 +190,7 @@ class TestArguments : public QObject {
     QTest::addColumn<QByteArray>("contains");
     QTest::newRow("help") << QByteArray("--help") << QByteArray("Subcommands");
     QTest::newRow("version") << QByteArray("--version") << QByteArray("relucent-cli ");
+    QTest::newRow("libraries' versions") << QByteArray("--version") << QByteArray("\n  Eigen 3.");
     for (const char* name : {"venues", "calibrate", "resume", "compensate", "evaluate", "export", "relight",
                              "separate", "difference", "dual", "report", "bench"})
       QTest::newRow(name) << QByteArray(name) + " --help" << QByteArray("relucent-cli ") + name;

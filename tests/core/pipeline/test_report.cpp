@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
+#include <zip.h>
+
 #include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QXmlStreamReader>
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "calibration/calibration_folder.h"
 #include "pipeline/report.h"
 #include "pipeline/report_charts.h"
 #include "pipeline/report_pictures.h"
+#include "pipeline/support_bundle.h"
 
 using namespace relucent;
 
@@ -69,8 +74,29 @@ ReportData fullData() {
                         0.961,
                         {{"none", 14.2, 13.0, 0.41, 18.9, 0.001}, {"refined", 28.2, 26.0, 0.92, 2.6, 0.03}}}};
   data.evaluation = evaluation;
+  data.verification = {waves(0.0, 0.5), waves(0.8, 0.4), waves(0.1, 0.5), 18.5, 3.25, "2026-01-02T04:05:06Z"};
+  data.libraries = {{"Eigen", "3.4.0"}, {"A & B", "1"}};
   data.settings = {{"acquisition", {{"relative_threshold", 0.008}}}, {"rig", {{"name", "<corner>"}}}};
   return data;
+}
+
+/// The files of a .zip by name.
+std::map<std::string, std::string> unpacked(const std::filesystem::path& path) {
+  std::map<std::string, std::string> files;
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), ZIP_RDONLY, &code);
+  if (archive == nullptr) return files;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
+    zip_stat_t found;
+    zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &found);
+    std::string content(found.size, '\0');
+    zip_file_t* file = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
+    zip_fread(file, content.data(), content.size());
+    zip_fclose(file);
+    files[found.name] = content;
+  }
+  zip_close(archive);
+  return files;
 }
 
 QString html(const ReportData& data) {
@@ -132,6 +158,47 @@ class TestReport : public QObject {
       QVERIFY2(page.contains(expected), expected);
     // Means over one picture are its own; the best method is marked.
     QVERIFY(page.contains("<tr class=\"best\"><th scope=\"row\">refined"));
+  }
+
+  void verificationAndVersionsAreSaid() {
+    QString page = html(fullData());
+    for (const char* expected :
+         {"Photograph, compensated", "ΔE 3.2", "2026-01-02T04:05:06Z", "Eigen 3.4.0", "A &amp; B 1"})
+      QVERIFY2(page.contains(expected), expected);
+  }
+
+  void aBundleShowsNothingOfTheVenueUnlessAsked() {
+    QTemporaryDir folder;
+    std::filesystem::path path = folder.path().toStdString();
+    CalibrationFolder::create(path / "venue", {{"kind", "test"}}, {});
+    std::filesystem::create_directories(path / "venue/verification");
+    std::filesystem::create_directories(path / "venue/shots");
+    writeFileAtomically(path / "venue/verification/after.png", "a photograph");
+    writeFileAtomically(path / "venue/shots/a.shot", "a shot");
+    writeFileAtomically(path / "show.log", "a log");
+    ReportSettings settings;
+    settings.bundle = path / "bundle.zip";
+    settings.attachments = {path / "show.log", path / "missing.log"};
+    writeSupportBundle(path / "venue", fullData(), settings);
+    std::map<std::string, std::string> quiet = unpacked(settings.bundle);
+    QCOMPARE(quiet.size(), std::size_t{5});
+    QCOMPARE(quiet["attached/show.log"], std::string("a log"));
+    QVERIFY(quiet["versions.txt"].find("Eigen 3.4.0") != std::string::npos);
+    QVERIFY(quiet["calibration.relucent"] == readFile(path / "venue/calibration.relucent"));
+    QVERIFY(quiet["report.html"].find("data:image") == std::string::npos);
+    QVERIFY(quiet["report.html"].find("0.008") != std::string::npos);
+    std::string bytes = readFile(settings.bundle);
+    writeSupportBundle(path / "venue", fullData(), settings);
+    QVERIFY(readFile(settings.bundle) == bytes);
+
+    settings.photographs = true;
+    writeSupportBundle(path / "venue", fullData(), settings);
+    std::map<std::string, std::string> asked = unpacked(settings.bundle);
+    QCOMPARE(asked["verification/after.png"], std::string("a photograph"));
+    QVERIFY(asked["report.html"].find("data:image") != std::string::npos);
+    QVERIFY(asked.count("shots/a.shot") == 0);
+    settings.bundle = "/nowhere/bundle.zip";
+    QVERIFY_EXCEPTION_THROWN(writeSupportBundle(path / "venue", fullData(), settings), Error);
   }
 
   void whatIsMissingIsLeftOut() {

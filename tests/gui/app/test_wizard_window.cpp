@@ -86,7 +86,8 @@ class TestWizardWindow : public QObject {
     auto* help = find<HelpWindow>("help");
     QVERIFY(help != nullptr && QTest::qWaitForWindowExposed(help));
     auto* pages = find<QListWidget>("help-pages");
-    QCOMPARE(pages->count(), static_cast<int>(wizard_->wizard().count()));
+    // A page a step, and what belongs to no step.
+    QVERIFY(pages->count() > static_cast<int>(wizard_->wizard().count()));
     auto* text = find<QTextBrowser>("help-text");
     QVERIFY(text->toPlainText().contains("Venue"));
     QTest::keyClicks(find<QLineEdit>("help-search"), "playlist repeats");
@@ -380,7 +381,10 @@ class TestWizardWindow : public QObject {
     click("report");
     QTRY_VERIFY_WITH_TIMEOUT(shown_.isValid(), patience);
     QDesktopServices::unsetUrlHandler("file");
-    QVERIFY(QFileInfo(shown_.toLocalFile()).size() > 1000);
+    QFileInfo page(shown_.toLocalFile());
+    QVERIFY(page.size() > 1000);
+    for (const char* beside : {"report.pdf", "support.zip"})
+      QVERIFY2(QFileInfo(page.dir().filePath(beside)).size() > 1000, beside);
     QVERIFY(!output.isInstalled());
     click("primary");
     QVERIFY(output.isInstalled());
@@ -390,6 +394,35 @@ class TestWizardWindow : public QObject {
     click("secondary-2");
     QTRY_VERIFY(!output.isOpen());
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+  }
+
+  void theGuideOpensAtEveryStepsPage() {
+    auto* text = find<QTextBrowser>("help-text");
+    for (std::size_t i = 0; i < wizard_->wizard().count(); ++i) {
+      wizard_->wizard().go(i);
+      QCOMPARE(page(), i);
+      press(QKeySequence("F1"));
+      QString heading = QString("%1 %2").arg(i + 1).arg(wizard_->wizard().currentPage().name());
+      QTRY_VERIFY2(text->toPlainText().startsWith(heading + '\n'), qPrintable(heading));
+      find<HelpWindow>("help")->close();
+    }
+  }
+
+  void anotherLanguageMakesTheWindowAnew() {
+    QPointer<MainWindow> before = &wizard_->window();
+    QRect place = before->geometry();
+    std::size_t step = page();
+    click("open-settings");
+    wizard_->preferences().setLanguage("xx");
+    QVERIFY(&wizard_->window() != before && wizard_->window().isVisible());
+    QTRY_VERIFY(before.isNull());
+    QCOMPARE(wizard_->window().geometry(), place);
+    QCOMPARE(page(), step);
+    // Where the choice was made, it may be made again.
+    QTRY_VERIFY(find<QDialog>("settings")->isVisible());
+    click("close-settings");
+    wizard_->preferences().setLanguage({});
+    QTRY_VERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
   }
 
   void aChangedThresholdMakesLaterStepsOutOfDate() {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "app/language.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QGuiApplication>
+#include <QLibraryInfo>
+
+namespace relucent {
+
+Language::Language(const QString& code, QString folder) : folder_(std::move(folder)) {
+  choose(code);
+}
+
+Language::~Language() {
+  unload();
+}
+
+void Language::unload() {
+  for (const auto& translator : translators_) QCoreApplication::removeTranslator(translator.get());
+  translators_.clear();
+}
+
+QStringList Language::available() const {
+  QStringList found;
+  for (QString file : QDir(folder_).entryList({"relucent_*.qm"}, QDir::Files, QDir::Name))
+    found << file.remove("relucent_").remove(".qm");
+  return found;
+}
+
+void Language::load(const QString& name, const QStringList& folders, const QLocale& locale) {
+  for (const QString& folder : folders) {
+    auto translator = std::make_unique<QTranslator>();
+    if (!translator->load(locale, name, "_", folder)) continue;
+    QCoreApplication::installTranslator(translator.get());
+    translators_.push_back(std::move(translator));
+    return;
+  }
+}
+
+void Language::choose(const QString& code) {
+  unload();
+  QLocale locale = code.isEmpty() ? QLocale::system() : QLocale(code);
+  load("relucent", {folder_}, locale);
+  // English too has a file: its plurals.
+  if (translators_.empty()) load("relucent", {folder_}, QLocale(QLocale::English));
+  QString file = translators_.empty() ? QString() : translators_.back()->filePath();
+  spoken_ = file.isEmpty() ? "en" : file.section("relucent_", -1).remove(".qm");
+  if (spoken_ != "en") load("qtbase", {QLibraryInfo::path(QLibraryInfo::TranslationsPath)}, QLocale(spoken_));
+  // "zh_CN" in a computer's "zh_SG" keeps the computer's numbers; English sentences read from the left.
+  QLocale::setDefault(locale);
+  QGuiApplication::setLayoutDirection(QLocale(spoken_).textDirection());
+}
+
+}  // namespace relucent

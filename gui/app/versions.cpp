@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "app/versions.h"
+
+#include <spdlog/version.h>
+#include <vtkVersion.h>
+
+#include <QCoreApplication>
+#include <QFile>
+
+namespace relucent {
+namespace {
+
+struct About {
+  Q_DECLARE_TR_FUNCTIONS(About)
+};
+
+QString read(const QString& resource) {
+  QFile file(resource);
+  return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
+}  // namespace
+
+std::vector<LibraryVersion> allLibraries() {
+  std::vector<LibraryVersion> libraries = coreLibraries();
+  libraries.push_back({"Qt", qVersion()});
+  libraries.push_back({"VTK", vtkVersion::GetVTKVersion()});
+  libraries.push_back({"spdlog", std::to_string(SPDLOG_VER_MAJOR) + '.' + std::to_string(SPDLOG_VER_MINOR) +
+                                     '.' + std::to_string(SPDLOG_VER_PATCH)});
+  return libraries;
+}
+
+QString aboutText() {
+  QStringList versions;
+  for (const LibraryVersion& library : allLibraries())
+    versions << QString::fromStdString(library.name + ' ' + library.version);
+  return "# " + About::tr("About Relucent") + "\n\n" +
+         About::tr("Version %1, with these libraries: %2.")
+             .arg(QString::fromStdString(relucentVersion()), versions.join(", ")) +
+         "\n\n" + read(":/LICENSE").replace("MIT License", "## MIT License") + '\n' +
+         read(":/licences.md").replace("# Licences", "## Licences");
+}
+
+}  // namespace relucent

@@ -31,6 +31,7 @@ ReportData data() {
   for (std::size_t i = 0; i < data.flood.data().size(); ++i)
     data.flood.data()[i] = 0.1f + static_cast<float>(i % 97) / 97.0f;
   data.black = Image({64, 48}, 3);
+  for (float& value : data.black.data()) value = 0.01f;
   data.ridgeCurve = {{0.2, 24.5}, {0.4, 24.75}};
   data.settings = {{"acquisition", {{"relative_threshold", 0.008}}}};
   data.libraries = {{"Eigen", "3.4.0"}};

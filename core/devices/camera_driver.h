@@ -17,12 +17,15 @@ namespace relucent {
 /// Nobody answers, or somebody else holds the camera. Met by what drives the driver: it connects again.
 class CameraLost : public std::exception {
  public:
-  /// `reason`: a sentence without a full stop.
-  explicit CameraLost(std::string reason) : reason_(std::move(reason)) {}
+  /// `reason`: a sentence without a full stop. `advice`: one that says what to do; empty: look after its
+  /// cable, its power and its address.
+  explicit CameraLost(std::string reason, std::string advice = {})
+      : reason_(std::move(reason)), advice_(std::move(advice)) {}
   const char* what() const noexcept override { return reason_.c_str(); }
+  const std::string& advice() const { return advice_; }
 
  private:
-  std::string reason_;
+  std::string reason_, advice_;
 };
 
 /// What a camera says of itself once it is connected.

@@ -8,8 +8,10 @@ namespace relucent {
 namespace {
 
 using Kind = DeviceAddress::Kind;
-constexpr std::array<std::pair<std::string_view, Kind>, 3> kinds{
-    {{"genicam:", Kind::genicam}, {"v4l2:", Kind::v4l2}, {"command:", Kind::command}}};
+constexpr std::array<std::pair<std::string_view, Kind>, 4> kinds{{{"genicam:", Kind::genicam},
+                                                                  {"gphoto2:", Kind::gphoto2},
+                                                                  {"v4l2:", Kind::v4l2},
+                                                                  {"command:", Kind::command}}};
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "devices/device_address.h"
 #include "devices/genicam_driver.h"
+#include "devices/gphoto_driver.h"
 #include "devices/video_driver.h"
 
 namespace relucent {
@@ -53,6 +54,18 @@ std::string videoModel(const fs::path& path) {
   return name.empty() ? "video device" : name;
 }
 
+void addStillCameras(DeviceList& list) {
+  const std::vector<GphotoCamera> cameras = makeGphotoPort()->list();
+  const std::vector<std::string> places = gphotoPlaces(cameras);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    GphotoCameraSettings settings;
+    settings.camera = places[i];
+    list.cameras.push_back(judged(
+        "gphoto2:" + settings.camera, cameras[i].model,
+        [&] { return makeGphotoDriver(makeGphotoPort(), settings); }, gphotoPatience()));
+  }
+}
+
 }  // namespace
 
 ListedCamera judged(std::string address, std::string model,
@@ -76,6 +89,11 @@ DeviceList listDevices() {
            ? "GigE Vision and USB3 Vision cameras"
            : "GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build "
              "again"},
+      {"gphoto2", hasGphoto(),
+       hasGphoto()
+           ? "DSLR and mirrorless cameras with raw files"
+           : "DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev "
+             "and libraw-dev and build again"},
       {"v4l2", true, "webcams with manual exposure"},
       {"command", true, "anything that a program of yours can drive"}};
   for (const GenicamCamera& found : findGenicamCameras()) {
@@ -84,6 +102,7 @@ DeviceList listDevices() {
     list.cameras.push_back(
         judged("genicam:" + settings.camera, found.model, [&] { return makeGenicamDriver(settings); }, {}));
   }
+  if (hasGphoto()) addStillCameras(list);
   for (const fs::path& path : videoDevices()) {
     const std::string address = "v4l2:" + path.string();
     list.cameras.push_back(judged(

@@ -60,9 +60,12 @@ DrivenCamera::DrivenCamera(std::unique_ptr<CameraDriver> driver, DrivenCameraSet
       driver_->disconnect();
       isConnected_ = false;
       if (driver_->now() - begun >= settings_.connectFor)
-        throw Error(ErrorKind::device, lost.what(),
-                    "check its cable, its power and its address; `relucent-cli devices` lists what is there",
-                    name());
+        throw Error(
+            ErrorKind::device, lost.what(),
+            lost.advice().empty()
+                ? "check its cable, its power and its address; `relucent-cli devices` lists what is there"
+                : lost.advice(),
+            name());
       driver_->wait(settings_.reconnectPause);
     }
   }
@@ -107,7 +110,7 @@ void DrivenCamera::probe(CameraTraits& traits) {
 void DrivenCamera::reconnect() {
   const microseconds begun = driver_->now();
   for (;;) {
-    std::string reason;
+    std::string reason, advice;
     try {
       const CameraTraits traits = connected();
       if (traits.size != traits_.size)
@@ -119,6 +122,7 @@ void DrivenCamera::reconnect() {
       return;
     } catch (const CameraLost& lost) {
       reason = lost.what();
+      advice = lost.advice();
     }
     driver_->disconnect();
     isConnected_ = false;
@@ -126,7 +130,9 @@ void DrivenCamera::reconnect() {
     if (away >= settings_.reconnectFor)
       throw Error(ErrorKind::device,
                   fmt::format("the camera has been gone for {:.0f} s: {}", inSeconds(away), reason),
-                  "check its cable and its power, then go on: every photograph so far is kept", name());
+                  (advice.empty() ? "check its cable and its power" : advice) +
+                      ", then go on: every photograph so far is kept",
+                  name());
     driver_->wait(settings_.reconnectPause);
   }
 }
@@ -182,7 +188,7 @@ bool DrivenCamera::restarted() {
 }
 
 RawFrame DrivenCamera::capture(const CaptureRequest& request) {
-  std::string reason;
+  std::string reason, advice;
   for (int attempt = 0; attempt < settings_.attempts; ++attempt) {
     if (attempt > 0) ++repeats_;
     try {
@@ -194,21 +200,24 @@ RawFrame DrivenCamera::capture(const CaptureRequest& request) {
         throw CameraLost(fmt::format("the photograph has {}x{} pixels as {} where {}x{} as {} were agreed",
                                      size.width, size.height, nameOf(taken.frame.format), traits_.size.width,
                                      traits_.size.height, nameOf(traits_.format)));
-      return {photographOf(taken.frame, name()), photographBits(taken.frame.format), seconds};
+      return {photographOf(taken.frame, name()), photographBits(taken.frame), seconds};
     } catch (const Unusable& unusable) {
       reason = unusable.reason;
+      advice.clear();
       // Once may be chance. Twice, and the camera may have forgotten how it was set up.
       isConnected_ = attempt == 0 && restarted();
     } catch (const CameraLost& lost) {
       reason = lost.what();
+      advice = lost.advice();
       isConnected_ = false;
     }
     if (!isConnected_) driver_->disconnect();
   }
   throw Error(ErrorKind::device,
               fmt::format("{} attempts at a photograph failed: {}", settings_.attempts, reason),
-              "check the camera's cable and network card, and that no other program uses it, then go on: "
-              "every photograph so far is kept",
+              (advice.empty() ? "check the camera's cable and network card, and that no other program uses it"
+                              : advice) +
+                  ", then go on: every photograph so far is kept",
               name());
 }
 

@@ -5,6 +5,7 @@
 #include "devices/command_camera.h"
 #include "devices/driven_camera.h"
 #include "devices/genicam_driver.h"
+#include "devices/gphoto_driver.h"
 #include "devices/video_driver.h"
 
 namespace relucent {
@@ -30,6 +31,12 @@ std::unique_ptr<Camera> openCamera(const DeviceAddress& address, const CameraWis
       settings.camera = address.place;
       settings.photograph = wishes.size;
       return std::make_unique<DrivenCamera>(makeGenicamDriver(settings));
+    }
+    case DeviceAddress::Kind::gphoto2: {
+      GphotoCameraSettings settings;
+      settings.camera = address.place;
+      settings.photograph = wishes.size;
+      return std::make_unique<DrivenCamera>(makeGphotoDriver(makeGphotoPort(), settings), gphotoPatience());
     }
     case DeviceAddress::Kind::v4l2:
       return std::make_unique<DrivenCamera>(

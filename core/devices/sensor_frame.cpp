@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "devices/sensor_frame.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -59,6 +61,39 @@ std::size_t redIn(SensorLayout layout) {
     default:
       return 0;
   }
+}
+
+/// The same as decoded() for codes with levels; not interleaved.
+template <typename Sample>
+Image levelled(const SensorFrame& frame) {
+  const Samples<Sample> samples(frame);
+  const SensorLevels& levels = *frame.levels;
+  const SensorLayout layout = frame.format.layout;
+  const auto width = static_cast<std::size_t>(frame.size.width);
+  const std::size_t red = redIn(layout);
+  std::array<float, 4> scale{};
+  for (std::size_t i = 0; i < 4; ++i) scale[i] = 1.0f / (levels.white - levels.black[i]);
+  auto signal = [&](std::size_t index, std::size_t place) {
+    return (static_cast<float>(samples[index]) - levels.black[place]) * scale[place];
+  };
+
+  Image image(photographSize(frame.size, frame.format), 3);
+  parallelFor(0, static_cast<std::size_t>(image.height()), 16, [&](std::size_t y) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(image.width()); ++x) {
+      const std::span<float> pixel = image.pixel(y * static_cast<std::size_t>(image.width()) + x);
+      if (layout == SensorLayout::mono) {
+        std::fill(pixel.begin(), pixel.end(), signal(y * width + x, 2 * (y % 2) + x % 2));
+        continue;
+      }
+      const std::size_t corner = 2 * (y * width + x);
+      const std::array<float, 4> cell{signal(corner, 0), signal(corner + 1, 1), signal(corner + width, 2),
+                                      signal(corner + width + 1, 3)};
+      pixel[0] = cell[red];
+      pixel[1] = 0.5f * (cell[red ^ 1u] + cell[red ^ 2u]);
+      pixel[2] = cell[red ^ 3u];
+    }
+  });
+  return image;
 }
 
 template <typename Sample>
@@ -138,12 +173,22 @@ int photographBits(const SensorFormat& format) {
   return format.bits + (isFiltered(format.layout) ? 1 : 0);
 }
 
+int photographBits(const SensorFrame& frame) {
+  return frame.levels ? 0 : photographBits(frame.format);
+}
+
 Image photographOf(const SensorFrame& frame, const std::string& camera) {
   if (frame.bytes.size() < bytesOf(frame))
     throw Error(ErrorKind::device,
                 fmt::format("a photograph of {}x{} pixels as {} came with {} of {} bytes", frame.size.width,
                             frame.size.height, nameOf(frame.format), frame.bytes.size(), bytesOf(frame)),
                 "switch the camera off and on, or choose another of its pixel formats", camera);
+  if (frame.levels) {
+    require(!isInterleaved(frame.format.layout), "no levels of {}", nameOf(frame.format));
+    for (float black : frame.levels->black)
+      require(frame.levels->white > black, "white {} above black {}", frame.levels->white, black);
+    return frame.format.bits > 8 ? levelled<std::uint16_t>(frame) : levelled<std::uint8_t>(frame);
+  }
   return frame.format.bits > 8 ? decoded<std::uint16_t>(frame) : decoded<std::uint8_t>(frame);
 }
 

@@ -21,6 +21,8 @@ class TestDeviceAddress : public QObject {
     QTest::addColumn<QString>("place");
     QTest::newRow("serial") << "genicam:40012345" << static_cast<int>(Kind::genicam) << "40012345";
     QTest::newRow("network") << "genicam:192.168.1.20" << static_cast<int>(Kind::genicam) << "192.168.1.20";
+    QTest::newRow("model") << "gphoto2:Canon EOS 80D" << static_cast<int>(Kind::gphoto2) << "Canon EOS 80D";
+    QTest::newRow("port") << "gphoto2:usb:001,005" << static_cast<int>(Kind::gphoto2) << "usb:001,005";
     QTest::newRow("path") << "v4l2:/dev/v4l/by-id/usb-x:1-index0" << static_cast<int>(Kind::v4l2)
                           << "/dev/v4l/by-id/usb-x:1-index0";
     QTest::newRow("command") << "command:./shoot {exposure} {output}" << static_cast<int>(Kind::command)

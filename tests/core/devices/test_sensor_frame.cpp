@@ -150,6 +150,57 @@ class TestSensorFrame : public QObject {
     QCOMPARE(photographOf(randomFrame({1, 1}, {SensorLayout::mono, 8}, 7), "camera").size(), (Size{1, 1}));
   }
 
+  /// With levels every place of a cell has its own black, and what lies below it is negative.
+  void levelsAreTakenFromEveryPlace_data() {
+    QTest::addColumn<int>("layout");
+    QTest::addColumn<int>("bits");
+    for (SensorLayout layout : {SensorLayout::mono, SensorLayout::bayerRG, SensorLayout::bayerGR,
+                                SensorLayout::bayerGB, SensorLayout::bayerBG})
+      for (int bits : {8, 14})
+        QTest::addRow("%s", nameOf({layout, bits}).c_str()) << static_cast<int>(layout) << bits;
+  }
+  void levelsAreTakenFromEveryPlace() {
+    QFETCH(int, layout);
+    QFETCH(int, bits);
+    const SensorFormat format{static_cast<SensorLayout>(layout), bits};
+    SensorFrame frame = randomFrame({6, 4}, format, 9);
+    QCOMPARE(photographBits(frame), photographBits(format));
+    frame.levels = SensorLevels{{10, 20, 30, 40}, 200};
+    QCOMPARE(photographBits(frame), 0);
+    const Image image = photographOf(frame, "camera");
+    // The same cells with black taken off by hand, one place after the other.
+    auto signal = [&](int x, int y) {
+      const float black = frame.levels->black[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+      const auto index = static_cast<std::size_t>(y * frame.size.width + x);
+      return (static_cast<float>(codeAt(frame, index)) - black) / (200.0f - black);
+    };
+    if (format.layout == SensorLayout::mono) {
+      QCOMPARE(image.at(3, 1, 2), signal(3, 1));
+      return;
+    }
+    const int red = format.layout == SensorLayout::bayerRG   ? 0
+                    : format.layout == SensorLayout::bayerGR ? 1
+                    : format.layout == SensorLayout::bayerGB ? 2
+                                                             : 3;
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 3; ++x) {
+        auto place = [&](int p) { return signal(2 * x + p % 2, 2 * y + p / 2); };
+        QVERIFY(std::abs(image.at(x, y, 0) - place(red)) < 1e-5f * std::abs(place(red)) + 1e-6f);
+        const float green = 0.5f * (place(red ^ 1) + place(red ^ 2));
+        QVERIFY(std::abs(image.at(x, y, 1) - green) < 1e-5f * std::abs(green) + 1e-6f);
+        QVERIFY(std::abs(image.at(x, y, 2) - place(red ^ 3)) < 1e-5f * std::abs(place(red ^ 3)) + 1e-6f);
+      }
+  }
+
+  void impossibleLevelsAreRefused() {
+    SensorFrame frame = randomFrame({2, 2}, {SensorLayout::bayerRG, 8}, 10);
+    frame.levels = SensorLevels{{0, 0, 9, 0}, 9};
+    QVERIFY_EXCEPTION_THROWN(photographOf(frame, "camera"), std::logic_error);
+    SensorFrame colours = randomFrame({2, 2}, {SensorLayout::rgb, 8}, 11);
+    colours.levels = SensorLevels{{0, 0, 0, 0}, 9};
+    QVERIFY_EXCEPTION_THROWN(photographOf(colours, "camera"), std::logic_error);
+  }
+
   void tooFewBytesAreTold() {
     SensorFrame frame = randomFrame({4, 4}, {SensorLayout::mono, 12}, 8);
     frame.bytes.pop_back();

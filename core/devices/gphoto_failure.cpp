@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "devices/gphoto_failure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <initializer_list>
+
+namespace relucent {
+namespace {
+
+std::string lowered(std::string_view text) {
+  std::string lower(text);
+  for (char& letter : lower)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return lower;
+}
+
+bool speaksOf(const GphotoFailure& failure, std::initializer_list<std::string_view> words) {
+  const std::string said = lowered(failure.what());
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return said.find(word) != std::string::npos; });
+}
+
+}  // namespace
+
+std::optional<int> batteryPercent(std::string_view word) {
+  const std::string text = lowered(word);
+  int percent = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
+  const bool isNumber = error == std::errc() && (end == text.data() + text.size() || *end == '%');
+  // "0" to "4" without a sign are bars of some cameras.
+  if (isNumber && text.ends_with('%')) return std::clamp(percent, 0, 100);
+  if (isNumber && percent > 4) return std::min(percent, 100);
+  if (text == "low" || text == "critical" || text == "exhausted" || text == "empty") return 5;
+  return std::nullopt;
+}
+
+CameraLost lostByEmptyBattery(int percent) {
+  return CameraLost(
+      fmt::format("the camera's battery seems to be empty ({} % when it was last asked)", percent),
+      "charge or change the battery, best use a mains adapter, and switch the camera on again");
+}
+
+CameraLost lostByFullCard() {
+  return CameraLost("the camera has no room left for a photograph: its memory card is full",
+                    "change or empty the memory card");
+}
+
+CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circumstances) {
+  const bool hasEmptyBattery = circumstances.battery && *circumstances.battery <= emptyBattery;
+  switch (failure.fault()) {
+    case GphotoFault::claimed:
+      return CameraLost(
+          "another program holds the camera, mostly the desktop, which mounts it like a memory stick",
+          "let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) "
+          "and close programs for photographs");
+    case GphotoFault::full:
+      return lostByFullCard();
+    case GphotoFault::busy:
+      return CameraLost("the camera stays busy",
+                        "close its menus and its playback, and end its live picture");
+    case GphotoFault::absent:
+    case GphotoFault::silent:
+      if (hasEmptyBattery) return lostByEmptyBattery(*circumstances.battery);
+      if (failure.fault() == GphotoFault::silent && circumstances.isListed)
+        return CameraLost(
+            "the camera is there but does not answer, it may be asleep",
+            "press its shutter button half way or switch it off and on, and switch its automatic "
+            "power-off off");
+      return CameraLost("the camera has been unplugged or switched off, or has fallen asleep",
+                        "check its cable, switch it on and switch its automatic power-off off");
+    case GphotoFault::refused:
+      break;
+  }
+  if (speaksOf(failure, {"store full", "card full", "no space", "memory full"})) return lostByFullCard();
+  if (speaksOf(failure, {"battery"})) return lostByEmptyBattery(circumstances.battery.value_or(0));
+  if (speaksOf(failure, {"focus"}))
+    return CameraLost(fmt::format("the camera found no focus and took no photograph ({})", failure.what()),
+                      "switch its lens to manual focus");
+  return CameraLost(fmt::format("the camera refused what it was asked for ({})", failure.what()),
+                    "close its menus, and switch it off and on");
+}
+
+}  // namespace relucent

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cctype>
+
+#include "devices/gphoto_driver.h"
+
+namespace relucent {
+
+using namespace std::chrono_literals;
+
+std::vector<std::string> problems(const GphotoCameraSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.camera.empty()) found.push_back("it is not said which still camera is meant");
+  if (settings.photograph && settings.photograph->empty())
+    found.push_back("a part of the sensor without pixels cannot be photographed");
+  if (settings.iso && *settings.iso < 1) found.push_back("a sensitivity is at least ISO 1");
+  return found;
+}
+
+bool isSameModel(const std::string& a, const std::string& b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+DrivenCameraSettings gphotoPatience() {
+  DrivenCameraSettings settings;
+  settings.timeout = 20s;
+  settings.attempts = 3;
+  settings.reconnectFor = 180s;
+  settings.reconnectPause = 2s;
+  return settings;
+}
+
+std::vector<std::string> gphotoPlaces(const std::vector<GphotoCamera>& cameras) {
+  std::vector<std::string> places;
+  for (const GphotoCamera& camera : cameras) {
+    const auto same = std::count_if(cameras.begin(), cameras.end(), [&](const GphotoCamera& other) {
+      return isSameModel(other.model, camera.model);
+    });
+    places.push_back(same > 1 ? camera.port : camera.model);
+  }
+  return places;
+}
+
+}  // namespace relucent

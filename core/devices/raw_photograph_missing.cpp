@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Stands in for raw_photograph.cpp where LibRaw is not installed.
+#include "base/error.h"
+#include "devices/raw_photograph.h"
+
+namespace relucent {
+
+bool hasRawPhotographs() {
+  return false;
+}
+
+std::optional<std::time_t> timeTaken(const std::filesystem::path&) {
+  return std::nullopt;
+}
+
+RawPhotograph rawPhotograph(const std::vector<std::uint8_t>&, const std::string& name) {
+  throw Error(ErrorKind::format, "this build of Relucent does not read raw files",
+              "install LibRaw (libraw-dev) and build again, or develop them linearly, as 16-bit TIFF", name);
+}
+
+}  // namespace relucent

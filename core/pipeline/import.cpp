@@ -9,10 +9,12 @@
 #include "base/fingerprint.h"
 #include "base/stopwatch.h"
 #include "calibration/results.h"
+#include "devices/raw_photograph.h"
 #include "image/color.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
+#include "pipeline/photograph_sequence.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
@@ -34,21 +36,41 @@ bool isPictureName(const fs::path& path) {
   return endings.count(endingOf(path)) > 0 && !path.filename().string().starts_with(".");
 }
 
-/// The pictures of a folder in the order of their names.
-std::vector<fs::path> picturesIn(const fs::path& folder, const char* what) {
+/// The files of a folder that `isMeant` says yes to, in the order of their names.
+std::vector<fs::path> picturesIn(const fs::path& folder, const char* what, bool (*isMeant)(const fs::path&)) {
   std::error_code code;
   std::vector<fs::path> pictures;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
-    if (entry->is_regular_file(code) && isPictureName(entry->path())) pictures.push_back(entry->path());
+    if (entry->is_regular_file(code) && isMeant(entry->path())) pictures.push_back(entry->path());
   if (code)
     throw Error(ErrorKind::disk,
                 fmt::format("the folder of the {} cannot be read ({})", what, code.message()),
                 "check its name", folder.string());
   if (pictures.empty())
     throw Error(ErrorKind::input, fmt::format("the folder of the {} holds no pictures", what),
-                "name the folder with the PNG, TIFF, JPEG or EXR files themselves", folder.string());
+                "name the folder with the PNG, TIFF, JPEG, EXR or raw files themselves", folder.string());
   std::sort(pictures.begin(), pictures.end());
   return pictures;
+}
+
+bool isPhotographName(const fs::path& path) {
+  return isPictureName(path) || (isRawName(path) && !path.filename().string().starts_with("."));
+}
+
+/// The photographs of a folder in the order in which they were taken. Of a photograph that is there
+/// twice, as cameras write them, the raw file counts.
+PhotographSequence photographsIn(const fs::path& folder) {
+  const std::vector<fs::path> files = picturesIn(folder, "photographs", isPhotographName);
+  std::set<fs::path> raw;
+  for (const fs::path& file : files)
+    if (isRawName(file)) raw.insert(file.stem());
+  std::vector<TakenPhotograph> photographs;
+  for (const fs::path& file : files)
+    if (isRawName(file))
+      photographs.push_back({file, timeTaken(file)});
+    else if (!raw.contains(file.stem()))
+      photographs.push_back({file, std::nullopt});
+  return inOrder(std::move(photographs));
 }
 
 /// Files that cameras develop for looking at, by about the curve of sRGB.
@@ -66,7 +88,7 @@ PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive, Fin
                              Progress& progress) {
   PictureSequence sequence;
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    Image image = readPicture(paths[k]).encoded;
+    Image image = isRawName(paths[k]) ? readRawPicture(paths[k]) : readPicture(paths[k]).encoded;
     checkFinite(image, paths[k]);
     if (drive)
       clampToDrive(image);
@@ -98,22 +120,27 @@ void checkFolderIsFree(const fs::path& folder) {
 struct Pictures {
   PictureSequence patterns, photographs;
   bool developed = false;  // some of the photographs were not linear
+  std::string finding;     // on the order of the photographs; empty: nothing to be said
   ImportedRigSettings rig;
 };
 
 Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress) {
-  std::vector<fs::path> patterns = picturesIn(settings.patterns, "patterns");
-  std::vector<fs::path> photographs = picturesIn(settings.photographs, "photographs");
-  if (patterns.size() != photographs.size())
-    throw Error(ErrorKind::input,
-                fmt::format("there are {} patterns but {} photographs", patterns.size(), photographs.size()),
-                "give one photograph for each pattern, paired in the order of their names");
+  const std::vector<fs::path> patterns = picturesIn(settings.patterns, "patterns", isPictureName);
+  const PhotographSequence sequence = photographsIn(settings.photographs);
+  if (patterns.size() != sequence.photographs.size()) {
+    CountProblem problem = countProblem(sequence.photographs, patterns.size());
+    throw Error(ErrorKind::input, std::move(problem.what), std::move(problem.advice),
+                settings.photographs.string());
+  }
+  std::vector<fs::path> photographs;
+  for (const TakenPhotograph& photograph : sequence.photographs) photographs.push_back(photograph.path);
   Fingerprint fingerprint;
   Pictures pictures;
   Progress first = progress.part(0.4, "Reading the patterns");
   pictures.patterns = readSequence(patterns, true, fingerprint, first);
   Progress second = progress.part(0.6, "Reading the photographs");
   pictures.photographs = readSequence(photographs, false, fingerprint, second);
+  pictures.finding = sequence.finding;
   pictures.developed = std::any_of(photographs.begin(), photographs.end(), isDeveloped);
   pictures.rig = {pictures.patterns.size(),
                   pictures.photographs.size(),
@@ -182,6 +209,7 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
     result.patterns = pictures.rig.pictures;
     Progress estimating = progress.part(0.7, "Estimating the light transport");
     import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
+    if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
     if (pictures.developed)
       import.linearization.findings.emplace_back(
           "The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only "

@@ -155,7 +155,9 @@ VerifyResult verifyCalibration(const std::filesystem::path& folder, const Verify
 
 struct ImportPicturesSettings {
   std::filesystem::path patterns;  // folder of pictures: what was projected, in the projector's own pixels
-  /// Folder of pictures: linear signals, one for each pattern; JPEG is decoded by the curve of sRGB.
+  /// Folder of pictures: linear signals, one for each pattern; JPEG is decoded by the curve of sRGB. Raw
+  /// files give the sensor's own values at half its size; of a photograph that is there twice the raw file
+  /// counts.
   std::filesystem::path photographs;
   ImportSettings import;
 };
@@ -175,8 +177,9 @@ struct ImportResult {
   std::vector<std::string> findings;
 };
 
-/// A new calibration out of patterns and photographs taken elsewhere, paired in the order of their names;
-/// files that are no pictures are passed over. Nothing is written before everything is computed. Throws:
+/// A new calibration out of patterns and photographs taken elsewhere, paired in the order of their names, or
+/// in the order in which raw files were taken (photograph_sequence.h); files that are no pictures are passed
+/// over. Nothing is written before everything is computed. Throws:
 /// Error{input} if the folders hold different numbers of pictures or pictures of different sizes, if `folder`
 /// holds anything already, or as importTransport(); Error{disk, format} for unreadable files.
 ImportResult importPictures(const std::filesystem::path& folder, const ImportPicturesSettings& settings,

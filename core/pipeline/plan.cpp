@@ -39,11 +39,13 @@ std::string instructions(const PatternPlanSettings& settings, std::size_t count)
       "changed.\n"
       "   Choose the exposure so that 001-white.png is nowhere overexposed. Photograph at least one full "
       "turn of a\n"
-      "   colour wheel (1/30 s or longer). Keep raw files and develop them linearly, as 16-bit TIFF or PNG.\n"
+      "   colour wheel (1/30 s or longer). Let it write raw files: they are read as they are.\n"
       "3. Darken the room. Show the pictures one after the other, in the order of their names, each longer "
       "than\n"
       "   the intervalometer's interval, or photograph by hand. Take one photograph of each.\n"
-      "4. Sort out photographs until there are {0}, in the same order by name as the patterns.\n"
+      "4. Sort out photographs until there are {0}. Raw files count in the order in which they were taken, "
+      "others in\n"
+      "   the order of their names.\n"
       "5. relucent-cli import CALIBRATION --patterns THIS_FOLDER --photographs FOLDER_OF_PHOTOGRAPHS\n",
       count, settings.projector.width, settings.projector.height);
 }

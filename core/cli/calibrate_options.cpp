@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "cli/options.h"
-#include "devices/device_address.h"
 
 namespace relucent {
 namespace {
@@ -20,6 +17,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   struct Places {
     VenueSettings venue;
     CommandRigSettings commands;
+    ReplayRigSettings replay;
     Size projector{256, 192};
     Size camera{160, 120};
     std::uint64_t seed = 1;
@@ -90,6 +88,10 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
                    "Time until a picture is out, as `check` measures it")
       ->type_name("SECONDS")
       ->capture_default_str();
+  CLI::Option* frameRate =
+      real->add_option("--frame-rate", places->commands.frameRate,
+                       "Pictures a second of the projector: exposures become whole pictures")
+          ->type_name("HZ");
   CLI::Option* record =
       real->add_option_function<std::string>(
               "--record",
@@ -98,8 +100,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
           ->type_name("DIR");
   CLI::Option* replay =
       real->add_option_function<std::string>(
-              "--replay",
-              [places](const std::string& folder) { places->commands.replay = absolutely(folder); },
+              "--replay", [places](const std::string& folder) { places->replay.folder = absolutely(folder); },
               "A recording in place of projector and camera")
           ->type_name("DIR");
 
@@ -123,6 +124,13 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       if (option->count() > 0) throw WrongUsage(option->get_name() + " is for simulated venues only");
     if (venue->count() > 0) throw WrongUsage("give --venue or external programs, not both");
   };
+  auto refuseBesideReplay = [=] {
+    for (const CLI::Option* other : {show, photograph, camera, projector, record, frameRate})
+      if (other->count() > 0)
+        throw WrongUsage(other->get_name() +
+                         " has no place beside --replay: the recording knows its devices");
+    refuseSimulation();
+  };
   auto external = [=] {
     const bool addressed = !places->commands.cameraAddress.empty();
     if (cameraSize->count() > 0 && !addressed)
@@ -131,16 +139,9 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       throw WrongUsage("give a camera's address or --camera-command, not both");
     if (addressed && (show->count() == 0 || projector->count() == 0))
       throw WrongUsage("a real camera needs --projector-command and --projector beside it");
-    if (replay->count() > 0) {
-      for (const CLI::Option* other : {show, photograph, camera, projector, record})
-        if (other->count() > 0)
-          throw WrongUsage(other->get_name() +
-                           " has no place beside --replay: the recording knows its devices");
-      refuseSimulation();
-      return true;
-    }
     if (show->count() + photograph->count() == 0) {
-      if (record->count() > 0) throw WrongUsage("--record is for real devices");
+      for (const CLI::Option* other : {record, frameRate})
+        if (other->count() > 0) throw WrongUsage(other->get_name() + " is for real devices");
       return false;
     }
     if (show->count() == 0 || (photograph->count() == 0 && !addressed) || projector->count() == 0)
@@ -148,8 +149,11 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
     refuseSimulation();
     return true;
   };
-  return [command, places, external, camera, cameraSize] {
-    if (external()) {
+  return [command, places, external, refuseBesideReplay, camera, cameraSize, replay] {
+    if (replay->count() > 0) {
+      refuseBesideReplay();
+      command->settings.rig = places->replay;
+    } else if (external()) {
       places->commands.projector = places->projector;
       const bool addressed = !places->commands.cameraAddress.empty();
       if ((addressed ? cameraSize : camera)->count() > 0) places->commands.camera = places->camera;

@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "cli/options.h"
-#include "devices/device_address.h"
 
 namespace relucent {
-
-void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
-  if (deviceAddressFrom(text))
-    commands.cameraAddress = text;
-  else if (text.find(':') != std::string::npos)
-    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, deviceAddressForms));
-  else
-    size = parseSize(text);
-}
 
 std::function<Command()> addCheckOptions(CLI::App* sub) {
   struct Places {

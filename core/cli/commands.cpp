@@ -59,7 +59,7 @@ struct Executor {
 
   Outcome operator()(const CheckRig& command) const {
     refuse(problems(command.settings));
-    const Latency found = checkRig(command.settings, command.cache, progress);
+    const RigCheck found = checkRig(command.settings, command.cache, progress);
     return {toJson(found), textOf(found)};
   }
 

@@ -49,18 +49,34 @@ std::string textOf(const DeviceList& devices) {
   return text;
 }
 
-Json toJson(const Latency& latency) {
-  return {{"latency_frames", latency.frames},
-          {"latency_seconds", latency.seconds},
-          {"step", latency.step},
-          {"flicker", latency.flicker},
-          {"verdicts", latency.verdicts}};
+Json toJson(const RigCheck& check) {
+  Json verdicts = Json::array();
+  for (const auto* part : {&check.proof.verdicts, &check.latency.verdicts, &check.light.verdicts})
+    for (const std::string& verdict : *part) verdicts.push_back(verdict);
+  return {{"latency_frames", check.latency.frames},
+          {"latency_seconds", check.latency.seconds},
+          {"step", check.latency.step},
+          {"flicker", check.latency.flicker},
+          {"screen",
+           {{"seen", check.proof.isSeen},
+            {"share", check.proof.sight.share},
+            {"late", check.proof.sight.late},
+            {"mirrored", check.proof.sight.mirrored}}},
+          {"light",
+           {{"unsteady", check.light.unsteady},
+            {"brief_exposure", check.light.brief},
+            {"flicker", check.light.flicker},
+            {"colours", check.light.colours},
+            {"bands", check.light.bands},
+            {"dither", check.light.dither}}},
+          {"verdicts", std::move(verdicts)}};
 }
 
-std::string textOf(const Latency& latency) {
+std::string textOf(const RigCheck& check) {
   std::string text;
-  for (const std::string& verdict : latency.verdicts) text += verdict + "\n";
-  return text + fmt::format("Calibrate with --latency {:.3g}\n", latency.seconds);
+  for (const auto* part : {&check.proof.verdicts, &check.latency.verdicts, &check.light.verdicts})
+    for (const std::string& verdict : *part) text += verdict + "\n";
+  return text + fmt::format("Calibrate with --latency {:.3g}\n", check.latency.seconds);
 }
 
 }  // namespace relucent

@@ -5,7 +5,7 @@
 
 #include "calibration/json.h"
 #include "devices/device_list.h"
-#include "devices/latency.h"
+#include "pipeline/check.h"
 
 namespace relucent {
 
@@ -17,8 +17,10 @@ Json toJson(const DeviceList& devices);
 /// The same for people.
 std::string textOf(const DeviceList& devices);
 
-/// {"latency_frames", "latency_seconds", "step", "flicker", "verdicts"}
-Json toJson(const Latency& latency);
-std::string textOf(const Latency& latency);
+/// {"latency_frames", "latency_seconds", "step", "flicker", "verdicts",
+///  "screen": {"seen", "share", "late", "mirrored"},
+///  "light": {"unsteady", "brief_exposure", "flicker", "colours", "bands", "dither"}}
+Json toJson(const RigCheck& check);
+std::string textOf(const RigCheck& check);
 
 }  // namespace relucent

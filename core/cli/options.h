@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 
 #include "cli/arguments.h"
+#include "devices/device_address.h"
 
 /// Options that several subcommands share; met inside the parser only.
 namespace relucent {
@@ -32,7 +35,14 @@ inline CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const c
 std::function<Command()> addCheckOptions(CLI::App* sub);
 
 /// What --camera says: a camera's address or a size. Throws: WrongUsage.
-void readCamera(const std::string& text, CommandRigSettings& commands, Size& size);
+inline void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
+  if (deviceAddressFrom(text))
+    commands.cameraAddress = text;
+  else if (text.find(':') != std::string::npos)
+    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, deviceAddressForms));
+  else
+    size = parseSize(text);
+}
 
 /// Defines the options of `calibrate`. Returns what makes the command once they are read.
 std::function<Command()> addCalibrateOptions(CLI::App* sub);

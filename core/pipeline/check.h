@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "devices/latency.h"
+#include "devices/light_check.h"
+#include "devices/screen_proof.h"
 #include "pipeline/pipeline.h"
 
 namespace relucent {
@@ -11,12 +13,21 @@ namespace relucent {
 struct CheckSettings {
   RigSettings rig;
   LatencySettings latency;
+  ScreenProofSettings proof;
 };
 std::vector<std::string> problems(const CheckSettings& settings);
 
-/// Opens the first projector and camera and measures how long a picture takes from one to the other
-/// (devices/latency.h), with an exposure at which white is well exposed.
-/// Throws: as openRig() and measureLatency().
-Latency checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress);
+/// How a projector and a camera work together.
+struct RigCheck {
+  ScreenProof proof;  // which output the camera sees
+  Latency latency;
+  LightCheck light;
+};
+
+/// Opens the first projector and camera, and finds with an exposure at which white is well exposed: whether
+/// the camera sees that projector (devices/screen_proof.h), how long a picture takes from one to the other
+/// (devices/latency.h), and how steady the light is (devices/light_check.h).
+/// Throws: Error{device} if the camera sees another output or none; as openRig() and measureLatency().
+RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress);
 
 }  // namespace relucent

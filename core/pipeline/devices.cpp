@@ -6,52 +6,90 @@
 #include "devices/latency.h"
 #include "devices/open_camera.h"
 #include "devices/recording.h"
+#include "devices/whole_frames.h"
 
 namespace relucent {
 namespace {
 
-OpenedRig opened(const VenueSettings& settings, const std::filesystem::path& cache, Progress& progress) {
-  OpenedRig result;
-  result.venue.emplace(settings, cache, progress);
-  result.rig = result.venue->rig();
-  return result;
-}
-
-DeviceAddress cameraOf(const CommandRigSettings& settings) {
-  if (settings.cameraAddress.empty()) return {DeviceAddress::Kind::command, settings.cameraCommand};
-  const std::optional<DeviceAddress> address = deviceAddressFrom(settings.cameraAddress);
+DeviceAddress addressFrom(const std::string& text) {
+  const std::optional<DeviceAddress> address = deviceAddressFrom(text);
   if (!address)
-    throw Error(ErrorKind::usage, fmt::format("'{}' is no camera", settings.cameraAddress),
+    throw Error(ErrorKind::usage, fmt::format("'{}' is no camera", text),
                 fmt::format("write {}", deviceAddressForms));
   return *address;
 }
 
-OpenedRig opened(const CommandRigSettings& settings, const std::filesystem::path&, Progress&) {
-  if (!settings.replay.empty()) return {replayed(settings.replay), std::nullopt};
-  CommandProjectorSettings projector;
-  projector.command = settings.projectorCommand;
-  projector.size = settings.projector;
-
-  OpenedRig result;
-  result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
-  result.rig.cameras.push_back(openCamera(
-      cameraOf(settings), {settings.camera, {settings.shortestExposure, settings.longestExposure}}));
-  if (settings.latency > 0.0)
-    result.rig.projectors.front() =
-        delayed(std::move(result.rig.projectors.front()), settings.latency, sleepFor);
-  if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
-  return result;
+DeviceAddress cameraOf(const CommandRigSettings& settings) {
+  if (settings.cameraAddress.empty()) return {DeviceAddress::Kind::command, settings.cameraCommand};
+  return addressFrom(settings.cameraAddress);
 }
 
-OpenedRig opened(const ImportedRigSettings& settings, const std::filesystem::path&, Progress&) {
-  throw Error(ErrorKind::input, "this calibration was imported from photographs and has no devices",
-              "import again, into a new folder: relucent-cli import", settings.photographs);
+template <typename Settings>
+std::unique_ptr<Camera> cameraFor(const Settings& settings, const DeviceAddress& address) {
+  auto camera = openCamera(address, {settings.camera, {settings.shortestExposure, settings.longestExposure}});
+  if (settings.frameRate > 0.0) camera = inWholeFrames(std::move(camera), 1.0 / settings.frameRate);
+  return camera;
 }
+
+/// One overload a kind of rig.
+struct Opener {
+  const std::filesystem::path& cache;
+  const ScreenOpener& screens;
+  Progress& progress;
+
+  OpenedRig operator()(const VenueSettings& settings) const {
+    OpenedRig result;
+    result.venue.emplace(settings, cache, progress);
+    result.rig = result.venue->rig();
+    return result;
+  }
+
+  OpenedRig operator()(const CommandRigSettings& settings) const {
+    CommandProjectorSettings projector;
+    projector.command = settings.projectorCommand;
+    projector.size = settings.projector;
+
+    OpenedRig result;
+    result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
+    result.rig.cameras.push_back(cameraFor(settings, cameraOf(settings)));
+    if (settings.latency > 0.0)
+      result.rig.projectors.front() =
+          delayed(std::move(result.rig.projectors.front()), settings.latency, sleepFor);
+    if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
+    return result;
+  }
+
+  OpenedRig operator()(const ScreenRigSettings& settings) const {
+    if (!screens)
+      throw Error(ErrorKind::usage, "this calibration's projector is a screen of the desktop",
+                  "open it with `relucent`, which has windows", settings.display.connector);
+    OpenedRig result;
+    ScreenRig screen = screenRig(screens(settings), cameraFor(settings, addressFrom(settings.cameraAddress)),
+                                 settings.latency, sleepFor);
+    result.rig = std::move(screen.rig);
+    result.screen = std::move(screen.control);
+    return result;
+  }
+
+  OpenedRig operator()(const ReplayRigSettings& settings) const {
+    return {replayed(settings.folder), std::nullopt};
+  }
+
+  OpenedRig operator()(const ImportedRigSettings& settings) const {
+    throw Error(ErrorKind::input, "this calibration was imported from photographs and has no devices",
+                "import again, into a new folder: relucent-cli import", settings.photographs);
+  }
+};
 
 }  // namespace
 
+OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cache,
+                  const ScreenOpener& screens, Progress& progress) {
+  return std::visit(Opener{cache, screens, progress}, settings);
+}
+
 OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cache, Progress& progress) {
-  return std::visit([&](const auto& rig) { return opened(rig, cache, progress); }, settings);
+  return openRig(settings, cache, {}, progress);
 }
 
 Rig& RigSource::open(const RigSettings& settings, const TransportMatrix& transport,

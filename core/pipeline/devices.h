@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "base/progress.h"
+#include "devices/screen_rig.h"
 #include "pipeline/pipeline.h"
 #include "rig/rig.h"
 #include "transport/transport_matrix.h"
@@ -17,9 +20,16 @@ namespace relucent {
 struct OpenedRig {
   Rig rig;
   std::optional<SimulatedVenue> venue;  // set when the rig is simulated; its truth is for `evaluate` alone
+  std::shared_ptr<ScreenControl> screen{};  // set when the projector is a screen of the desktop
 };
 
-/// Throws: Error{input, device, usage} if there are no such devices.
+/// Makes the projector that is a screen of the desktop. Core has no windows: whoever has them gives this.
+using ScreenOpener = std::function<std::unique_ptr<ScreenProjector>(const ScreenRigSettings&)>;
+
+/// Throws: Error{input, device, usage} if there are no such devices; Error{usage} for a screen of the desktop
+/// without `screens`.
+OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cache,
+                  const ScreenOpener& screens, Progress& progress);
 OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cache, Progress& progress);
 
 /// Where a finished calibration that is looked at again has its devices from: opened when they are needed, or

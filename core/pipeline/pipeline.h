@@ -47,7 +47,34 @@ struct CommandRigSettings {
   std::string cameraAddress{};
   double latency = 0.0;  // seconds from the end of the projector's command until its picture is out
   std::string record{};  // folder for all that is shown and photographed (devices/recording.h); empty: none
-  std::string replay{};  // folder of a recording, in place of both devices; empty: none
+  /// Pictures a second of the projector: exposures become whole pictures (devices/whole_frames.h). 0: as they
+  /// are asked for.
+  double frameRate = 0.0;
+};
+
+/// A screen of the desktop as projector, and any camera by its address. Opened by whoever has windows
+/// (pipeline/devices.h).
+struct ScreenRigSettings {
+  /// What the screen is known by after it was unplugged: its maker's names where it tells them, else where it
+  /// is plugged in.
+  struct Display {
+    std::string connector;  // "HDMI-1"
+    std::string manufacturer, model, serialNumber;
+    bool operator==(const Display&) const = default;
+  };
+  Display display;
+  Size projector;                  // the screen's own pixels
+  double frameRate = 60.0;         // pictures a second: exposures are whole pictures
+  std::string cameraAddress{};     // devices/device_address.h
+  std::optional<Size> camera{};    // none: all that it has
+  double shortestExposure = 1e-3;  // seconds; of external programs, which cannot be asked
+  double longestExposure = 4.0;
+  double latency = 0.0;  // seconds from the swap until the picture is out; 0: measured at the step Camera
+};
+
+/// A recording in place of devices (devices/recording.h).
+struct ReplayRigSettings {
+  std::string folder;
 };
 
 /// No devices: patterns and photographs of them that were taken elsewhere.
@@ -60,8 +87,10 @@ struct ImportedRigSettings {
   std::string fingerprint;  // of all pictures' files
 };
 
-/// How the rig is made: a simulated venue, external programs, or none at all.
-using RigSettings = std::variant<VenueSettings, CommandRigSettings, ImportedRigSettings>;
+/// How the rig is made: a simulated venue, external programs, a screen of the desktop, a recording, or none
+/// at all.
+using RigSettings = std::variant<VenueSettings, CommandRigSettings, ImportedRigSettings, ReplayRigSettings,
+                                 ScreenRigSettings>;
 
 /// What is shown in a calibrated venue, and how.
 struct ContentSettings {

@@ -40,20 +40,49 @@ void checkCommand(Problems& problems, const char* device, const std::string& com
       problems.push_back(fmt::format("the {}'s command does not say {}", device, placeholder));
 }
 
+void checkAddress(Problems& problems, const std::string& camera) {
+  if (!deviceAddressFrom(camera))
+    problems.push_back(fmt::format("'{}' is no camera: write {}", camera, deviceAddressForms));
+}
+
+template <typename Settings>
+void checkTimes(Problems& problems, const Settings& settings) {
+  if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
+    problems.push_back("a projector's latency is between 0 and 10 seconds");
+  if (!(settings.frameRate >= 0.0 && settings.frameRate <= 1000.0))
+    problems.push_back("a projector shows up to 1000 pictures a second");
+  if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
+    problems.push_back("the shortest exposure must be above zero and no longer than the longest");
+}
+
 Problems problemsOf(const CommandRigSettings& settings) {
   Problems found;
-  if (!settings.replay.empty()) return found;  // the recording knows everything
   checkSize(found, "projector", settings.projector);
   if (settings.camera) checkSize(found, "camera", *settings.camera);
   checkCommand(found, "projector", settings.projectorCommand, {"{image}"});
   if (settings.cameraAddress.empty())
     checkCommand(found, "camera", settings.cameraCommand, {"{exposure}", "{output}"});
-  else if (!deviceAddressFrom(settings.cameraAddress))
-    found.push_back(fmt::format("'{}' is no camera: write {}", settings.cameraAddress, deviceAddressForms));
-  if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
-    found.push_back("a projector's latency is between 0 and 10 seconds");
-  if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
-    found.push_back("the shortest exposure must be above zero and no longer than the longest");
+  else
+    checkAddress(found, settings.cameraAddress);
+  checkTimes(found, settings);
+  return found;
+}
+
+Problems problemsOf(const ReplayRigSettings& settings) {
+  if (settings.folder.empty()) return {"the folder of the recording is not named"};
+  return {};  // the recording knows all else
+}
+
+Problems problemsOf(const ScreenRigSettings& settings) {
+  Problems found;
+  checkSize(found, "projector", settings.projector);
+  if (settings.camera) checkSize(found, "camera", *settings.camera);
+  if (settings.display == ScreenRigSettings::Display{}) found.push_back("no screen is chosen");
+  if (settings.cameraAddress.empty())
+    found.push_back("no camera is chosen");
+  else
+    checkAddress(found, settings.cameraAddress);
+  checkTimes(found, settings);
   return found;
 }
 

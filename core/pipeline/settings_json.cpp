@@ -60,7 +60,7 @@ Sorted commandRigToJson(const CommandRigSettings& settings) {
   if (!settings.cameraAddress.empty()) json["camera_address"] = settings.cameraAddress;
   if (settings.latency > 0.0) json["latency"] = settings.latency;
   if (!settings.record.empty()) json["record"] = settings.record;
-  if (!settings.replay.empty()) json["replay"] = settings.replay;
+  if (settings.frameRate > 0.0) json["frame_rate"] = settings.frameRate;
   return json;
 }
 
@@ -75,8 +75,44 @@ CommandRigSettings commandRigFromJson(const Sorted& json) {
   settings.cameraAddress = json.value("camera_address", settings.cameraAddress);
   settings.latency = json.value("latency", settings.latency);
   settings.record = json.value("record", settings.record);
-  settings.replay = json.value("replay", settings.replay);
+  settings.frameRate = json.value("frame_rate", settings.frameRate);
   return settings;
+}
+
+Sorted screenRigToJson(const ScreenRigSettings& settings) {
+  Sorted json{{"display",
+               {{"connector", settings.display.connector},
+                {"manufacturer", settings.display.manufacturer},
+                {"model", settings.display.model},
+                {"serial_number", settings.display.serialNumber}}},
+              {"projector", settings.projector},
+              {"frame_rate", settings.frameRate},
+              {"camera_address", settings.cameraAddress},
+              {"shortest_exposure", settings.shortestExposure},
+              {"longest_exposure", settings.longestExposure},
+              {"latency", settings.latency}};
+  if (settings.camera) json["camera"] = *settings.camera;
+  return json;
+}
+
+ScreenRigSettings screenRigFromJson(const Sorted& json) {
+  ScreenRigSettings settings;
+  const Sorted& display = json.at("display");
+  settings.display = {display.value("connector", ""), display.value("manufacturer", ""),
+                      display.value("model", ""), display.value("serial_number", "")};
+  settings.projector = json.at("projector");
+  settings.frameRate = json.value("frame_rate", settings.frameRate);
+  settings.cameraAddress = json.at("camera_address");
+  settings.shortestExposure = json.value("shortest_exposure", settings.shortestExposure);
+  settings.longestExposure = json.value("longest_exposure", settings.longestExposure);
+  settings.latency = json.value("latency", settings.latency);
+  if (json.contains("camera")) settings.camera = json.at("camera").get<Size>();
+  return settings;
+}
+
+/// Where an earlier version kept a recording that stands for devices: among the commands.
+std::string replayAmongCommands(const Sorted& commands) {
+  return commands.value("replay", std::string());
 }
 
 Sorted importedRigToJson(const ImportedRigSettings& settings) {
@@ -99,18 +135,24 @@ ImportedRigSettings importedRigFromJson(const Sorted& json) {
 }  // namespace
 
 Json rigToJson(const RigSettings& settings) {
-  Sorted json;
-  if (const auto* venue = std::get_if<VenueSettings>(&settings))
-    json = {{"kind", "simulated"}, {"venue", *venue}};
-  else if (const auto* imported = std::get_if<ImportedRigSettings>(&settings))
-    json = {{"kind", "imported"}, {"imported", importedRigToJson(*imported)}};
-  else {
-    const auto& commands = std::get<CommandRigSettings>(settings);
-    // Versions that know commands only say so instead of running an empty one.
-    const bool anyVersion = commands.cameraAddress.empty() && commands.replay.empty();
-    json = {{"kind", anyVersion ? "commands" : "devices"}, {"commands", commandRigToJson(commands)}};
-  }
-  return Json(json);
+  struct Writer {
+    Sorted operator()(const VenueSettings& venue) const { return {{"kind", "simulated"}, {"venue", venue}}; }
+    Sorted operator()(const ImportedRigSettings& imported) const {
+      return {{"kind", "imported"}, {"imported", importedRigToJson(imported)}};
+    }
+    Sorted operator()(const ReplayRigSettings& replay) const {
+      return {{"kind", "replay"}, {"folder", replay.folder}};
+    }
+    Sorted operator()(const ScreenRigSettings& screen) const {
+      return {{"kind", "screen"}, {"screen", screenRigToJson(screen)}};
+    }
+    Sorted operator()(const CommandRigSettings& commands) const {
+      // Versions that know commands only say so instead of running an empty one.
+      const char* kind = commands.cameraAddress.empty() ? "commands" : "devices";
+      return {{"kind", kind}, {"commands", commandRigToJson(commands)}};
+    }
+  };
+  return Json(std::visit(Writer{}, settings));
 }
 
 RigSettings rigFromJson(const Json& json) {
@@ -118,7 +160,14 @@ RigSettings rigFromJson(const Json& json) {
     Sorted sorted(json);
     std::string kind = sorted.at("kind");
     if (kind == "simulated") return sorted.at("venue").get<VenueSettings>();
-    if (kind == "commands" || kind == "devices") return commandRigFromJson(sorted.at("commands"));
+    if (kind == "replay") return ReplayRigSettings{sorted.at("folder")};
+    if (kind == "screen") return screenRigFromJson(sorted.at("screen"));
+    if (kind == "commands" || kind == "devices") {
+      const Sorted& commands = sorted.at("commands");
+      if (std::string folder = replayAmongCommands(commands); !folder.empty())
+        return ReplayRigSettings{std::move(folder)};
+      return commandRigFromJson(commands);
+    }
     if (kind == "imported") return importedRigFromJson(sorted.at("imported"));
     throw Error(ErrorKind::format,
                 fmt::format("the calibration was made with devices of the kind \"{}\"", kind),

@@ -39,6 +39,8 @@ constexpr std::array stages{
     QT_TRANSLATE_NOOP("Stage", "Looking for what cannot be corrected"),
     QT_TRANSLATE_NOOP("Stage", "Measuring the brightness curves of {}"),
     QT_TRANSLATE_NOOP("Stage", "Measuring the camera"),
+    QT_TRANSLATE_NOOP("Stage", "Judging the light"),
+    QT_TRANSLATE_NOOP("Stage", "Looking for the projector's picture"),
     QT_TRANSLATE_NOOP("Stage", "Measuring the latency"),
     QT_TRANSLATE_NOOP("Stage", "Measuring the light transport"),
     QT_TRANSLATE_NOOP("Stage", "Measuring {}"),

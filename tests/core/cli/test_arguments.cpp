@@ -126,8 +126,8 @@ class TestArguments : public QObject {
 
   void aRecordingIsARig() {
     const auto rig =
-        std::get<CommandRigSettings>(parsed<Calibrate>("calibrate d --replay /tape").settings.rig);
-    QCOMPARE(rig.replay, std::string("/tape"));
+        std::get<ReplayRigSettings>(parsed<Calibrate>("calibrate d --replay /tape").settings.rig);
+    QCOMPARE(rig.folder, std::string("/tape"));
     parsed<ListDevices>("devices");
   }
 

@@ -48,14 +48,23 @@ class TestSettingsJson : public QObject {
     std::get<CommandRigSettings>(addressed.rig).cameraAddress = "genicam:40012345";
     std::get<CommandRigSettings>(addressed.rig).record = "/tape";
     std::get<CommandRigSettings>(addressed.rig).latency = 0.05;
-    replayed.rig = CommandRigSettings{};
-    std::get<CommandRigSettings>(replayed.rig).replay = "/tape";
-    // Versions that know neither must not take them for commands.
-    for (const CalibrateSettings& settings : {addressed, replayed})
-      QCOMPARE(rigToJson(settings.rig).at("kind").get<std::string>(), std::string("devices"));
-    QCOMPARE(rigToJson(withoutCamera.rig).at("kind").get<std::string>(), std::string("commands"));
+    std::get<CommandRigSettings>(addressed.rig).frameRate = 59.94;
+    replayed.rig = ReplayRigSettings{"/tape"};
+    CalibrateSettings screen;
+    screen.rig = ScreenRigSettings{
+        {"HDMI-1", "ACME", "Beam", "7"}, {800, 600}, 59.94, "genicam:7", Size{32, 24}, 1e-4, 3.0, 0.07};
+    // Versions that know none of them must not take them for commands.
+    auto kindOf = [](const CalibrateSettings& settings) {
+      return rigToJson(settings.rig).at("kind").get<std::string>();
+    };
+    QCOMPARE(kindOf(addressed), std::string("devices"));
+    QCOMPARE(kindOf(replayed), std::string("replay"));
+    QCOMPARE(kindOf(screen), std::string("screen"));
+    QCOMPARE(kindOf(withoutCamera), std::string("commands"));
+    QVERIFY(std::get<ScreenRigSettings>(comeBack(screen).rig).display ==
+            std::get<ScreenRigSettings>(screen.rig).display);
     for (const CalibrateSettings& settings :
-         {CalibrateSettings{}, venue, commands, withoutCamera, addressed, replayed}) {
+         {CalibrateSettings{}, venue, commands, withoutCamera, addressed, replayed, screen}) {
       CalibrateSettings read = comeBack(settings);
       QCOMPARE(rigToJson(read.rig).dump(), rigToJson(settings.rig).dump());
       QCOMPARE(stagesToJson(read).dump(), stagesToJson(settings).dump());
@@ -67,6 +76,13 @@ class TestSettingsJson : public QObject {
     QCOMPARE(comeBack(venue).acquisition.relativeThreshold, venue.acquisition.relativeThreshold);
     QVERIFY(!comeBack(venue).chooseRidge);
     QVERIFY(!std::get<CommandRigSettings>(comeBack(withoutCamera).rig).camera);
+  }
+
+  /// An earlier version kept the recording's folder among the commands.
+  void recordingsOfEarlierVersionsAreFound() {
+    const Json json = Json::parse(R"({"kind":"devices","commands":{"projector_command":"","camera_command":"",
+        "projector":{"width":0,"height":0},"replay":"/tape"}})");
+    QCOMPARE(std::get<ReplayRigSettings>(rigFromJson(json)).folder, std::string("/tape"));
   }
 
   void damagedSettingsAreAnError_data() {

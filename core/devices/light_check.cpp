@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "devices/light_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "devices/whole_frames.h"
+
+namespace relucent {
+namespace {
+
+constexpr int mostBands = 8;
+constexpr double briefShare = 1.0 / 8.0;  // of a frame
+constexpr double litShare = 0.25;         // of the brightest step: pixels that count
+constexpr double leastStep = 0.004;       // signal that a brief exposure must gain by white
+constexpr double golden = 0.381966;       // phases that never repeat
+
+struct Moments {
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  void add(double value) { sum += value, squares += value * value, ++count; }
+  double mean() const { return count > 0 ? sum / count : 0.0; }
+  double variance() const {
+    return count > 1 ? std::max(0.0, (squares - sum * sum / count) / (count - 1)) : 0.0;
+  }
+  double relative() const { return mean() > 0.0 ? std::sqrt(variance()) / mean() : 0.0; }
+};
+
+/// Pixels that the projector lights, in bands of rows.
+struct Lit {
+  struct Spot {
+    Pixel place;
+    std::size_t band = 0;
+  };
+  std::vector<Spot> spots;
+  std::array<int, mostBands> inBand{};
+};
+
+using Bands = std::array<std::array<double, 3>, mostBands>;  // sums of signals, per colour
+
+/// Photographs of one flat field.
+struct Series {
+  std::vector<Image> pictures;  // less black
+  std::vector<Bands> bands;
+};
+
+Lit litOf(const Image& step) {
+  auto brightness = [&](int x, int y) {
+    return static_cast<double>(step.at(x, y, 0) + step.at(x, y, 1) + step.at(x, y, 2)) / 3.0;
+  };
+  double brightest = 0.0;
+  for (int y = 0; y < step.height(); ++y)
+    for (int x = 0; x < step.width(); ++x) brightest = std::max(brightest, brightness(x, y));
+  Lit lit;
+  for (int y = 0; y < step.height(); ++y)
+    for (int x = 0; x < step.width(); ++x) {
+      if (!(brightness(x, y) >= litShare * brightest && brightest > 0.0)) continue;
+      const auto band = static_cast<std::size_t>(y * mostBands / step.height());
+      lit.spots.push_back({{x, y}, band});
+      ++lit.inBand[band];
+    }
+  return lit;
+}
+
+Image meanOf(const std::vector<Image>& pictures) {
+  Image mean(pictures.front().size(), 3, 0.0f);
+  for (const Image& picture : pictures)
+    for (std::size_t i = 0; i < mean.data().size(); ++i)
+      mean.data()[i] += picture.data()[i] / static_cast<float>(pictures.size());
+  return mean;
+}
+
+Bands bandsOf(const Image& picture, const Lit& lit) {
+  Bands sums{};
+  for (const Lit::Spot& spot : lit.spots)
+    for (int c = 0; c < 3; ++c)
+      sums[spot.band][static_cast<std::size_t>(c)] +=
+          static_cast<double>(picture.at(spot.place.x, spot.place.y, c));
+  return sums;
+}
+
+double sumOf(const Bands& bands, std::size_t colour) {
+  double sum = 0.0;
+  for (const auto& band : bands) sum += band[colour];
+  return sum;
+}
+double sumOf(const Bands& bands) {
+  return sumOf(bands, 0) + sumOf(bands, 1) + sumOf(bands, 2);
+}
+
+double flickerOf(const Series& series) {
+  Moments totals;
+  for (const Bands& bands : series.bands) totals.add(sumOf(bands));
+  return totals.relative();
+}
+
+double colourChangeOf(const Series& series) {
+  double worst = 0.0;
+  for (std::size_t colour = 0; colour < 3; ++colour) {
+    Moments shares;
+    for (const Bands& bands : series.bands)
+      if (sumOf(bands) > 0.0) shares.add(sumOf(bands, colour) / sumOf(bands));
+    worst = std::max(worst, shares.relative());
+  }
+  return worst;
+}
+
+/// Mean variance of single pixels around what their band and colour does in each photograph, absolute.
+double pixelVariance(const Series& series, const Lit& lit) {
+  double sum = 0.0;
+  for (const Lit::Spot& spot : lit.spots)
+    for (int c = 0; c < 3; ++c) {
+      const auto colour = static_cast<std::size_t>(c);
+      Moments residual;
+      double mean = 0.0, bandMean = 0.0;
+      for (std::size_t k = 0; k < series.pictures.size(); ++k) {
+        mean += static_cast<double>(series.pictures[k].at(spot.place.x, spot.place.y, c));
+        bandMean += series.bands[k][spot.band][colour];
+      }
+      if (!(bandMean > 0.0)) continue;
+      for (std::size_t k = 0; k < series.pictures.size(); ++k)
+        residual.add(static_cast<double>(series.pictures[k].at(spot.place.x, spot.place.y, c)) -
+                     mean / bandMean * series.bands[k][spot.band][colour]);
+      sum += residual.variance() / 3.0;
+    }
+  return lit.spots.empty() ? 0.0 : sum / static_cast<double>(lit.spots.size());
+}
+
+/// Of S_kcg / S_kc, less what the noise of `variance` a pixel explains.
+double bandsChangeOf(const Series& series, const Lit& lit, double variance) {
+  double changes = 0.0;
+  int count = 0;
+  for (std::size_t band = 0; band < mostBands; ++band)
+    for (std::size_t colour = 0; colour < 3; ++colour) {
+      Moments shares, signals;
+      for (const Bands& bands : series.bands)
+        if (sumOf(bands, colour) > 0.0) {
+          shares.add(bands[band][colour] / sumOf(bands, colour));
+          signals.add(bands[band][colour]);
+        }
+      if (lit.inBand[band] == 0 || !(signals.mean() > 0.0)) continue;
+      const double noise = variance * lit.inBand[band] / (signals.mean() * signals.mean());
+      changes += std::max(0.0, shares.relative() * shares.relative() - noise);
+      ++count;
+    }
+  return count > 0 ? std::sqrt(changes / count) : 0.0;
+}
+
+class LightMeasurement {
+ public:
+  LightMeasurement(Projector& projector, Camera& camera, const LightCheckSettings& settings, const Wait& wait,
+                   Progress& progress)
+      : projector_(projector), camera_(camera), settings_(settings), wait_(wait), progress_(progress) {}
+
+  LightCheck run(double exposure) {
+    LightCheck check;
+    const ExposureRange range = camera_.exposures();
+    const double frame = settings_.frame;
+    const bool canWhole =
+        std::floor(range.longest / frame + 1e-6) >= std::ceil(range.shortest / frame - 1e-6);
+    const double whole = canWhole ? wholeFrames(exposure, frame, range) : exposure;
+    if (range.shortest <= 0.5 * frame) check.brief = std::max(range.shortest, briefShare * frame);
+
+    look(whole, 1.0f);
+    check.unsteady = flickerOf(series_);
+    if (check.brief > 0.0) lookBriefly(check);
+    projector_.show(Image(projector_.size(), 3, 0.0f));
+    speak(check);
+    return check;
+  }
+
+ private:
+  void lookBriefly(LightCheck& check) {
+    look(check.brief, 1.0f);
+    if (!(step_ > leastStep)) {
+      check.brief = 0.0;  // too dark to tell anything
+      return;
+    }
+    const Series white = series_;
+    const double noise = pixelVariance(white, lit_);
+    check.flicker = flickerOf(white);
+    check.colours = colourChangeOf(white);
+    check.bands = bandsChangeOf(white, lit_, noise);
+    look(check.brief, 0.5f);
+    Moments grey;
+    for (const Bands& bands : series_.bands)
+      grey.add(sumOf(bands) / (3.0 * static_cast<double>(lit_.spots.size())));
+    // White is brighter and never dithered: its noise is at least that of grey.
+    const double beyond = std::max(0.0, pixelVariance(series_, lit_) - noise);
+    check.dither = grey.mean() > 0.0 ? std::sqrt(beyond) / grey.mean() : 0.0;
+  }
+
+  std::vector<Image> photographs(double exposure, float level, int count) {
+    projector_.show(Image(projector_.size(), 3, level));
+    wait_(settings_.settle);
+    std::vector<Image> pictures;
+    for (int i = 0; i < count; ++i) {
+      progress_.checkpoint();
+      wait_(settings_.frame * std::fmod(golden * ++phase_, 1.0));
+      pictures.push_back(camera_.capture({{"light", number_++}, 0, exposure}).signal);
+    }
+    return pictures;
+  }
+
+  /// Fills series_, lit_ and step_. What is lit is told by white.
+  void look(double exposure, float level) {
+    const Image black = meanOf(photographs(exposure, 0.0f, std::max(4, settings_.photographs / 4)));
+    series_ = {photographs(exposure, level, settings_.photographs), {}};
+    for (Image& picture : series_.pictures)
+      for (std::size_t i = 0; i < picture.data().size(); ++i) picture.data()[i] -= black.data()[i];
+    if (level >= 1.0f) {
+      const Image step = meanOf(series_.pictures);
+      lit_ = litOf(step);
+    }
+    for (const Image& picture : series_.pictures) series_.bands.push_back(bandsOf(picture, lit_));
+    Moments steps;
+    for (const Bands& bands : series_.bands)
+      steps.add(lit_.spots.empty() ? 0.0 : sumOf(bands) / (3.0 * static_cast<double>(lit_.spots.size())));
+    step_ = steps.mean();
+    progress_.report(static_cast<double>(number_) / (4.0 * settings_.photographs + 1.0));
+    if (lit_.spots.empty())
+      throw Error(ErrorKind::device, "the camera sees no difference between white and black",
+                  "aim it at the projection, take its cap off, and expose longer", camera_.name());
+  }
+
+  void speak(LightCheck& check) const {
+    auto say = [&](bool seen, const std::string& sentence) {
+      if (seen) check.verdicts.push_back(sentence);
+      return seen;
+    };
+    const double milliseconds = 1000.0 * settings_.frame;
+    bool any =
+        say(check.unsteady > settings_.flicker,
+            fmt::format("The light changes by {:.1f} % between exposures of whole frames: let the lamp "
+                        "warm up, and switch dynamic brightness and lamps in the room off.",
+                        100.0 * check.unsteady));
+    if (!(check.brief > 0.0)) {
+      check.verdicts.push_back(
+          "The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame "
+          "cannot be told.");
+      return;
+    }
+    any |= say(check.flicker > settings_.flicker && check.flicker > 2.0 * check.unsteady,
+               fmt::format("The lamp flickers within a frame, by {:.0f} % in {:.1f} ms: expose whole frames, "
+                           "multiples of {:.2f} ms.",
+                           100.0 * check.flicker, 1000.0 * check.brief, milliseconds));
+    any |= say(check.colours > settings_.colours,
+               fmt::format("The colours come one after the other, as through a colour wheel ({:.0f} % in "
+                           "{:.1f} ms): expose whole frames, multiples of {:.2f} ms.",
+                           100.0 * check.colours, 1000.0 * check.brief, milliseconds));
+    any |=
+        say(check.bands > settings_.bands,
+            fmt::format("The camera exposes its rows one after the other (rolling shutter): brief exposures "
+                        "have bands of {:.0f} %. Expose whole frames, multiples of {:.2f} ms.",
+                        100.0 * check.bands, milliseconds));
+    any |=
+        say(check.dither > settings_.dither,
+            fmt::format("The projector mixes greys in time, pixel by pixel ({:.0f} %): expose several whole "
+                        "frames, and switch its smoothing and 3D modes off.",
+                        100.0 * check.dither));
+    if (!any)
+      check.verdicts.push_back("The light is even: no flicker, colour wheel, bands or dithering is seen.");
+  }
+
+  Projector& projector_;
+  Camera& camera_;
+  const LightCheckSettings& settings_;
+  const Wait& wait_;
+  Progress& progress_;
+  Series series_;
+  Lit lit_;
+  double step_ = 0.0;
+  int number_ = 0, phase_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> problems(const LightCheckSettings& settings) {
+  std::vector<std::string> found;
+  if (!(settings.frame > 0.0)) found.push_back("a projector's frame takes time");
+  if (!(settings.settle >= 0.0)) found.push_back("a flat field cannot be steady before it is shown");
+  if (settings.photographs < 8) found.push_back("at least 8 photographs tell whether light is steady");
+  return found;
+}
+
+LightCheck checkLight(Projector& projector, Camera& camera, double exposure,
+                      const LightCheckSettings& settings, const Wait& wait, Progress& progress) {
+  require(problems(settings).empty(), "{}", fmt::join(problems(settings), "; "));
+  require(exposure > 0.0, "an exposure of {} s", exposure);
+  return LightMeasurement(projector, camera, settings, wait, progress).run(exposure);
+}
+
+}  // namespace relucent

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "devices/latency.h"
+#include "rig/rig.h"
+
+namespace relucent {
+
+struct ScreenProofSettings {
+  int mostLate = 2;          // photographs that a picture may come too late and still be recognised
+  double explained = 0.7;    // of what changes at a pixel, so much must be the code
+  double leastStep = 0.005;  // signal, full scale 1, that the code must change a pixel by
+  double leastShare = 0.01;  // of the camera's pixels that must see it
+};
+std::vector<std::string> problems(const ScreenProofSettings& settings);
+
+/// What a camera sees of one screen.
+struct ScreenSight {
+  double share = 0.0;     // of its pixels that follow the screen's code
+  int late = 0;           // photographs by which pictures come too late
+  bool mirrored = false;  // left and right, or top and bottom, are exchanged (not both: that is a turn)
+};
+
+/// Which output a camera sees.
+struct ScreenProof {
+  ScreenSight sight;
+  bool isSeen = false;
+  std::string instead{};                // the name of another screen that the camera sees; empty: none
+  std::vector<std::string> verdicts{};  // sentences
+};
+
+/// The code: in each quarter of the picture (top left, top right, bottom left, bottom right) the maximal
+/// length sequence of 31 bits, begun 0, 8, 16 and 24 bits in, white for 1.
+///   x^5 + x^2 + 1
+/// Shifted copies of it are uncorrelated but for -1/31.  Source: Golomb, Shift Register Sequences, 1967.
+inline constexpr int screenCodeLength = 31;
+Image screenCode(Size size, int number);
+
+/// What the photographs say of a screen that showed screenCode(0), (1), ... one for each, going round.
+/// For each pixel the series of its brightness s is fitted by the four codes of the quarters, delayed by
+/// d = 0 ... mostLate; it follows the screen if they explain `explained` of the variance of s by at least
+/// `leastStep`, with positive weight. The sight is that of the d with most such pixels; it is mirrored if
+/// the quarters lie the other way round.
+/// Shapes: screenCodeLength + mostLate photographs of one size.
+ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSettings& settings);
+
+/// Shows the code on `screen` and photographs it. If the camera does not see it, tries `others`.
+/// Throws: Cancelled; as the devices.
+ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others, Camera& camera,
+                        double exposure, const ScreenProofSettings& settings, Progress& progress);
+
+/// Throws: Error{device} that says what the camera sees instead, unless it sees the screen.
+void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera);
+
+}  // namespace relucent

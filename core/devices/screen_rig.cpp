@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "devices/screen_rig.h"
+
+#include <atomic>
+#include <optional>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+constexpr int mostAttempts = 20;  // at one photograph
+
+/// What both devices share: the screen, and the picture that should stand on it.
+class SharedScreen : public ScreenControl {
+ public:
+  SharedScreen(std::unique_ptr<ScreenProjector> screen, double latency, Wait wait)
+      : screen_(std::move(screen)), latency_(latency), wait_(std::move(wait)) {}
+
+  void setLatency(double seconds) override { latency_ = seconds; }
+  void rest() override { screen_->rest(); }
+
+  void show(const Image& picture) {
+    picture_ = picture;
+    showAgain();
+  }
+  void showAgain() {
+    screen_->show(*picture_);
+    if (latency_ > 0.0) wait_(latency_);
+  }
+  /// Nothing shown is nothing lost.
+  bool hasStood() { return !picture_ || screen_->hasStood(); }
+  const ScreenProjector& screen() const { return *screen_; }
+
+ private:
+  std::unique_ptr<ScreenProjector> screen_;
+  std::atomic<double> latency_;
+  Wait wait_;
+  std::optional<Image> picture_;
+};
+
+class TimedProjector : public Projector {
+ public:
+  explicit TimedProjector(std::shared_ptr<SharedScreen> shared) : shared_(std::move(shared)) {}
+
+  std::string name() const override { return shared_->screen().name(); }
+  Size size() const override { return shared_->screen().size(); }
+  int bits() const override { return shared_->screen().bits(); }
+  void show(const Image& encodedDrive) override { shared_->show(encodedDrive); }
+
+ private:
+  std::shared_ptr<SharedScreen> shared_;
+};
+
+class WatchfulCamera : public Camera {
+ public:
+  WatchfulCamera(std::unique_ptr<Camera> camera, std::shared_ptr<SharedScreen> shared)
+      : camera_(std::move(camera)), shared_(std::move(shared)) {}
+
+  std::string name() const override { return camera_->name(); }
+  Size size() const override { return camera_->size(); }
+  ExposureRange exposures() const override { return camera_->exposures(); }
+  RawFrame capture(const CaptureRequest& request) override {
+    for (int attempt = 0; attempt < mostAttempts; ++attempt) {
+      // It may have gone while nobody looked.
+      if (!shared_->hasStood()) shared_->showAgain();
+      RawFrame frame = camera_->capture(request);
+      if (shared_->hasStood()) return frame;
+    }
+    throw Error(ErrorKind::device, "the projector's screen loses its picture again and again",
+                "check its cable, and switch its saving of energy off", shared_->screen().name());
+  }
+
+ private:
+  std::unique_ptr<Camera> camera_;
+  std::shared_ptr<SharedScreen> shared_;
+};
+
+}  // namespace
+
+ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera, double latency,
+                    Wait wait) {
+  require(screen != nullptr && camera != nullptr, "a screen and a camera are needed");
+  auto shared = std::make_shared<SharedScreen>(std::move(screen), latency, std::move(wait));
+  ScreenRig result;
+  result.rig.projectors.push_back(std::make_unique<TimedProjector>(shared));
+  result.rig.cameras.push_back(std::make_unique<WatchfulCamera>(std::move(camera), shared));
+  result.control = std::move(shared);
+  return result;
+}
+
+}  // namespace relucent

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "devices/latency.h"
+#include "rig/rig.h"
+
+namespace relucent {
+
+/// A projector that is a screen of the desktop: it is unplugged, sleeps, and belongs to others between two
+/// measurements.
+class ScreenProjector : public Projector {
+ public:
+  /// As Projector::show(): returns after the swap. Waits while the screen is not there.
+  /// Throws: Cancelled if it is asked to stop meanwhile; Error{device}.
+  void show(const Image& encodedDrive) override = 0;
+  /// Whether the picture of the last show() has stood on the screen ever since.
+  virtual bool hasStood() = 0;
+  /// Leaves the screen to whoever else shows on it, until the next show(). From any thread; does not wait.
+  virtual void rest() = 0;
+};
+
+/// What can be changed about a screen that is in use. From any thread.
+class ScreenControl {
+ public:
+  virtual ~ScreenControl() = default;
+  /// From the swap until the picture is out, seconds.
+  virtual void setLatency(double seconds) = 0;
+  virtual void rest() = 0;
+};
+
+struct ScreenRig {
+  Rig rig;
+  std::shared_ptr<ScreenControl> control;  // lives as long as the rig's devices or longer
+};
+
+/// A screen and a camera before it. show() returns `latency` seconds after the swap. A photograph during
+/// which the screen lost its picture is taken again, once the picture is back: what is unplugged costs time
+/// and nothing else. The camera throws Error{device} if the picture is lost again and again.
+ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera, double latency,
+                    Wait wait);
+
+}  // namespace relucent

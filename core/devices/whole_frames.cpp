@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "devices/whole_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+/// Numbers of frames, so that rounding does not decide at the ends of the range.
+constexpr double slack = 1e-6;
+
+double fewest(double frame, const ExposureRange& range) {
+  return std::max(1.0, std::ceil(range.shortest / frame - slack));
+}
+double most(double frame, const ExposureRange& range) {
+  return std::floor(range.longest / frame + slack);
+}
+
+class WholeFrameCamera : public Camera {
+ public:
+  WholeFrameCamera(std::unique_ptr<Camera> camera, double frame)
+      : camera_(std::move(camera)), frame_(frame) {}
+
+  std::string name() const override { return camera_->name(); }
+  Size size() const override { return camera_->size(); }
+  ExposureRange exposures() const override {
+    const ExposureRange range = camera_->exposures();
+    return {fewest(frame_, range) * frame_, most(frame_, range) * frame_};
+  }
+  RawFrame capture(const CaptureRequest& request) override {
+    CaptureRequest rounded = request;
+    rounded.seconds = wholeFrames(request.seconds, frame_, camera_->exposures());
+    return camera_->capture(rounded);
+  }
+
+ private:
+  std::unique_ptr<Camera> camera_;
+  double frame_;
+};
+
+}  // namespace
+
+double wholeFrames(double seconds, double frame, const ExposureRange& range) {
+  require(frame > 0.0, "a frame of {} s", frame);
+  const double least = fewest(frame, range), largest = most(frame, range);
+  require(least <= largest, "no whole frame of {} s between {} and {} s", frame, range.shortest,
+          range.longest);
+  return std::clamp(std::round(seconds / frame), least, largest) * frame;
+}
+
+std::unique_ptr<Camera> inWholeFrames(std::unique_ptr<Camera> camera, double frame) {
+  require(frame > 0.0, "a frame of {} s", frame);
+  const ExposureRange range = camera->exposures();
+  if (fewest(frame, range) > most(frame, range)) return camera;
+  return std::make_unique<WholeFrameCamera>(std::move(camera), frame);
+}
+
+}  // namespace relucent

@@ -170,6 +170,13 @@ void CalibrationFolder::setSettings(Json settings) {
   manifest_ = std::move(manifest);
 }
 
+void CalibrationFolder::setRig(Json rig) {
+  Json manifest = manifest_;
+  manifest["rig"] = std::move(rig);
+  writeManifest(manifest);
+  manifest_ = std::move(manifest);
+}
+
 StageResult CalibrationFolder::store(const std::string& stage, const std::string& inputs, Json values,
                                      const std::function<void(const fs::path&)>& writeFiles) {
   requireName(stage);

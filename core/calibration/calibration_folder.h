@@ -58,6 +58,8 @@ class CalibrationFolder {
   const Json& settings() const { return manifest_.at("settings"); }
   /// What later runs are asked for. Results stay; those that no longer fit become stale by themselves.
   void setSettings(Json settings);
+  /// Other devices. Results stay; all of them become stale by themselves.
+  void setRig(Json rig);
   /// The program that made this calibration, and when (ISO 8601, UTC).
   std::string software() const { return manifest_.at("software"); }
   std::string created() const { return manifest_.at("created"); }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "devices/whole_frames.h"
 
 namespace relucent {
 namespace {
@@ -14,11 +15,18 @@ constexpr int mostAttempts = 20;  // at one photograph
 /// What both devices share: the screen, and the picture that should stand on it.
 class SharedScreen : public ScreenControl {
  public:
-  SharedScreen(std::unique_ptr<ScreenProjector> screen, double latency, Wait wait)
-      : screen_(std::move(screen)), latency_(latency), wait_(std::move(wait)) {}
+  SharedScreen(std::unique_ptr<ScreenProjector> screen, const ScreenTiming& timing, Wait wait)
+      : screen_(std::move(screen)), frame_(timing.frame), latency_(timing.latency), wait_(std::move(wait)) {}
 
   void setLatency(double seconds) override { latency_ = seconds; }
   void rest() override { screen_->rest(); }
+  void setWholeFrames(bool whole) override { whole_ = whole; }
+  ExposureRange exposures(const ExposureRange& range) const {
+    return whole_ ? wholeFramesIn(range, frame_) : range;
+  }
+  double exposure(double seconds, const ExposureRange& range) const {
+    return whole_ && hasWholeFrames(range, frame_) ? wholeFrames(seconds, frame_, range) : seconds;
+  }
 
   void show(const Image& picture) {
     picture_ = picture;
@@ -34,7 +42,9 @@ class SharedScreen : public ScreenControl {
 
  private:
   std::unique_ptr<ScreenProjector> screen_;
+  double frame_;
   std::atomic<double> latency_;
+  std::atomic<bool> whole_ = true;
   Wait wait_;
   std::optional<Image> picture_;
 };
@@ -59,8 +69,10 @@ class WatchfulCamera : public Camera {
 
   std::string name() const override { return camera_->name(); }
   Size size() const override { return camera_->size(); }
-  ExposureRange exposures() const override { return camera_->exposures(); }
-  RawFrame capture(const CaptureRequest& request) override {
+  ExposureRange exposures() const override { return shared_->exposures(camera_->exposures()); }
+  RawFrame capture(const CaptureRequest& asked) override {
+    CaptureRequest request = asked;
+    request.seconds = shared_->exposure(asked.seconds, camera_->exposures());
     for (int attempt = 0; attempt < mostAttempts; ++attempt) {
       // It may have gone while nobody looked.
       if (!shared_->hasStood()) shared_->showAgain();
@@ -78,10 +90,10 @@ class WatchfulCamera : public Camera {
 
 }  // namespace
 
-ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera, double latency,
-                    Wait wait) {
+ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera,
+                    const ScreenTiming& timing, Wait wait) {
   require(screen != nullptr && camera != nullptr, "a screen and a camera are needed");
-  auto shared = std::make_shared<SharedScreen>(std::move(screen), latency, std::move(wait));
+  auto shared = std::make_shared<SharedScreen>(std::move(screen), timing, std::move(wait));
   ScreenRig result;
   result.rig.projectors.push_back(std::make_unique<TimedProjector>(shared));
   result.rig.cameras.push_back(std::make_unique<WatchfulCamera>(std::move(camera), shared));

@@ -29,6 +29,14 @@ class ScreenControl {
   /// From the swap until the picture is out, seconds.
   virtual void setLatency(double seconds) = 0;
   virtual void rest() = 0;
+  /// Whether exposures become whole frames of the screen (devices/whole_frames.h); true to begin with.
+  virtual void setWholeFrames(bool whole) = 0;
+};
+
+/// How a screen is to be waited for, seconds.
+struct ScreenTiming {
+  double latency = 0.0;       // from the swap until the picture is out
+  double frame = 1.0 / 60.0;  // that one picture is shown
 };
 
 struct ScreenRig {
@@ -36,10 +44,11 @@ struct ScreenRig {
   std::shared_ptr<ScreenControl> control;  // lives as long as the rig's devices or longer
 };
 
-/// A screen and a camera before it. show() returns `latency` seconds after the swap. A photograph during
+/// A screen and a camera before it. show() returns `latency` seconds after the swap; exposures are whole
+/// frames where the camera can. A photograph during
 /// which the screen lost its picture is taken again, once the picture is back: what is unplugged costs time
 /// and nothing else. The camera throws Error{device} if the picture is lost again and again.
-ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera, double latency,
-                    Wait wait);
+ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera,
+                    const ScreenTiming& timing, Wait wait);
 
 }  // namespace relucent

@@ -26,10 +26,7 @@ class WholeFrameCamera : public Camera {
 
   std::string name() const override { return camera_->name(); }
   Size size() const override { return camera_->size(); }
-  ExposureRange exposures() const override {
-    const ExposureRange range = camera_->exposures();
-    return {fewest(frame_, range) * frame_, most(frame_, range) * frame_};
-  }
+  ExposureRange exposures() const override { return wholeFramesIn(camera_->exposures(), frame_); }
   RawFrame capture(const CaptureRequest& request) override {
     CaptureRequest rounded = request;
     rounded.seconds = wholeFrames(request.seconds, frame_, camera_->exposures());
@@ -51,10 +48,18 @@ double wholeFrames(double seconds, double frame, const ExposureRange& range) {
   return std::clamp(std::round(seconds / frame), least, largest) * frame;
 }
 
-std::unique_ptr<Camera> inWholeFrames(std::unique_ptr<Camera> camera, double frame) {
+bool hasWholeFrames(const ExposureRange& range, double frame) {
   require(frame > 0.0, "a frame of {} s", frame);
-  const ExposureRange range = camera->exposures();
-  if (fewest(frame, range) > most(frame, range)) return camera;
+  return fewest(frame, range) <= most(frame, range);
+}
+
+ExposureRange wholeFramesIn(const ExposureRange& range, double frame) {
+  if (!hasWholeFrames(range, frame)) return range;
+  return {fewest(frame, range) * frame, most(frame, range) * frame};
+}
+
+std::unique_ptr<Camera> inWholeFrames(std::unique_ptr<Camera> camera, double frame) {
+  if (!hasWholeFrames(camera->exposures(), frame)) return camera;
   return std::make_unique<WholeFrameCamera>(std::move(camera), frame);
 }
 

@@ -13,6 +13,10 @@ namespace relucent {
 /// Throws: std::logic_error unless `frame` > 0 and one of them lies within the range.
 double wholeFrames(double seconds, double frame, const ExposureRange& range);
 
+bool hasWholeFrames(const ExposureRange& range, double frame);
+/// The shortest and the longest exposure of whole frames within a range; `range` itself if there is none.
+ExposureRange wholeFramesIn(const ExposureRange& range, double frame);
+
 /// The same camera; what it exposes is whole frames of the projector. As it is if no whole frame lies within
 /// the camera's range.
 std::unique_ptr<Camera> inWholeFrames(std::unique_ptr<Camera> camera, double frame);

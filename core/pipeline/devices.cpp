@@ -26,9 +26,7 @@ DeviceAddress cameraOf(const CommandRigSettings& settings) {
 
 template <typename Settings>
 std::unique_ptr<Camera> cameraFor(const Settings& settings, const DeviceAddress& address) {
-  auto camera = openCamera(address, {settings.camera, {settings.shortestExposure, settings.longestExposure}});
-  if (settings.frameRate > 0.0) camera = inWholeFrames(std::move(camera), 1.0 / settings.frameRate);
-  return camera;
+  return openCamera(address, {settings.camera, {settings.shortestExposure, settings.longestExposure}});
 }
 
 /// One overload a kind of rig.
@@ -52,6 +50,9 @@ struct Opener {
     OpenedRig result;
     result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
     result.rig.cameras.push_back(cameraFor(settings, cameraOf(settings)));
+    if (settings.frameRate > 0.0)
+      result.rig.cameras.front() =
+          inWholeFrames(std::move(result.rig.cameras.front()), 1.0 / settings.frameRate);
     if (settings.latency > 0.0)
       result.rig.projectors.front() =
           delayed(std::move(result.rig.projectors.front()), settings.latency, sleepFor);
@@ -63,9 +64,12 @@ struct Opener {
     if (!screens)
       throw Error(ErrorKind::usage, "this calibration's projector is a screen of the desktop",
                   "open it with `relucent`, which has windows", settings.display.connector);
+    if (settings.cameraAddress.empty())
+      throw Error(ErrorKind::input, "no camera is chosen", "choose one at the step Camera");
     OpenedRig result;
-    ScreenRig screen = screenRig(screens(settings), cameraFor(settings, addressFrom(settings.cameraAddress)),
-                                 settings.latency, sleepFor);
+    auto camera = cameraFor(settings, addressFrom(settings.cameraAddress));
+    ScreenRig screen = screenRig(screens(settings), std::move(camera),
+                                 {settings.latency, 1.0 / settings.frameRate}, sleepFor);
     result.rig = std::move(screen.rig);
     result.screen = std::move(screen.control);
     return result;

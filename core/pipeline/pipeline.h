@@ -65,7 +65,7 @@ struct ScreenRigSettings {
   Display display;
   Size projector;                  // the screen's own pixels
   double frameRate = 60.0;         // pictures a second: exposures are whole pictures
-  std::string cameraAddress{};     // devices/device_address.h
+  std::string cameraAddress{};     // devices/device_address.h; empty: not chosen yet
   std::optional<Size> camera{};    // none: all that it has
   double shortestExposure = 1e-3;  // seconds; of external programs, which cannot be asked
   double longestExposure = 4.0;

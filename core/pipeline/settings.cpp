@@ -78,10 +78,8 @@ Problems problemsOf(const ScreenRigSettings& settings) {
   checkSize(found, "projector", settings.projector);
   if (settings.camera) checkSize(found, "camera", *settings.camera);
   if (settings.display == ScreenRigSettings::Display{}) found.push_back("no screen is chosen");
-  if (settings.cameraAddress.empty())
-    found.push_back("no camera is chosen");
-  else
-    checkAddress(found, settings.cameraAddress);
+  if (!settings.cameraAddress.empty()) checkAddress(found, settings.cameraAddress);  // may be chosen later
+  if (!(settings.frameRate > 0.0)) found.push_back("a screen shows some pictures a second");
   checkTimes(found, settings);
   return found;
 }

@@ -68,6 +68,17 @@ void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings
   folder.setSettings(std::move(changed));
 }
 
+void changeRig(CalibrationFolder& folder, const RigSettings& rig) {
+  if (folder.latest(stage::linearization))
+    throw Error(ErrorKind::input, "the response of these devices has been measured already",
+                "begin a new venue for other devices", folder.path().string());
+  CalibrateSettings settings = settingsOf(folder);
+  settings.rig = rig;
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and try again");
+  folder.setRig(rigToJson(rig));
+}
+
 void storeDecision(CalibrationFolder& folder, Step step, Json values) {
   require(step != Step::linearization && step != Step::acquisition, "{} is measured, not decided",
           toString(step));

@@ -32,6 +32,10 @@ std::optional<StageResult> resultOf(const CalibrationFolder& folder, Step step);
 /// Changes what later runs are asked for, and nothing else: the rig is what the calibration was begun with.
 void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings);
 
+/// Exchanges the devices of a calibration with which nothing has been measured yet.
+/// Throws: Error{input} if something has, or for settings with problems(); Error{disk}.
+void changeRig(CalibrationFolder& folder, const RigSettings& rig);
+
 /// Keeps that a step at which somebody decides is done, with figures for people.
 void storeDecision(CalibrationFolder& folder, Step step, Json values);
 

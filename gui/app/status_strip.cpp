@@ -52,7 +52,11 @@ void StatusStrip::refresh() {
   }
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
+  if (const ScreenRigSettings* screen = session_.screenRig())
+    kind = QString::fromStdString(screen->display.connector);
   projector_->setText(QString::fromUtf8("%1 × %2, %3").arg(size.width).arg(size.height).arg(kind));
+  if (const ScreenRigSettings* screen = session_.screenRig())
+    kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
   camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));
   QString folder = QString::fromStdString(session_.path().string());
   disk_->setText(
@@ -62,8 +66,9 @@ void StatusStrip::refresh() {
     if (const auto& result = session_.result(step))
       latest = std::max(latest, QString::fromStdString(result->stored));
   QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
-  saved_->setText(when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
-                                 : QString());
+  saved_->setText(
+      when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
+                     : QString());
 }
 
 }  // namespace relucent

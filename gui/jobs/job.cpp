@@ -76,6 +76,8 @@ void Job::stopAndKeep() {
 
 void Job::cancel() {
   if (stop_ != nullptr) stop_->ask(StopRequest::Kind::cancel);
+  // Devices that wait for something else than time know the thread, not the progress.
+  if (isRunning() && thread_ != nullptr) thread_->requestInterruption();
 }
 
 void Job::wait() {

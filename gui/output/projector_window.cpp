@@ -57,11 +57,18 @@ void ProjectorWindow::blacken() {
 
 void ProjectorWindow::goTo(QScreen* screen) {
   on_ = screen;
+  connect(screen, &QScreen::geometryChanged, this, &ProjectorWindow::follow, Qt::UniqueConnection);
   setScreen(screen);
   setGeometry(screen->geometry());
   showFullScreen();
   fresh_ = true;
   update();
+}
+
+void ProjectorWindow::follow() {
+  if (on_ == nullptr || geometry() == on_->geometry()) return;
+  setGeometry(on_->geometry());
+  Q_EMIT displayChanged();
 }
 
 void ProjectorWindow::screenGone(QScreen* screen) {

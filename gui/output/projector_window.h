@@ -42,6 +42,8 @@ class ProjectorWindow : public QOpenGLWindow {
   void displayLost();
   /// The display is back and the window on it.
   void displayFound();
+  /// The display has another place or resolution; the window has followed.
+  void displayChanged();
   /// A key that somebody pressed at the projector's own window.
   void keyPressed(int key, Qt::KeyboardModifiers modifiers);
 
@@ -54,6 +56,7 @@ class ProjectorWindow : public QOpenGLWindow {
   void screenGone(QScreen* screen);
   void screenCame();
   void goTo(QScreen* screen);
+  void follow();
   void forgetGraphics();
   void upload();
 

@@ -5,6 +5,7 @@
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
 #include "views/number_text.h"
+#include "wizard/missing_screen.h"
 
 namespace relucent {
 namespace {
@@ -126,6 +127,7 @@ std::optional<double> AcquirePage::progress() const {
 }
 
 std::optional<Banner> AcquirePage::banner() const {
+  if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (isMeasuring()) return std::nullopt;
   auto* self = const_cast<AcquirePage*>(this);
   StepProgress progress = session_.progress(Step::acquisition);

@@ -27,6 +27,7 @@ Region centre(Size camera) {
 /// What the looking thread and the interface tell each other.
 struct CameraPage::Shared {
   QMutex guard;
+  std::optional<RigCheck> check;
   std::optional<ExposureChoice> choice;
   std::optional<CameraLook> look;
   std::optional<double> tooBright, tooDark;
@@ -35,9 +36,22 @@ struct CameraPage::Shared {
   bool posted = false;
 };
 
-CameraPage::CameraPage(Session& session, QObject* parent) : PageModel(parent), session_(session) {
+CameraPage::CameraPage(Session& session, QObject* parent)
+    : PageModel(parent),
+      session_(session),
+      listing_(
+          [this](DeviceList found) {
+            cameras_ = std::move(found);
+            Q_EMIT camerasListed();
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("Nothing was changed."), {}, {}});
+            Q_EMIT changed();
+          }) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
+    check_.reset();
     look_.reset();
     exposures_ = {};
     tooBright_.reset();
@@ -66,7 +80,47 @@ StepStatus CameraPage::status() const {
   return {};
 }
 
+bool CameraPage::needsCamera() const {
+  const ScreenRigSettings* screen = session_.screenRig();
+  return screen != nullptr && screen->cameraAddress.empty();
+}
+
+/// What was measured belongs to its camera.
+bool CameraPage::mayChooseCamera() const {
+  return session_.screenRig() != nullptr && session_.progress(Step::linearization) == StepProgress::open;
+}
+
+void CameraPage::listCameras() {
+  if (isListing()) return;
+  listing_.ask(lister_);
+  Q_EMIT camerasListed();
+  Q_EMIT changed();
+}
+
+void CameraPage::chooseCamera(const std::string& address, std::optional<Size> size) {
+  exchangeCamera(address, size);
+  if (!needsCamera()) start();
+}
+
+void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> size) {
+  if (!mayChooseCamera() || isLooking() || !session_.busy().isEmpty()) return;
+  try {
+    ScreenRigSettings rig = *session_.screenRig();
+    rig.cameraAddress = address;
+    rig.camera = size;
+    session_.changeRig(rig);
+    look_.reset();
+    check_.reset();
+    exposures_ = {};
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+  }
+  Q_EMIT changed();
+}
+
 QString CameraPage::hint() const {
+  if (needsCamera())
+    return isListing() ? tr("Looking for cameras") : tr("Choose the camera that looks at the surface.");
   if (!session_.busy().isEmpty() && !isLooking())
     return tr("The camera is in use at %1.").arg(session_.busy());
   if (isLooking() && exposures_.seconds.empty())
@@ -97,13 +151,22 @@ Command CameraPage::primary() const {
 std::vector<Command> CameraPage::secondary() const {
   auto* self = const_cast<CameraPage*>(this);
   if (isLooking()) return {{tr("Pause"), Icon::pause, true, {}, [self] { self->finish(); }}};
-  return {{tr("Check again"), Icon::retry, session_.busy().isEmpty() && session_.isOpen(), {}, [self] {
-             self->best_ = 0.0;
-             self->start();
-           }}};
+  if (needsCamera()) return {};
+  std::vector<Command> commands{
+      {tr("Check again"), Icon::retry, session_.busy().isEmpty() && session_.isOpen(), {}, [self] {
+         self->best_ = 0.0;
+         self->start();
+       }}};
+  if (mayChooseCamera())
+    commands.push_back({tr("Choose another camera"), Icon::camera, session_.busy().isEmpty(), {}, [self] {
+                          self->exchangeCamera({}, std::nullopt);
+                          self->listCameras();
+                        }});
+  return commands;
 }
 
 void CameraPage::enter() {
+  if (needsCamera()) return listCameras();
   bool wanted = session_.progress(Step::camera) != StepProgress::done;
   if (wanted && session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty()) start();
 }
@@ -138,16 +201,23 @@ void CameraPage::chooseExposure(std::size_t index) {
 }
 
 void CameraPage::start() {
+  if (needsCamera()) return;
   goOn_ = false;
   shared_ = std::make_shared<Shared>();
   shared_->area = area_;
   session_.setBusy(name());
   job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
-    Progress opening = progress.part(0.5, tr("Opening the devices").toStdString());
+    Progress opening = progress.part(0.4, tr("Opening the devices").toStdString());
     Rig& rig = work.devices->open(opening);
+    if (work.devices->hasScreen()) {
+      Progress checking = progress.part(0.3, tr("Checking projector and camera").toStdString());
+      RigCheck check = work.devices->check(checking);
+      QMutexLocker lock(&shared->guard);
+      shared->check = std::move(check);
+    }
     NoShotLog nothing;
     ShotTaker shots(rig, nothing, "camera");
-    Progress exposing = progress.part(0.5, tr("Finding the exposures").toStdString());
+    Progress exposing = progress.part(0.3, tr("Finding the exposures").toStdString());
     ExposureChoice choice = chooseExposures(shots, exposing);
     {
       QMutexLocker lock(&shared->guard);
@@ -206,6 +276,7 @@ void CameraPage::takeNews() {
       exposures_ = *std::exchange(shared_->choice, std::nullopt);
       exposure_ = shared_->exposure;
     }
+    if (shared_->check) check_ = std::exchange(shared_->check, std::nullopt);
     tooBright_ = shared_->tooBright;
     tooDark_ = shared_->tooDark;
     area_ = shared_->area;
@@ -220,17 +291,26 @@ void CameraPage::ended() {
   if (session_.busy() == name()) session_.setBusy({});
   if (job_.state() == Job::State::failed)
     Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost."), {}, {}});
-  if (std::exchange(goOn_, false)) {
-    try {
-      Json seconds = Json::array();
-      for (double exposure : exposures_.seconds) seconds.push_back(exposure);
-      session_.decide(Step::camera, Json{{"exposures", seconds}});
-      Q_EMIT nextWanted();
-    } catch (...) {
-      Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
-    }
-  }
+  if (std::exchange(goOn_, false)) keepLook();
   Q_EMIT changed();
+}
+
+void CameraPage::keepLook() {
+  Json seconds = Json::array();
+  for (double exposure : exposures_.seconds) seconds.push_back(exposure);
+  Json kept{{"exposures", seconds}};
+  if (check_) {
+    kept["latency_seconds"] = check_->latency.seconds;
+    kept["verdicts"] = Json::array();
+    for (const auto* part : {&check_->proof.verdicts, &check_->latency.verdicts, &check_->light.verdicts})
+      for (const std::string& verdict : *part) kept["verdicts"].push_back(verdict);
+  }
+  try {
+    session_.decide(Step::camera, std::move(kept));
+    Q_EMIT nextWanted();
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+  }
 }
 
 }  // namespace relucent

@@ -3,8 +3,10 @@
 
 #include <QMutex>
 
+#include "devices/device_list.h"
 #include "image/photograph_check.h"
 #include "jobs/job.h"
+#include "jobs/latest.h"
 #include "linearization/exposure_choice.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
@@ -39,6 +41,19 @@ class CameraPage : public PageModel {
   void leave() override { finish(); }
   void finish() override;
 
+  /// A screen of the desktop is the projector, and no camera is chosen for it yet.
+  bool needsCamera() const;
+  /// What is there to choose from, as it was when it was looked for.
+  const DeviceList& cameras() const { return cameras_; }
+  bool isListing() const { return listing_.isBusy(); }
+  void listCameras();
+  /// `size`: of the photographs; none: all that the camera has.
+  void chooseCamera(const std::string& address, std::optional<Size> size = std::nullopt);
+  /// Who looks for cameras; for tests.
+  void setLister(std::function<DeviceList()> lister) { lister_ = std::move(lister); }
+  /// How projector and camera work together, where the projector is a screen; none before it was measured.
+  const std::optional<RigCheck>& check() const { return check_; }
+
   bool isLooking() const { return job_.isRunning(); }
   QString stage() const { return job_.stage(); }
   const std::optional<CameraLook>& look() const { return look_; }
@@ -57,8 +72,14 @@ class CameraPage : public PageModel {
   /// Sharpness relative to the best so far, 0 to 1.
   double focus() const { return best_ > 0.0 && look_ ? look_->sharpness / best_ : 0.0; }
 
+ Q_SIGNALS:
+  void camerasListed();
+
  private:
   struct Shared;
+  bool mayChooseCamera() const;
+  void exchangeCamera(const std::string& address, std::optional<Size> size);
+  void keepLook();
   void start();
   void watch(const Region& area);
   void takeNews();
@@ -73,6 +94,10 @@ class CameraPage : public PageModel {
   std::optional<double> tooBright_, tooDark_;
   Region area_;
   double best_ = 0.0;
+  std::function<DeviceList()> lister_ = listDevices;
+  DeviceList cameras_;
+  Latest<DeviceList> listing_;
+  std::optional<RigCheck> check_;
   bool goOn_ = false;  // the next step was asked for while looking
 };
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <QPainter>
 #include <QProgressBar>
+#include <QStackedWidget>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
+#include "wizard/camera_choice_view.h"
 #include "wizard/camera_page.h"
 #include "wizard/page_view.h"
 
@@ -58,6 +60,15 @@ double tallest(const PhotographCheck& check) {
   for (const auto& channel : check.histogram)
     most = std::max(most, *std::max_element(channel.begin(), channel.end()));
   return static_cast<double>(most) * 2.0;
+}
+
+/// How the devices work together, a line each.
+QString verdictsOf(const std::optional<RigCheck>& check) {
+  QStringList lines;
+  if (check)
+    for (const auto* part : {&check->proof.verdicts, &check->latency.verdicts, &check->light.verdicts})
+      for (const std::string& verdict : *part) lines << QString::fromStdString(verdict);
+  return lines.join('\n');
 }
 
 class FocusMeter : public QWidget {
@@ -164,9 +175,13 @@ class CameraInspector {
     auto* bright = new Remark;
     auto* dark = new Remark;
     for (Remark* verdict : {sees, bright, dark}) column->addWidget(verdict);
+    auto* together = labelOf({}, "note");
+    together->setObjectName("device-verdicts");
+    column->addWidget(together);
     column->addStretch(1);
 
-    auto refresh = [&model, histogram, focus, meter, group, sees, bright, dark] {
+    auto refresh = [&model, histogram, focus, meter, group, sees, bright, dark, together] {
+      together->setText(verdictsOf(model.check()));
       bool seen = model.look().has_value();
       if (seen) {
         histogram->setAxes({0.0, 1.0, false, CameraPage::tr("Signal, share of full")},
@@ -213,7 +228,13 @@ class CameraInspector {
 }  // namespace
 
 PageView viewOf(CameraPage& model) {
-  return {new CameraStage(model), CameraInspector::make(model)};
+  auto* stages = new QStackedWidget;
+  stages->addWidget(new CameraStage(model));
+  stages->addWidget(cameraChoice(model));
+  auto refresh = [&model, stages] { stages->setCurrentIndex(model.needsCamera() ? 1 : 0); };
+  QObject::connect(&model, &CameraPage::changed, stages, refresh);
+  refresh();
+  return {stages, CameraInspector::make(model)};
 }
 
 }  // namespace relucent

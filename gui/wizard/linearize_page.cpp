@@ -9,6 +9,7 @@
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
 #include "views/number_text.h"
+#include "wizard/missing_screen.h"
 
 namespace relucent {
 
@@ -103,6 +104,7 @@ std::optional<double> LinearizePage::progress() const {
 }
 
 std::optional<Banner> LinearizePage::banner() const {
+  if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (isMeasuring() || session_.progress(Step::linearization) != StepProgress::stale) return std::nullopt;
   auto* self = const_cast<LinearizePage*>(this);
   return Banner{

@@ -1,22 +1,115 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/session.h"
 
+#include <QPointer>
+
+#include "base/error.h"
 #include "calibration/results.h"
+#include "devices/test_exposure.h"
+#include "output/window_projector.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
 #include "rig/watched_rig.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr int audienceLimit = 3;  // patterns a second
+
+struct ProjectorSize {
+  Size operator()(const ReplayRigSettings&) const { return {}; }  // only the recording knows
+  Size operator()(const auto& rig) const { return rig.projector; }
+};
+
+}  // namespace
 
 Rig& SessionDevices::open(Progress& progress) {
   std::scoped_lock lock(guard_);
   if (!opened_) {
-    OpenedRig opened = openRig(settings_, cache_, progress);
+    Progress opening = progress.part(hasScreen() ? 0.3 : 1.0, "Preparing the devices");
+    OpenedRig opened = openRig(settings_, cache_, screens_, opening);
     opened.rig = watched(std::move(opened.rig), live_);
+    {
+      std::scoped_lock instant(screenGuard_);
+      screen_ = opened.screen;
+      if (screen_) screen_->setLatency(latency_.value_or(unmeasuredLatency()));
+    }
     opened_ = std::move(opened);
   }
+  // A camera that was turned away is looked through again.
+  if (hasScreen() && !proof_.isSeen) prove(progress);
   return opened_->rig;
+}
+
+void SessionDevices::prove(Progress& progress) {
+  Progress proving = progress.part(0.7, "Looking for the projector's picture");
+  Projector& projector = *opened_->rig.projectors.front();
+  Camera& camera = *opened_->rig.cameras.front();
+  LatencySettings settling;
+  settling.mostFrames = 1;  // show() waits long enough
+  exposure_ = testExposure(projector, camera, settling, sleepFor, proving);
+  proof_ = proveScreen(projector, {}, camera, exposure_, {}, proving);
+  requireSeen(proof_, projector, camera);
+}
+
+RigCheck SessionDevices::check(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  require(opened_ && hasScreen(), "only an open screen is checked");
+  Projector& projector = *opened_->rig.projectors.front();
+  Camera& camera = *opened_->rig.cameras.front();
+  const double frame = 1.0 / std::get<ScreenRigSettings>(settings_).frameRate;
+  RigCheck check;
+  check.proof = proof_;
+
+  Progress measuring = progress.part(0.6, "Measuring the latency");
+  LatencySettings latency;
+  latency.frame = frame;
+  latency.mostFrames = patience_.mostFrames;
+  screen()->setLatency(0.0);
+  try {
+    check.latency = measureLatency(projector, camera, exposure_, latency, sleepFor, measuring);
+  } catch (...) {
+    screen()->setLatency(unmeasuredLatency());
+    throw;
+  }
+  setLatency(check.latency.seconds);
+
+  Progress judging = progress.part(0.4, "Judging the light");
+  LightCheckSettings light;
+  light.frame = frame;
+  light.photographs = patience_.photographs;
+  light.settle = patience_.mostFrames * frame;
+  // Within a frame: that is what is judged.
+  screen()->setWholeFrames(false);
+  try {
+    check.light = checkLight(projector, camera, exposure_, light, sleepFor, judging);
+  } catch (...) {
+    screen()->setWholeFrames(true);
+    throw;
+  }
+  screen()->setWholeFrames(true);
+  return check;
+}
+
+std::shared_ptr<ScreenControl> SessionDevices::screen() const {
+  std::scoped_lock instant(screenGuard_);
+  return screen_;
+}
+
+/// Long enough for most projectors: what proves the screen comes before what measures.
+double SessionDevices::unmeasuredLatency() const {
+  return patience_.mostFrames / std::get<ScreenRigSettings>(settings_).frameRate / 3.0;
+}
+
+void SessionDevices::setLatency(double seconds) {
+  std::scoped_lock instant(screenGuard_);
+  latency_ = seconds;
+  if (screen_) screen_->setLatency(seconds);
+}
+
+void SessionDevices::rest() {
+  if (std::shared_ptr<ScreenControl> used = screen()) used->rest();
 }
 
 Session::Session(fs::path cache, QObject* parent)
@@ -57,8 +150,44 @@ void Session::adopt(const CalibrationFolder& folder) {
   look(folder);
   roomClear_ = false;
   slowDown();
-  devices_ = std::make_shared<SessionDevices>(settings_.rig, cache_, live_);
+  equip();
   Q_EMIT opened();
+  Q_EMIT changed();
+}
+
+/// Devices by the settings; those of before are let go of.
+void Session::equip() {
+  devices_ = std::make_shared<SessionDevices>(
+      settings_.rig, cache_, live_, [this](const ScreenRigSettings& screen) { return openScreen(screen); },
+      patience_);
+  const auto& checked = result(Step::camera);
+  if (checked && progress(Step::camera) == StepProgress::done && checked->values.contains("latency_seconds"))
+    devices_->setLatency(checked->values["latency_seconds"].get<double>());
+}
+
+/// Called on a worker's thread.
+std::unique_ptr<ScreenProjector> Session::openScreen(const ScreenRigSettings& settings) {
+  return std::make_unique<WindowProjector>(identityOf(settings.display), settings.projector,
+                                           [self = QPointer<Session>(this)](bool waits) {
+                                             if (!self) return;
+                                             self->screenMissing_ = waits;
+                                             Q_EMIT self->changed();
+                                           });
+}
+
+void Session::changeRig(const RigSettings& rig) {
+  devices_ = nullptr;  // nobody else is let to a camera that is held
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    try {
+      relucent::changeRig(folder, rig);
+    } catch (...) {
+      equip();
+      throw;
+    }
+    look(folder);
+  }
+  equip();
   Q_EMIT changed();
 }
 
@@ -88,8 +217,12 @@ bool Session::isSimulated() const {
   return std::holds_alternative<VenueSettings>(settings_.rig);
 }
 
+bool Session::hasLight() const {
+  return std::holds_alternative<CommandRigSettings>(settings_.rig) || screenRig() != nullptr;
+}
+
 Size Session::projectorSize() const {
-  return std::visit([](const auto& rig) { return rig.projector; }, settings_.rig);
+  return std::visit(ProjectorSize{}, settings_.rig);
 }
 
 int Session::photographsKept(Step step) const {
@@ -137,17 +270,21 @@ void Session::setFlashLimit(int changesPerSecond) {
 }
 
 void Session::slowDown() {
-  bool real = isOpen() && !isSimulated();
-  live_->setLeastInterval(real && flashLimit_ > 0 ? 1000 / flashLimit_ : 0);
+  bool real = isOpen() && hasLight();
+  // Until somebody has said that the room is clear, an audience may be looking.
+  int limit = flashLimit_ > 0 ? flashLimit_ : roomClear_ ? 0 : audienceLimit;
+  live_->setLeastInterval(real && limit > 0 ? 1000 / limit : 0);
 }
 
 void Session::setRoomClear(bool clear) {
   roomClear_ = clear;
+  slowDown();
   Q_EMIT changed();
 }
 
 void Session::setBusy(const QString& who) {
   busy_ = who;
+  if (busy_.isEmpty() && devices_) devices_->rest();
   Q_EMIT changed();
 }
 

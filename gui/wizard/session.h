@@ -12,28 +12,62 @@
 #include "calibration/calibration_folder.h"
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
+#include "pipeline/check.h"
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/steps.h"
 
 namespace relucent {
 
+/// How patiently real devices are checked.
+struct CheckPatience {
+  int mostFrames = 30;   // of the projector, until any picture is out
+  int photographs = 24;  // of each flat field
+};
+
 /// The devices of the open calibration. Opened by the first work that needs them, used by one work at a time.
 class SessionDevices {
  public:
-  SessionDevices(RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live)
-      : settings_(std::move(settings)), cache_(std::move(cache)), live_(std::move(live)) {}
+  SessionDevices(RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live,
+                 ScreenOpener screens, CheckPatience patience)
+      : settings_(std::move(settings)),
+        cache_(std::move(cache)),
+        live_(std::move(live)),
+        screens_(std::move(screens)),
+        patience_(patience) {}
 
-  /// Called on a worker's thread. Throws: as openRig().
+  /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used.
+  /// Throws: as openRig() and requireSeen().
   Rig& open(Progress& progress);
+  /// Of an open screen: how long a picture takes, waited for from now on, and how steady its light is.
+  /// Called on a worker's thread.  Throws: as measureLatency() and checkLight().
+  RigCheck check(Progress& progress);
+  /// Whether check() has something to say.
+  bool hasScreen() const { return std::holds_alternative<ScreenRigSettings>(settings_); }
+  /// As it was measured earlier, seconds.
+  void setLatency(double seconds);
+  /// Leaves the projector's screen to others until the next pattern.
+  void rest();
   LiveRig& live() const { return *live_; }
 
  private:
+  std::shared_ptr<ScreenControl> screen() const;
+  double unmeasuredLatency() const;
+  void prove(Progress& progress);
+
   RigSettings settings_;
   std::filesystem::path cache_;
   std::shared_ptr<LiveRig> live_;
+  ScreenOpener screens_;
+  CheckPatience patience_;
   std::mutex guard_;
   std::optional<OpenedRig> opened_;
+  ScreenProof proof_;
+  double exposure_ = 0.0;  // at which white is well exposed
+  // Held for an instant only: the interface asks for it while a worker opens the devices.
+  mutable std::mutex screenGuard_;
+  std::shared_ptr<ScreenControl> screen_;
+  std::optional<double> latency_;
 };
 
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
@@ -63,6 +97,8 @@ class Session : public QObject {
     return steps_[static_cast<std::size_t>(step)].result;
   }
   bool isSimulated() const;
+  /// The projector is a screen of the desktop; nullptr: it is not.
+  const ScreenRigSettings* screenRig() const { return std::get_if<ScreenRigSettings>(&settings_.rig); }
   Size projectorSize() const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
   int photographsKept(Step step) const;
@@ -70,6 +106,9 @@ class Session : public QObject {
   /// Throws: Error{disk}.
   void changeSettings(const CalibrateSettings& settings);
   void decide(Step step, Json values);
+  /// Other devices, before anything is measured. Throws: as changeRig().
+  void changeRig(const RigSettings& rig);
+  void setPatience(const CheckPatience& patience) { patience_ = patience; }
   /// Looks at the folder again, after some work wrote into it.
   void reload();
 
@@ -91,8 +130,11 @@ class Session : public QObject {
   bool isRoomClear() const { return roomClear_; }
   void setRoomClear(bool clear);
   /// Measuring may flash real light, more than three times a second, only after a consent.
-  bool needsConsent() const { return isOpen() && !isSimulated() && flashLimit_ == 0; }
+  bool needsConsent() const { return isOpen() && hasLight() && flashLimit_ == 0; }
   bool mayMeasure() const { return !needsConsent() || roomClear_; }
+
+  /// The projector's screen is unplugged, and work waits for it.
+  bool isScreenMissing() const { return screenMissing_; }
 
   /// Devices are used by one page at a time. `who`: its name; empty: nobody.
   const QString& busy() const { return busy_; }
@@ -112,6 +154,10 @@ class Session : public QObject {
   void look(const CalibrationFolder& folder);
   void adopt(const CalibrationFolder& folder);
   void slowDown();
+  /// Devices that shine into a room.
+  bool hasLight() const;
+  void equip();
+  std::unique_ptr<ScreenProjector> openScreen(const ScreenRigSettings& settings);
 
   std::filesystem::path path_, cache_;
   CalibrateSettings settings_;
@@ -124,6 +170,8 @@ class Session : public QObject {
   QString busy_;
   int flashLimit_ = 0;
   bool roomClear_ = false;
+  bool screenMissing_ = false;
+  CheckPatience patience_;
   Latest<std::shared_ptr<const Acquisition>> reading_;
 };
 

@@ -12,6 +12,8 @@
 namespace relucent {
 namespace {
 
+constexpr Size usualScreen{1920, 1080};
+
 QString sizeText(Size size) {
   return QString::fromUtf8("%1 × %2").arg(size.width).arg(size.height);
 }
@@ -50,6 +52,8 @@ QString VenuePage::title() const {
     case Mode::rehearse:
       return tr("Rehearse in a simulated venue");
     case Mode::script:
+      return tr("New venue by script");
+    case Mode::devices:
       return tr("New venue");
     case Mode::start:
       break;
@@ -63,6 +67,8 @@ QString VenuePage::subtitle() const {
       return tr("The same steps, with a simulated projector and camera. Nothing is projected into the room.");
     case Mode::script:
       return tr("Say which screen shines, which programs show and photograph, and where the work is kept.");
+    case Mode::devices:
+      return tr("Say which screen shines on the surface, and where the work is kept.");
     case Mode::start:
       break;
   }
@@ -71,6 +77,9 @@ QString VenuePage::subtitle() const {
 
 StepStatus VenuePage::status() const {
   if (!session_.isOpen()) return {StepState::open, mode_ == Mode::start ? QString() : tr("Setting up")};
+  if (const ScreenRigSettings* screen = session_.screenRig())
+    return {StepState::done,
+            tr("%1, %2").arg(QString::fromStdString(screen->display.connector), sizeText(screen->projector))};
   QString kind = session_.isSimulated() ? tr("simulated, %1") : tr("by script, %1");
   return {StepState::done, kind.arg(sizeText(session_.projectorSize()))};
 }
@@ -150,6 +159,15 @@ void VenuePage::setScript(const CommandRigSettings& script) {
   Q_EMIT changed();
 }
 
+void VenuePage::chooseScreen(const ScreenChoice& choice) {
+  if (!choice.refusal.isEmpty()) return;
+  screen_.display = choice.display;
+  screen_.projector = choice.size;
+  screen_.frameRate = choice.frameRate;
+  screenWarning_ = choice.warning;
+  Q_EMIT changed();
+}
+
 void VenuePage::setVenueName(const QString& name) {
   venueName_ = name;
   named_ = !name.isEmpty();
@@ -169,7 +187,7 @@ void VenuePage::setUsualFolder(const QString& folder) {
 /// A name that is not taken yet.
 void VenuePage::suggestName() {
   if (named_) return;
-  QString base = mode_ == Mode::script ? tr("New venue") : venues_[venue_].name;
+  QString base = isReal() ? tr("New venue") : venues_[venue_].name;
   venueName_ = base;
   for (int number = 2; QFileInfo::exists(target()); ++number)
     venueName_ = QString("%1 %2").arg(base).arg(number);
@@ -184,8 +202,11 @@ std::uint64_t VenuePage::freeBytes() const {
 
 CalibrateSettings VenuePage::wanted() const {
   CalibrateSettings settings;
-  if (mode_ == Mode::script) {
-    settings.rig = script_;
+  if (isReal()) {
+    if (mode_ == Mode::script)
+      settings.rig = script_;
+    else
+      settings.rig = screen_;
     return settings;
   }
   VenueSettings venue;
@@ -197,8 +218,14 @@ CalibrateSettings VenuePage::wanted() const {
 }
 
 WorkLeft VenuePage::expected() const {
-  Size projector = mode_ == Mode::script ? script_.projector : sizes_[size_].projector;
-  Size camera = mode_ == Mode::script ? script_.camera.value_or(projector) : sizes_[size_].camera;
+  Size projector = sizes_[size_].projector, camera = sizes_[size_].camera;
+  if (mode_ == Mode::script) {
+    projector = script_.projector;
+    camera = script_.camera.value_or(projector);
+  } else if (mode_ == Mode::devices) {
+    // A camera is chosen later; until then one of as many pixels.
+    projector = camera = screen_.projector.empty() ? usualScreen : screen_.projector;
+  }
   constexpr std::size_t exposures = 2;
   constexpr double meanExposure = 0.1;
   return forecast(Rasters(camera), Rasters(projector), exposures, meanExposure, {}, {}, {});
@@ -209,6 +236,8 @@ QString VenuePage::problem() const {
   if (venueName_.trimmed().isEmpty()) return tr("Give the venue a name.");
   if (venueName_.contains('/')) return tr("A name cannot hold a slash.");
   if (QFileInfo::exists(target())) return tr("There is a folder of that name. Choose another name.");
+  if (mode_ == Mode::devices && screen_.projector.empty())
+    return tr("Choose the screen that shines on the surface.");
   if (std::vector<std::string> found = problems(wanted()); !found.empty()) {
     QString sentence = QString::fromStdString(found.front());
     sentence[0] = sentence[0].toUpper();

@@ -3,6 +3,7 @@
 
 #include "wizard/page_model.h"
 #include "wizard/recent_venues.h"
+#include "wizard/screen_choice.h"
 #include "wizard/session.h"
 
 namespace relucent {
@@ -24,7 +25,7 @@ class VenuePage : public PageModel {
   Q_OBJECT
 
  public:
-  enum class Mode { start, rehearse, script };
+  enum class Mode { start, rehearse, script, devices };
 
   VenuePage(Session& session, RecentVenues recent, QObject* parent = nullptr);
 
@@ -56,6 +57,12 @@ class VenuePage : public PageModel {
   const CommandRigSettings& script() const { return script_; }
   void setScript(const CommandRigSettings& script);
 
+  /// The screen of the desktop that is the projector, in the mode `devices`.
+  const ScreenRigSettings& screen() const { return screen_; }
+  void chooseScreen(const ScreenChoice& choice);
+  /// What choosing that screen means, a sentence; empty: nothing out of the ordinary.
+  QString screenWarning() const { return screenWarning_; }
+
   /// Of the new calibration.
   QString venueName() const { return venueName_; }
   void setVenueName(const QString& name);
@@ -68,7 +75,7 @@ class VenuePage : public PageModel {
   WorkLeft expected() const;
 
   /// Devices of the user's may flash more than three times a second. Off whenever a new venue is begun.
-  bool needsConsent() const { return mode_ == Mode::script && session_.flashLimit() == 0; }
+  bool needsConsent() const { return isReal() && session_.flashLimit() == 0; }
   bool isRoomClear() const { return roomClear_; }
   void setRoomClear(bool clear);
 
@@ -76,6 +83,7 @@ class VenuePage : public PageModel {
   QString problem() const;
 
  private:
+  bool isReal() const { return mode_ == Mode::script || mode_ == Mode::devices; }
   CalibrateSettings wanted() const;
   void begin();
   void suggestName();
@@ -88,6 +96,8 @@ class VenuePage : public PageModel {
   std::vector<RehearsalSize> sizes_;
   std::size_t venue_ = 0, size_ = 0;
   CommandRigSettings script_;
+  ScreenRigSettings screen_;
+  QString screenWarning_;
   QString venueName_, parent_;
   QString usualFolder_;
   bool roomClear_ = false;

@@ -13,6 +13,10 @@ QWidget* rehearseStage(VenuePage& model);
 QWidget* rehearseInspector(VenuePage& model);
 QWidget* scriptStage(VenuePage& model);
 QWidget* scriptInspector(VenuePage& model);
+QWidget* devicesStage(VenuePage& model);
+QWidget* devicesInspector(VenuePage& model);
+/// The warning of flashing light with its tick, for venues that are begun with real devices.
+QWidget* consentToBegin(VenuePage& model);
 /// Name, folder, and what it will take: the same for every kind of new venue.
 QWidget* keepingPart(VenuePage& model);
 

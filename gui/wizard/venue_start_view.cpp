@@ -56,14 +56,17 @@ class StartStage : public QWidget {
                               VenuePage::tr("Learn every step in a simulated venue. No devices needed."));
     auto* open = new Tile(Icon::folder, VenuePage::tr("Open a venue"),
                           VenuePage::tr("Continue where you stopped, or change the content."));
-    auto* create =
-        new Tile(Icon::plus, VenuePage::tr("New venue"),
-                 VenuePage::tr("Measure a surface with a projector and a camera that programs of yours "
-                               "drive."));
+    auto* create = new Tile(
+        Icon::plus, VenuePage::tr("New venue"),
+        VenuePage::tr("Measure a surface with a screen of this computer as projector, and a camera."));
+    auto* script = new Tile(Icon::settings, VenuePage::tr("New venue by script"),
+                            VenuePage::tr("Projector and camera are driven by programs of yours."));
     rehearse->setObjectName("rehearse");
-    for (Tile* tile : {rehearse, open, create}) tiles->addWidget(tile);
+    create->setObjectName("new-venue");
+    for (Tile* tile : {rehearse, open, create, script}) tiles->addWidget(tile);
     all->addLayout(tiles);
-    QObject::connect(create, &Tile::clicked, &model, [&model] { model.setMode(VenuePage::Mode::script); });
+    QObject::connect(create, &Tile::clicked, &model, [&model] { model.setMode(VenuePage::Mode::devices); });
+    QObject::connect(script, &Tile::clicked, &model, [&model] { model.setMode(VenuePage::Mode::script); });
     QObject::connect(open, &Tile::clicked, &model, [this] { chooseFolder(model_, this); });
     QObject::connect(rehearse, &Tile::clicked, &model,
                      [&model] { model.setMode(VenuePage::Mode::rehearse); });

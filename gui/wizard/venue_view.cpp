@@ -119,9 +119,10 @@ QWidget* rehearseInspector(VenuePage& model) {
 PageView viewOf(VenuePage& model) {
   auto* stages = new QStackedWidget;
   auto* inspectors = new QStackedWidget;
-  for (QWidget* stage : {startStage(model), rehearseStage(model), scriptStage(model)})
+  for (QWidget* stage : {startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model)})
     stages->addWidget(stage);
-  for (QWidget* inspector : {new QWidget, rehearseInspector(model), scriptInspector(model)})
+  for (QWidget* inspector :
+       {new QWidget, rehearseInspector(model), scriptInspector(model), devicesInspector(model)})
     inspectors->addWidget(inspector);
   auto refresh = [&model, stages, inspectors] {
     int mode = static_cast<int>(model.mode());

@@ -125,6 +125,27 @@ class TestLatency : public QObject {
     }
   }
 
+  /// Waits and exposures of whole frames would leave every step at the phase of the first: a picture sent at
+  /// the end of a frame is out sooner than one sent at its beginning, and the least delay is that of the
+  /// worst.
+  void theWorstPhaseOfAFrameCounts_data() {
+    QTest::addColumn<double>("phase");
+    QTest::addColumn<double>("exposure");
+    for (double phase : {0.01, 0.5, 0.9, 0.99})
+      for (double frames : {1.0, 3.0})
+        QTest::addRow("%.2f, %.0f frames", phase, frames) << phase << frames * frame;
+  }
+  void theWorstPhaseOfAFrameCounts() {
+    QFETCH(double, phase);
+    QFETCH(double, exposure);
+    for (int delay : {0, 2, 5}) {
+      Stage stage;
+      stage.delay = delay;
+      stage.clock = (180.0 + phase) * frame;
+      QCOMPARE(measured(stage, exposure).frames, delay + 1);
+    }
+  }
+
   void flickerIsToldInWords() {
     Stage stage;
     stage.flicker = 0.08;

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "output/window_projector.h"
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QGuiApplication>
+#include <QMutex>
+#include <QThread>
+#include <QTimer>
+#include <QWaitCondition>
+#include <cmath>
+
+#include "base/error.h"
+#include "output/awake.h"
+#include "output/projector_window.h"
+
+namespace relucent {
+namespace {
+
+struct Words {
+  Q_DECLARE_TR_FUNCTIONS(WindowProjector)
+};
+
+/// Looks at whether the waiting thread is asked to end, milliseconds.
+constexpr unsigned long patience = 20;
+/// A screen may have another size for so long, milliseconds.
+constexpr qint64 longestChange = 2000;
+/// Swaps after the window came up until it is believed to stand where it should: desktops move it about.
+constexpr int swapsUntilSettled = 3;
+
+QImage driveOf(const Image& encodedDrive) {
+  QImage drive(encodedDrive.width(), encodedDrive.height(), QImage::Format_RGB32);
+  auto code = [&](int x, int y, int c) {
+    return static_cast<int>(std::lround(255.0f * std::clamp(encodedDrive.at(x, y, c), 0.0f, 1.0f)));
+  };
+  for (int y = 0; y < drive.height(); ++y) {
+    auto* line = reinterpret_cast<QRgb*>(drive.scanLine(y));
+    for (int x = 0; x < drive.width(); ++x) line[x] = qRgb(code(x, y, 0), code(x, y, 1), code(x, y, 2));
+  }
+  return drive;
+}
+
+/// Returns once the display server has done all that this program asked it to, and has told what it knows:
+/// reading a pixel is an answer that comes after all of that.
+void meetDisplayServer(const QScreen* screen) {
+  if (screen != nullptr && QGuiApplication::platformName() == "xcb")
+    const_cast<QScreen*>(screen)->grabWindow(0, 0, 0, 1, 1);
+}
+
+}  // namespace
+
+ScreenIdentity identityOf(const ScreenRigSettings::Display& display) {
+  return {QString::fromStdString(display.connector), QString::fromStdString(display.manufacturer),
+          QString::fromStdString(display.model), QString::fromStdString(display.serialNumber)};
+}
+
+ScreenRigSettings::Display displayOf(const QScreen& screen) {
+  const ScreenIdentity identity = identityOf(screen);
+  return {identity.connector.toStdString(), identity.manufacturer.toStdString(), identity.model.toStdString(),
+          identity.serialNumber.toStdString()};
+}
+
+QString whyNoProjector(const QScreen& screen) {
+  const double scale = screen.devicePixelRatio();
+  if (QGuiApplication::platformName().startsWith("wayland") && scale != std::round(scale))
+    return Words::tr("The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
+        .arg(scale);
+  return {};
+}
+
+/// What the two threads tell each other.
+struct WindowProjector::Shared {
+  QMutex guard;
+  QWaitCondition told;
+  quint64 asked = 0;     // number of the last picture that was asked for
+  quint64 out = 0;       // and of the last that came out
+  bool stands = false;   // the last one, ever since
+  quint64 answered = 0;  // questions
+  QSize wrongSize;       // of the screen, if it is not the projector's
+};
+
+/// The window's side. All but the constructor runs on the interface's thread.
+class WindowProjector::Stage : public QObject {
+ public:
+  Stage(ScreenIdentity display, QSize size, std::shared_ptr<Shared> shared, std::function<void(bool)> waiting)
+      : display_(std::move(display)), size_(size), shared_(std::move(shared)), waiting_(std::move(waiting)) {}
+
+  void present(quint64 number, const QImage& drive) {
+    if (!window_) build();
+    asked_ = number;
+    if (!window_->isShining()) shownAgain();
+    window_->present(drive);
+    if (!window_->isShining()) window_->shine();
+    tellWaiting(!window_->isShining());
+  }
+
+  /// Answers after all that the display server knew when it was asked.
+  void answer(quint64 question) {
+    meetDisplayServer(window_ ? window_->screen() : nullptr);
+    QTimer::singleShot(0, this, [this, question] {
+      QMutexLocker lock(&shared_->guard);
+      shared_->answered = question;
+      shared_->told.wakeAll();
+    });
+  }
+
+  void rest() {
+    if (window_) window_->stop();
+    awake_.reset();
+    tellWaiting(false);
+    broken();
+  }
+
+ private:
+  void build() {
+    window_ = std::make_unique<ProjectorWindow>(display_);
+    connect(window_.get(), &QOpenGLWindow::frameSwapped, this, [this] { swapped(); });
+    connect(window_.get(), &ProjectorWindow::displayLost, this, [this] {
+      broken();
+      tellWaiting(true);
+    });
+    connect(window_.get(), &ProjectorWindow::displayFound, this, [this] { shownAgain(); });
+    connect(window_.get(), &ProjectorWindow::displayChanged, this, [this] {
+      broken();
+      shownAgain();
+      window_->update();
+    });
+  }
+
+  void shownAgain() {
+    swaps_ = 0;
+    if (!awake_) awake_ = std::make_unique<Awake>(Words::tr("A venue is being measured"));
+  }
+
+  /// Of another size than the projector's nothing is pixel for pixel.
+  bool hasWrongSize() {
+    const QSize now = window_->displaySize();
+    const bool wrong = !now.isEmpty() && now != size_;
+    QMutexLocker lock(&shared_->guard);
+    shared_->wrongSize = wrong ? now : QSize();
+    return wrong;
+  }
+
+  void swapped() {
+    const QScreen* screen = findScreen(display_);
+    if (!window_->isShining() || !window_->isExposed() || screen == nullptr ||
+        window_->geometry() != screen->geometry())
+      return;
+    if (hasWrongSize()) return;
+    if (++swaps_ < swapsUntilSettled) return window_->update();
+    meetDisplayServer(screen);
+    tellWaiting(false);
+    QMutexLocker lock(&shared_->guard);
+    if (shared_->out == asked_) return;  // what came back after it was lost does not stand "ever since"
+    shared_->out = asked_;
+    shared_->stands = true;
+    shared_->told.wakeAll();
+  }
+
+  void broken() {
+    QMutexLocker lock(&shared_->guard);
+    shared_->stands = false;
+  }
+
+  void tellWaiting(bool waits) {
+    if (std::exchange(waits_, waits) != waits && waiting_) waiting_(waits);
+  }
+
+  ScreenIdentity display_;
+  QSize size_;
+  std::shared_ptr<Shared> shared_;
+  std::function<void(bool)> waiting_;
+  std::unique_ptr<ProjectorWindow> window_;
+  std::unique_ptr<Awake> awake_;
+  quint64 asked_ = 0;
+  int swaps_ = 0;
+  bool waits_ = false;
+};
+
+WindowProjector::WindowProjector(ScreenIdentity display, Size size, std::function<void(bool)> waiting)
+    : name_((display.model.isEmpty() ? display.connector : display.model + " (" + display.connector + ")")
+                .toStdString()),
+      size_(size),
+      shared_(std::make_shared<Shared>()),
+      stage_(new Stage(std::move(display), {size.width, size.height}, shared_, std::move(waiting))) {
+  stage_->moveToThread(qGuiApp->thread());
+}
+
+WindowProjector::~WindowProjector() {
+  if (QThread::currentThread() == stage_->thread())
+    delete stage_;
+  else
+    stage_->deleteLater();
+}
+
+template <typename Done>
+void WindowProjector::waitFor(Done done) {
+  require(QThread::currentThread() != stage_->thread(), "the interface would wait for itself");
+  QElapsedTimer wrong;  // desktops pass through other sizes when a screen is plugged in
+  QMutexLocker lock(&shared_->guard);
+  while (!done()) {
+    if (QThread::currentThread()->isInterruptionRequested()) throw Cancelled();
+    if (shared_->wrongSize.isEmpty())
+      wrong.invalidate();
+    else if (!wrong.isValid())
+      wrong.start();
+    if (wrong.isValid() && wrong.hasExpired(longestChange))
+      throw Error(
+          ErrorKind::device,
+          fmt::format("the projector's screen has {}x{} pixels now and {}x{} were calibrated",
+                      shared_->wrongSize.width(), shared_->wrongSize.height(), size_.width, size_.height),
+          "set its resolution back in the desktop's settings, then try again", name_);
+    shared_->told.wait(&shared_->guard, patience);
+  }
+}
+
+void WindowProjector::show(const Image& encodedDrive) {
+  require(encodedDrive.size() == size_ && encodedDrive.channels() == 3,
+          "a picture of {}x{} pixels for a projector of {}x{}", encodedDrive.width(), encodedDrive.height(),
+          size_.width, size_.height);
+  quint64 number = 0;
+  {
+    QMutexLocker lock(&shared_->guard);
+    number = ++shared_->asked;
+    shared_->stands = false;
+    shared_->wrongSize = QSize();
+  }
+  QMetaObject::invokeMethod(
+      stage_, [stage = stage_, number, drive = driveOf(encodedDrive)] { stage->present(number, drive); },
+      Qt::QueuedConnection);
+  waitFor([&] { return shared_->out >= number; });
+}
+
+bool WindowProjector::hasStood() {
+  quint64 question = 0;
+  {
+    QMutexLocker lock(&shared_->guard);
+    question = ++shared_->asked;
+  }
+  QMetaObject::invokeMethod(
+      stage_, [stage = stage_, question] { stage->answer(question); }, Qt::QueuedConnection);
+  bool stands = false;
+  waitFor([&] {
+    stands = shared_->stands;
+    return shared_->answered >= question;
+  });
+  return stands;
+}
+
+void WindowProjector::rest() {
+  QMetaObject::invokeMethod(
+      stage_, [stage = stage_] { stage->rest(); }, Qt::QueuedConnection);
+}
+
+}  // namespace relucent

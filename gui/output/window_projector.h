@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QScreen>
+#include <QString>
+#include <functional>
+#include <memory>
+
+#include "devices/screen_rig.h"
+#include "output/screen_identity.h"
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+ScreenIdentity identityOf(const ScreenRigSettings::Display& display);
+ScreenRigSettings::Display displayOf(const QScreen& screen);
+
+/// Why a screen cannot show pictures pixel for pixel; empty: it can.
+QString whyNoProjector(const QScreen& screen);
+
+/// A screen of the desktop as a projector for measuring. Used from a worker's thread; its window lives on the
+/// interface's. show() returns once the picture has been swapped onto the screen and the display server has
+/// it, waits while the screen is unplugged, and throws Cancelled when the thread is asked to end
+/// (QThread::requestInterruption), so that nobody waits for anybody. Black before the first picture, hidden
+/// after rest().
+class WindowProjector : public ScreenProjector {
+ public:
+  /// `waiting`: told on the interface's thread that the screen is gone (true) or back (false).
+  WindowProjector(ScreenIdentity display, Size size, std::function<void(bool)> waiting = {});
+  ~WindowProjector() override;
+  WindowProjector(const WindowProjector&) = delete;
+  WindowProjector& operator=(const WindowProjector&) = delete;
+
+  std::string name() const override { return name_; }
+  Size size() const override { return size_; }
+  int bits() const override { return 8; }
+  /// Throws: Error{device} if the screen has another size than the projector; Cancelled.
+  void show(const Image& encodedDrive) override;
+  bool hasStood() override;
+  void rest() override;
+
+ private:
+  struct Shared;
+  class Stage;
+  template <typename Done>
+  void waitFor(Done done);
+
+  std::string name_;
+  Size size_;
+  std::shared_ptr<Shared> shared_;
+  Stage* stage_;  // on the interface's thread; deletes itself there
+};
+
+}  // namespace relucent

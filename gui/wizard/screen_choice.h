@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include "pipeline/pipeline.h"
+
+namespace relucent {
+
+/// A screen of the desktop as it is offered for projecting.
+struct ScreenChoice {
+  ScreenRigSettings::Display display;
+  Size size;  // its own pixels
+  double frameRate = 60.0;
+  QString title;         // "Screen 1", "This computer"
+  QString facts;         // connector, pixels, rate
+  QString refusal{};     // why it cannot be chosen; empty: it can
+  QString warning{};     // what choosing it means; empty: nothing out of the ordinary
+  bool primary = false;  // the operator's
+};
+
+/// All that are there, in the desktop's order. The operator's own is refused unless it is the only one.
+std::vector<ScreenChoice> screenChoices();
+
+}  // namespace relucent

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/screen_list.h"
+
+#include <QGuiApplication>
+#include <QShortcut>
+#include <algorithm>
+
+#include "theme/theme.h"
+#include "wizard/identify_overlay.h"
+#include "wizard/tile.h"
+#include "wizard/venue_page.h"
+
+namespace relucent {
+
+ScreenList::ScreenList(Chosen chosen) : tell_(std::move(chosen)), row_(new QHBoxLayout(this)) {
+  row_->setSpacing(space::gap);
+  connect(qApp, &QGuiApplication::screenAdded, this, [this] { fill(); });
+  connect(qApp, &QGuiApplication::screenRemoved, this, [this] { fill(); });
+  fill();
+}
+
+void ScreenList::fill() {
+  while (QLayoutItem* item = row_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  const std::vector<ScreenChoice> choices = screenChoices();
+  for (const ScreenChoice& choice : choices) row_->addWidget(tileOf(choice));
+  const bool there = std::any_of(choices.begin(), choices.end(), [this](const ScreenChoice& choice) {
+    return chosen_ && choice.display == chosen_->display;
+  });
+  if (!chosen_ || there) return;
+  auto* gone =
+      new Tile(Icon::warning, chosen_->title, VenuePage::tr("Unplugged. Plug it in or choose another."));
+  gone->setDashed(true);
+  gone->setEnabled(false);
+  row_->addWidget(gone);
+}
+
+Tile* ScreenList::tileOf(const ScreenChoice& choice) {
+  auto* tile = new Tile(choice.primary ? Icon::monitor : Icon::projector, choice.title, choice.facts);
+  tile->setObjectName("venue-screen-" + QString::fromStdString(choice.display.connector));
+  tile->setEnabled(choice.refusal.isEmpty());
+  tile->setToolTip(choice.refusal.isEmpty() ? choice.warning : choice.refusal);
+  tile->setCheckable(true);
+  tile->setAutoExclusive(true);
+  auto name = [tile, size = choice.size](bool chosen) {
+    QString text = chosen ? VenuePage::tr("%1, %2 by %3, chosen") : VenuePage::tr("%1, %2 by %3");
+    tile->setAccessibleName(text.arg(tile->text()).arg(size.width).arg(size.height));
+  };
+  connect(tile, &Tile::toggled, tile, name);
+  tile->setChecked(chosen_ && chosen_->display == choice.display);
+  name(tile->isChecked());
+  connect(tile, &Tile::clicked, this, [this, choice] {
+    chosen_ = choice;
+    dropGone();
+    tell_(choice);
+  });
+  return tile;
+}
+
+/// Another was chosen: nobody waits for the one that went.
+void ScreenList::dropGone() {
+  for (Tile* tile : findChildren<Tile*>())
+    if (tile->isDashed()) tile->deleteLater();
+}
+
+Card* screensCard(QWidget* stage, ScreenList::Chosen chosen) {
+  auto* card = new Card(VenuePage::tr("Screens"));
+  card->setSubtitle(
+      VenuePage::tr("Choose the one that shines on the surface. Its pixels are the projector's."));
+  QPushButton* identify = buttonOf(VenuePage::tr("Identify screens"));
+  identify->setObjectName("identify");
+  identify->setToolTip(VenuePage::tr("I"));
+  card->addAction(identify);
+  auto* overlay = new IdentifyOverlay(stage);
+  QObject::connect(identify, &QPushButton::clicked, overlay, &IdentifyOverlay::show);
+  auto* key = new QShortcut(QKeySequence(Qt::Key_I), card);
+  key->setContext(Qt::WidgetWithChildrenShortcut);
+  QObject::connect(key, &QShortcut::activated, overlay, &IdentifyOverlay::show);
+  QObject::connect(new QShortcut(QKeySequence(Qt::Key_Escape), stage), &QShortcut::activated, overlay,
+                   &IdentifyOverlay::hide);
+  card->body()->addWidget(new ScreenList(std::move(chosen)));
+  return card;
+}
+
+}  // namespace relucent

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Runs on two screens that can be unplugged, see tests/support/with-two-screens.
+#include "output/window_projector.h"
+
+#include <QThread>
+#include <QtTest>
+#include <atomic>
+
+#include "base/error.h"
+#include "gui/output/two_screens.h"
+#include "support/screen_light.h"
+
+using namespace relucent;
+using test::ScreenLight;
+
+namespace {
+
+constexpr Size size{1024, 768};
+
+Image noiseOf(quint32 seed) {
+  Image image(size, 3);
+  QRandomGenerator random(seed);
+  for (float& value : image.data()) value = static_cast<float>(random.bounded(256)) / 255.0f;
+  return image;
+}
+
+}  // namespace
+
+class TestWindowProjector : public QObject {
+  Q_OBJECT
+
+  /// Runs `work` on another thread while this one is the interface.
+  static std::string onWorker(const std::function<void()>& work,
+                              const std::function<void(QThread&)>& meanwhile = {}) {
+    std::string thrown;
+    std::unique_ptr<QThread> worker(QThread::create([&] {
+      try {
+        work();
+      } catch (const Cancelled&) {
+        thrown = "cancelled";
+      } catch (const std::exception& error) {
+        thrown = error.what();
+      }
+    }));
+    worker->start();
+    if (meanwhile) meanwhile(*worker);
+    while (!worker->isFinished()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+    worker->wait();
+    return thrown;
+  }
+  static WindowProjector made(std::function<void(bool)> waiting = {}, Size pixels = size) {
+    return WindowProjector(identityOf(displayOf(*screenOn("DUMMY1"))), pixels, std::move(waiting));
+  }
+
+ private slots:
+  void cleanup() {
+    if (screenOn("DUMMY1") == nullptr) plug();
+  }
+
+  /// show() returns when the light is out: whoever looks then sees this picture and nothing older.
+  void everyPixelIsOutWhenShowReturns() {
+    WindowProjector projector = made();
+    ScreenLight light("DUMMY1");
+    int right = 0;
+    const std::string thrown = onWorker([&] {
+      for (quint32 seed = 1; seed <= 10; ++seed) {
+        const Image picture = noiseOf(seed);
+        projector.show(picture);
+        right += light.look(size).data() == picture.data();
+        right += projector.hasStood();
+      }
+    });
+    QCOMPARE(thrown, std::string());
+    QCOMPARE(right, 20);
+  }
+
+  void anUnpluggedScreenIsWaitedForAndNothingIsLost() {
+    std::atomic<bool> waits = false;
+    WindowProjector projector = made([&waits](bool missing) { waits = missing; });
+    ScreenLight light("DUMMY1");
+    const Image first = noiseOf(1), second = noiseOf(2);
+    bool stoodBefore = false, stoodAfter = true, rightAgain = false;
+    QCOMPARE(onWorker([&] {
+               projector.show(first);
+               stoodBefore = projector.hasStood();
+             }),
+             std::string());
+    unplug();
+    QTRY_VERIFY(waits);
+    const std::string thrown = onWorker(
+        [&] {
+          stoodAfter = projector.hasStood();
+          projector.show(second);
+          rightAgain = light.look(size).data() == second.data() && projector.hasStood();
+        },
+        [&](QThread& worker) {
+          QVERIFY(!worker.wait(100));  // it waits, and this thread goes on
+          plug();
+        });
+    QCOMPARE(thrown, std::string());
+    QVERIFY(stoodBefore && !stoodAfter && rightAgain && !waits);
+  }
+
+  void whoWaitsForAScreenCanBeStopped() {
+    WindowProjector projector = made();
+    unplug();
+    const std::string thrown = onWorker([&] { projector.show(noiseOf(3)); },
+                                        [](QThread& worker) {
+                                          worker.requestInterruption();
+                                          // The interface may wait for the worker, as it does when it ends.
+                                          QVERIFY(worker.wait(5000));
+                                        });
+    QCOMPARE(thrown, std::string("cancelled"));
+  }
+
+  void aScreenOfAnotherSizeIsRefused() {
+    WindowProjector projector = made({}, {800, 600});
+    const std::string thrown = onWorker([&] { projector.show(Image({800, 600}, 3, 1.0f)); });
+    QVERIFY2(QString::fromStdString(thrown).contains("has 1024x768 pixels now and 800x600 were calibrated"),
+             thrown.c_str());
+  }
+
+  void atRestTheScreenIsOthers() {
+    WindowProjector projector = made();
+    QCOMPARE(onWorker([&] { projector.show(noiseOf(4)); }), std::string());
+    projector.rest();
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QVERIFY(QGuiApplication::topLevelWindows().isEmpty() ||
+            !QGuiApplication::topLevelWindows()[0]->isVisible());
+    QCOMPARE(onWorker([&] { projector.show(noiseOf(5)); }), std::string());
+    QTRY_VERIFY(!allBlack(seenOn("DUMMY1")));
+  }
+};
+
+QTEST_MAIN(TestWindowProjector)
+#include "test_window_projector.moc"

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+// A simulated venue behind real devices: the projector is a window on the second screen of an X server, whose
+// pixels are read from that screen; the camera is a GigE Vision one on a loopback network.
+// $RELUCENT_REAL_SIZES "256x192 160x120" and $RELUCENT_UNPLUG_CYCLES make it as large as wanted.
+#include <QGuiApplication>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QThread>
+#include <QtTest>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "base/file.h"
+#include "devices/genicam_driver.h"
+#include "gui/output/two_screens.h"
+#include "output/window_projector.h"
+#include "pipeline/measured_venue.h"
+#include "pipeline/measuring.h"
+#include "support/fake_gige_camera.h"
+#include "support/own_network.h"
+#include "support/screen_light.h"
+#include "wizard/acquire_page.h"
+#include "wizard/camera_page.h"
+#include "wizard/linearize_page.h"
+#include "wizard/venue_page.h"
+
+using namespace relucent;
+using namespace relucent::test;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// Of the projector: frames so short that a test need not wait for light.
+constexpr double frameRate = 400.0;
+
+Size sizeFrom(const QString& text) {
+  const QStringList sides = text.split('x');
+  return {sides.at(0).toInt(), sides.at(1).toInt()};
+}
+
+struct Sizes {
+  Size projector{32, 24}, camera{28, 21};
+};
+Sizes wantedSizes() {
+  const QStringList given = qEnvironmentVariable("RELUCENT_REAL_SIZES").split(' ', Qt::SkipEmptyParts);
+  if (given.size() != 2) return {};
+  return {sizeFrom(given[0]), sizeFrom(given[1])};
+}
+
+CalibrateSettings simulatedSettings() {
+  VenueSettings venue;
+  venue.name = "corner";
+  venue.projector = wantedSizes().projector;
+  venue.camera = wantedSizes().camera;
+  if (venue.projector.width < 64) venue.pathsPerPixel = 32;
+  CalibrateSettings settings;
+  settings.rig = venue;
+  if (venue.projector.width < 64) {
+    settings.linearization.levels = 9;
+    settings.acquisition = acquisitionMode("fast");
+  }
+  return settings;
+}
+
+/// A venue's light where the screen shines, photographed by a camera on the network.
+class Room {
+ public:
+  Room(const VenueSettings& settings, const fs::path& cache) : light_("DUMMY1") {
+    Progress silent;
+    venue_.emplace(settings, cache, silent);
+    rig_ = venue_->rig();
+    brightness_ = 8.0 / frameRate / wellExposed();
+    fake_ = std::make_unique<FakeGigeCamera>(FakeGigeSettings{},
+                                             [this](const FakeGigeCamera::View& view) { look(view); });
+  }
+  ~Room() { fake_.reset(); }
+
+  bool isRunning() const { return fake_->isRunning(); }
+  FakeGigeCamera& camera() { return *fake_; }
+  int photographs() const { return photographs_; }
+  /// Seconds of the camera's that are one of the venue's: its exposures need not be waited for in full.
+  double brightness() const { return brightness_; }
+  /// Which photograph comes next: what noise depends on.
+  void expect(const CaptureRequest& request) {
+    std::lock_guard guard(lock_);
+    request_ = request;
+  }
+
+ private:
+  double wellExposed() {
+    rig_.projectors[0]->show(Image(rig_.projectors[0]->size(), 3, 1.0f));
+    double seconds = 1e-4;
+    while (seconds < 10.0 && meanSignal(rig_.cameras[0]->capture({{"try", 0}, 0, seconds})) < 0.3)
+      seconds *= 1.3;
+    return seconds;
+  }
+
+  /// Called from the camera's thread.
+  void look(const FakeGigeCamera::View& view) {
+    const auto end = Clock::now() + std::chrono::duration<double>(view.seconds);
+    const Size size = rig_.projectors[0]->size();
+    Image shone = light_.look(size);
+    std::this_thread::sleep_until(end);  // what a sensor does
+    const Image after = light_.look(size);
+    for (std::size_t i = 0; i < shone.data().size(); ++i)
+      if (after.data()[i] != shone.data()[i]) shone.data()[i] = 0.5f * (shone.data()[i] + after.data()[i]);
+    CaptureRequest request;
+    {
+      std::lock_guard guard(lock_);
+      request = request_;
+    }
+    if (view.format != "BayerRG12" ||
+        view.sensor != sensorSize(rig_.cameras[0]->size(), {SensorLayout::bayerRG, 12}))
+      return;
+    request.seconds = view.seconds / brightness_;
+    rig_.projectors[0]->show(shone);
+    fillBayerRG12(rig_.cameras[0]->capture(request).signal, view.bytes);
+    ++photographs_;
+  }
+
+  ScreenLight light_;
+  std::optional<SimulatedVenue> venue_;
+  Rig rig_;
+  double brightness_ = 1.0;
+  std::mutex lock_;
+  CaptureRequest request_{{"none", 0}, 0, 1.0};
+  std::atomic<int> photographs_ = 0;
+  std::unique_ptr<FakeGigeCamera> fake_;
+};
+
+/// A camera whose seconds are those of the venue.
+class VenueTime : public Camera {
+ public:
+  VenueTime(std::unique_ptr<Camera> camera, Room& room) : camera_(std::move(camera)), room_(room) {}
+  std::string name() const override { return camera_->name(); }
+  Size size() const override { return camera_->size(); }
+  ExposureRange exposures() const override {
+    const ExposureRange range = camera_->exposures();
+    return {range.shortest / room_.brightness(), std::min(0.2, range.longest) / room_.brightness()};
+  }
+  RawFrame capture(const CaptureRequest& request) override {
+    room_.expect(request);
+    CaptureRequest shortened = request;
+    shortened.seconds *= room_.brightness();
+    RawFrame frame = camera_->capture(shortened);
+    frame.seconds /= room_.brightness();
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<Camera> camera_;
+  Room& room_;
+};
+
+void switchScreen(bool on) {
+  const Size size = wantedSizes().projector;
+  const QString mode = QString("relucent-%1x%2").arg(size.width).arg(size.height);
+  if (on)
+    xrandr({"--output", "DUMMY1", "--mode", mode, "--right-of", "DUMMY0"});
+  else
+    xrandr({"--output", "DUMMY1", "--off"});
+}
+
+}  // namespace
+
+class TestRealDevices : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir temporary_;
+  std::unique_ptr<Room> room_;
+  fs::path root() const { return temporary_.path().toStdString(); }
+  fs::path cache() const {
+    const QString given = qEnvironmentVariable("RELUCENT_TEST_CACHE");
+    return given.isEmpty() ? root() / "cache" : fs::path(given.toStdString());
+  }
+
+  static ScreenRigSettings devices() {
+    ScreenRigSettings rig;
+    rig.display = displayOf(*screenOn("DUMMY1"));
+    rig.projector = wantedSizes().projector;
+    rig.frameRate = frameRate;
+    rig.cameraAddress = "genicam:127.0.0.1";
+    rig.camera = wantedSizes().camera;
+    return rig;
+  }
+
+  /// All stages with real devices; the manifest says "simulated", so that the truth can be asked for.
+  /// Screen and camera go away so many times.
+  void calibrateThroughDevices(const std::string& name, int cycles) {
+    std::string failure;
+    std::atomic<bool> waits = false;
+    std::unique_ptr<QThread> worker(QThread::create([&] {
+      try {
+        Progress silent;
+        const ScreenOpener opener = [&waits](const ScreenRigSettings& screen) {
+          return std::make_unique<WindowProjector>(identityOf(screen.display), screen.projector,
+                                                   [&waits](bool missing) { waits = missing; });
+        };
+        OpenedRig opened = openRig(devices(), {}, opener, silent);
+        opened.rig.cameras[0] = std::make_unique<VenueTime>(std::move(opened.rig.cameras[0]), *room_);
+        CalibrationFolder folder = beginCalibration(root() / name, simulatedSettings());
+        const Linearization linearization = measureLinearization(folder, opened.rig, silent);
+        Acquisition acquisition = measureAcquisition(folder, opened.rig, linearization, {}, silent);
+        const MeasuredVenue venue = takeMeasuredVenue(acquisition, {});
+        measureInverse(folder, venue, silent);
+      } catch (const std::exception& error) {
+        failure = error.what();
+      }
+    }));
+    const int before = room_->photographs();
+    QElapsedTimer timer;
+    timer.start();
+    worker->start();
+    int gone = 0;
+    while (!worker->isFinished()) {
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+      if (gone >= cycles || room_->photographs() - before < (gone + 1) * everyPhotographs) continue;
+      ++gone;
+      switchScreen(false);
+      QTRY_VERIFY(waits || worker->isFinished());
+      if (gone % 2 == 0) room_->camera().unplug();
+      const int stopped = room_->photographs();
+      QVERIFY(!screenOn("DUMMY1"));
+      if (gone % 2 == 0) room_->camera().plug();
+      switchScreen(true);
+      QTRY_VERIFY(room_->photographs() > stopped || worker->isFinished());
+    }
+    worker->wait();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    QVERIFY2(failure.empty(), failure.c_str());
+    QCOMPARE(gone, cycles);
+    const int taken = room_->photographs() - before;
+    qInfo("%s: %d photographs in %.1f s, %.0f a second; screen away %d times, camera %d times", name.c_str(),
+          taken, 1e-3 * static_cast<double>(timer.elapsed()),
+          1e3 * taken / static_cast<double>(timer.elapsed()), gone, gone / 2);
+  }
+
+  EvaluateResult quality(const std::string& name) const {
+    EvaluateSettings settings;
+    settings.methods = {"none", "mix", "windows"};
+    Progress silent;
+    return evaluate(root() / name, settings, cache(), silent);
+  }
+
+  std::string transportBytes(const std::string& name) const {
+    for (const auto& entry : fs::recursive_directory_iterator(root() / name))
+      if (entry.path().filename() == "transport.npz") return readFile(entry.path());
+    return {};
+  }
+
+  static constexpr int everyPhotographs = 60;
+
+ private slots:
+  void initTestCase() {
+    if (!hasGenicam()) QSKIP("this build has no Aravis, which both ends of this test need");
+    QVERIFY(screenOn("DUMMY1") != nullptr);
+    const QSize size = nativeSize(*screenOn("DUMMY1"));
+    QCOMPARE((Size{size.width(), size.height()}), wantedSizes().projector);
+    room_ = std::make_unique<Room>(std::get<VenueSettings>(simulatedSettings().rig), cache());
+    if (!room_->isRunning()) QSKIP("no GigE Vision camera can be simulated: is there a loopback network?");
+  }
+  void cleanupTestCase() { room_.reset(); }
+
+  void throughAWindowAndSocketsItIsAsGoodAsDirectly() {
+    Progress silent;
+    calibrate(root() / "direct", simulatedSettings(), cache(), silent);
+    calibrateThroughDevices("real", 0);
+    const EvaluateResult direct = quality("direct"), real = quality("real");
+    qInfo("frobenius %.4f directly, %.4f through devices", direct.transport.frobenius,
+          real.transport.frobenius);
+    // Exposures are whole frames and others than directly: no more than some leaves may differ.
+    QVERIFY(std::abs(direct.transport.frobenius - real.transport.frobenius) < 0.02);
+    for (std::size_t image = 0; image < direct.images.size(); ++image)
+      for (std::size_t method = 0; method < direct.images[image].methods.size(); ++method) {
+        const MethodScore& a = direct.images[image].methods[method];
+        const MethodScore& b = real.images[image].methods[method];
+        qInfo("%s, %s: %.2f dB directly, %.2f dB through devices", direct.images[image].name.c_str(),
+              a.method.c_str(), a.psnrReachable, b.psnrReachable);
+        QVERIFY(std::abs(a.psnrReachable - b.psnrReachable) < 0.3);  // less than anybody could see
+      }
+  }
+
+  void unpluggedAndReplugeedItEndsInTheSameBits() {
+    if (transportBytes("real").empty()) QSKIP("there is nothing to compare with");
+    calibrateThroughDevices("disturbed", unplugCycles(4));
+    QVERIFY(transportBytes("real") == transportBytes("disturbed"));
+  }
+
+  /// As a person does it, page by page.
+  void theWizardCalibratesWithThem() {
+    if (wantedSizes().projector.width > 64) QSKIP("a test of the pages, not of size");
+    QSettings settings(QString::fromStdString((root() / "settings.ini").string()), QSettings::IniFormat);
+    Session session(cache());
+    session.setPatience({4, 8});
+    VenuePage venue(session, RecentVenues(settings));
+    CameraPage camera(session);
+    LinearizePage linearize(session);
+    AcquirePage acquire(session);
+    for (PageModel* page : std::initializer_list<PageModel*>{&venue, &camera, &linearize, &acquire})
+      connect(page, &PageModel::failed, this, [](const FailureReport& report) {
+        qWarning("%s %s", qPrintable(report.failure.what), qPrintable(report.failure.advice));
+      });
+
+    venue.setFolder(QString::fromStdString((root() / "venues").string()));
+    venue.setMode(VenuePage::Mode::devices);
+    QVERIFY(!venue.primary().enabled);  // no screen is chosen
+    const std::vector<ScreenChoice> screens = screenChoices();
+    QCOMPARE(screens.size(), std::size_t{2});
+    for (ScreenChoice screen : screens) {
+      QCOMPARE(screen.refusal.isEmpty(), screen.display.connector == "DUMMY1");
+      screen.frameRate = frameRate;
+      venue.chooseScreen(screen);
+    }
+    QCOMPARE(venue.screen().display.connector, std::string("DUMMY1"));
+    venue.setRoomClear(true);
+    QVERIFY2(venue.primary().enabled, qPrintable(venue.problem()));
+    venue.primary().run();
+    QVERIFY(session.isOpen() && session.screenRig() != nullptr && session.needsConsent());
+
+    QVERIFY(camera.needsCamera() && !camera.primary().enabled);
+    QSignalSpy listed(&camera, &CameraPage::camerasListed);
+    camera.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.cameras().cameras.empty(), 10000);
+    const ListedCamera& found = camera.cameras().cameras.front();
+    QVERIFY2(found.usable, found.problem.c_str());
+    camera.chooseCamera(found.address, wantedSizes().camera);
+    QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value() && camera.check().has_value(), 30000);
+    for (const auto* part : {&camera.check()->proof.verdicts, &camera.check()->latency.verdicts,
+                             &camera.check()->light.verdicts})
+      for (const std::string& verdict : *part) qInfo("%s", verdict.c_str());
+    QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
+    QVERIFY(camera.primary().enabled);
+    camera.primary().run();
+    QTRY_VERIFY(session.progress(Step::camera) == StepProgress::done && session.busy().isEmpty());
+
+    CalibrateSettings quick = session.settings();
+    quick.linearization.levels = 9;
+    quick.acquisition = acquisitionMode("fast");
+    session.changeSettings(quick);
+    linearize.primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Step::linearization) == StepProgress::done, 60000);
+    QTRY_VERIFY(session.busy().isEmpty());
+    acquire.primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Step::acquisition) == StepProgress::done, 60000);
+
+    // Remembered: another session knows screen, camera and latency.
+    Session again(cache());
+    again.open(session.path());
+    QCOMPARE(again.screenRig()->cameraAddress, found.address);
+    QCOMPARE(again.screenRig()->display.connector, std::string("DUMMY1"));
+    QVERIFY(again.result(Step::camera)->values.at("latency_seconds").get<double>() > 0.0);
+  }
+};
+
+int main(int argc, char** argv) {
+  enterOwnNetwork();
+  QGuiApplication application(argc, argv);
+  TestRealDevices test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "test_real_devices.moc"

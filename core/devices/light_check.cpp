@@ -15,6 +15,7 @@ constexpr int mostBands = 8;
 constexpr double briefShare = 1.0 / 8.0;  // of a frame
 constexpr double litShare = 0.25;         // of the brightest step: pixels that count
 constexpr double leastStep = 0.004;       // signal that a brief exposure must gain by white
+constexpr double leastLit = 0.25;         // of a colour's usual signal
 constexpr double golden = 0.381966;       // phases that never repeat
 
 struct Moments {
@@ -128,24 +129,35 @@ double pixelVariance(const Series& series, const Lit& lit) {
   return lit.spots.empty() ? 0.0 : sum / static_cast<double>(lit.spots.size());
 }
 
-/// Of S_kcg / S_kc, less what the noise of `variance` a pixel explains.
+/// Of S_kcg / S_kc, less what the noise of `variance` a pixel explains. Photographs in which a colour was
+/// hardly lit say nothing about it.
 double bandsChangeOf(const Series& series, const Lit& lit, double variance) {
   double changes = 0.0;
   int count = 0;
-  for (std::size_t band = 0; band < mostBands; ++band)
-    for (std::size_t colour = 0; colour < 3; ++colour) {
-      Moments shares, signals;
-      for (const Bands& bands : series.bands)
-        if (sumOf(bands, colour) > 0.0) {
-          shares.add(bands[band][colour] / sumOf(bands, colour));
-          signals.add(bands[band][colour]);
-        }
-      if (lit.inBand[band] == 0 || !(signals.mean() > 0.0)) continue;
-      const double noise = variance * lit.inBand[band] / (signals.mean() * signals.mean());
-      changes += std::max(0.0, shares.relative() * shares.relative() - noise);
+  for (std::size_t colour = 0; colour < 3; ++colour) {
+    Moments usual;
+    for (const Bands& bands : series.bands) usual.add(sumOf(bands, colour));
+    for (std::size_t band = 0; band < mostBands; ++band) {
+      Moments shares, noise;
+      for (const Bands& bands : series.bands) {
+        const double all = sumOf(bands, colour);
+        if (lit.inBand[band] == 0 || !(all > leastLit * usual.mean())) continue;
+        shares.add(bands[band][colour] / all);
+        noise.add(variance * lit.inBand[band] / (all * all));
+      }
+      if (!(shares.mean() > 0.0)) continue;
+      changes += std::max(0.0, shares.variance() - noise.mean()) / (shares.mean() * shares.mean());
       ++count;
     }
+  }
   return count > 0 ? std::sqrt(changes / count) : 0.0;
+}
+
+/// The variance by which `grey` is beyond `white`; 0 where that may be chance. Both are means of `samples`.
+double varianceBeyond(double grey, double white, double samples) {
+  constexpr double sigmas = 4.0;
+  const double uncertainty = std::sqrt(2.0 / samples * (grey * grey + white * white));
+  return grey - white > sigmas * uncertainty ? grey - white : 0.0;
 }
 
 class LightMeasurement {
@@ -188,7 +200,8 @@ class LightMeasurement {
     for (const Bands& bands : series_.bands)
       grey.add(sumOf(bands) / (3.0 * static_cast<double>(lit_.spots.size())));
     // White is brighter and never dithered: its noise is at least that of grey.
-    const double beyond = std::max(0.0, pixelVariance(series_, lit_) - noise);
+    const double samples = 3.0 * static_cast<double>(lit_.spots.size()) * (settings_.photographs - 1);
+    const double beyond = varianceBeyond(pixelVariance(series_, lit_), noise, samples);
     check.dither = grey.mean() > 0.0 ? std::sqrt(beyond) / grey.mean() : 0.0;
   }
 

@@ -60,6 +60,26 @@ class TestSteps : public QObject {
     QVERIFY(takeMeasuredVenue(expected, {}).transport.leaves() == venue.transport.leaves());
   }
 
+  void devicesAreExchangedAsLongAsNothingIsMeasured() {
+    CalibrateSettings settings = tiny();
+    ScreenRigSettings screen{{"HDMI-1", "", "", ""}, {24, 18}};
+    settings.rig = screen;
+    CalibrationFolder folder = beginCalibration(path("exchanged"), settings);
+    storeDecision(folder, Step::camera, {{"figure", 1}});
+    screen.cameraAddress = "telescope:7";
+    QVERIFY_THROWS_EXCEPTION(Error, changeRig(folder, screen));
+    screen.cameraAddress = "genicam:7";
+    changeRig(folder, screen);
+    QCOMPARE(std::get<ScreenRigSettings>(settingsOf(folder).rig).cameraAddress, std::string("genicam:7"));
+    // What was decided with other devices is no longer current.
+    QVERIFY(progressOf(folder, Step::camera) == StepProgress::stale);
+    // Core has no windows.
+    Progress quiet;
+    QVERIFY_THROWS_EXCEPTION(Error, openRig(settingsOf(folder).rig, {}, quiet));
+    folder.store(stage::linearization, linearizationFingerprint(folder), Json::object());
+    QVERIFY_THROWS_EXCEPTION(Error, changeRig(folder, screen));
+  }
+
   void aChangedSettingMakesWhatFollowsStaleAndSettingItBackMakesItCurrent() {
     CalibrationFolder folder = beginCalibration(path("stale"), tiny());
     for (Step step : {Step::camera, Step::threshold, Step::clustering, Step::content})

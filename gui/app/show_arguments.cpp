@@ -43,6 +43,11 @@ const QCommandLineOption display("screen",
                                  "NAME");
 const QCommandLineOption canvas("canvas", "Size that content is brought to.", "WxH", "1920x1080");
 const QCommandLineOption adaptive("adaptive-range", "Brightness and black follow what the content demands.");
+const QCommandLineOption backend(
+    "backend",
+    "What computes: cpu, opengl (also one in software), or automatic, a graphics "
+    "card where there is one.",
+    "NAME", "automatic");
 const QCommandLineOption installService(
     "install-service", "Start this show at every log-in, and again when it fails: a systemd unit of yours.");
 const QCommandLineOption installAutostart("install-autostart",
@@ -56,7 +61,7 @@ QStringList saidAgain(const QCommandLineParser& parser, const ShowSettings& sett
                     "--content", contentFromRoot(parser.value(content)),
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
-  for (const QCommandLineOption& option : {schedule, canvas})
+  for (const QCommandLineOption& option : {schedule, canvas, backend})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
   for (const QCommandLineOption& option : {loop, adaptive})
     if (parser.isSet(option)) again << "--" + option.names().first();
@@ -74,6 +79,9 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
     if (!settings.hours)
       throw WrongArguments("the schedule must be HH:MM-HH:MM with two different times, as 09:30-18:00");
   }
+  auto chosen = backendChoices().find(parser.value(backend).toStdString());
+  if (chosen == backendChoices().end()) throw WrongArguments("the backend must be cpu, opengl or automatic");
+  settings.backend = chosen->second;
   settings.calibration = parser.positionalArguments()[1].toStdString();
   settings.content = contentOf(parser.value(content));
   settings.content.loop = settings.content.loop || parser.isSet(loop);
@@ -96,7 +104,7 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content, loop, schedule, display, canvas, adaptive, log, installService,
+  parser.addOptions({content, loop, schedule, display, canvas, adaptive, backend, log, installService,
                      installAutostart, removeService, removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return PrintText{parser.helpText()};

@@ -46,7 +46,7 @@ int run(const PlayShow& play) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
         settings.calibration, settings.canvas, settings.adaptiveRange, quiet,
-        [warn](const std::string& sentence) { warn(QString::fromStdString(sentence)); });
+        [warn](const std::string& sentence) { warn(QString::fromStdString(sentence)); }, settings.backend);
   });
   Termination termination;
   QObject::connect(&termination, &Termination::requested, &show, [&show] {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "content/playlist.h"
+#include "engine/fallback_backend.h"
 #include "output/daily_hours.h"
 #include "output/screen_identity.h"
 
@@ -18,7 +19,8 @@ struct ShowSettings {
   PlaylistSettings content;
   QStringList displays;  // connectors, one a projector; empty: chosen by size, see displaysFor()
   Canvas canvas;
-  bool adaptiveRange = false;       // brightness and offset follow the content
+  bool adaptiveRange = false;  // brightness and offset follow the content
+  BackendChoice backend = BackendChoice::automatic;
   std::optional<DailyHours> hours;  // of the day in which it plays; none: all
   QString folder;                   // of the log and the health file
 };

@@ -29,21 +29,24 @@ class TestShowArguments : public QObject {
 
  private slots:
   void everyOptionArrives() {
-    ShowSettings settings = parsed<PlayShow>({"show", "venue", "--content", "a.png", "--schedule",
-                                              "18:00-02:30", "--screen", "HDMI-1", "--screen", "DP-2",
-                                              "--canvas", "1280x720", "--adaptive-range", "--log", "logs"})
-                                .settings;
+    ShowSettings settings =
+        parsed<PlayShow>({"show", "venue", "--content", "a.png", "--schedule", "18:00-02:30", "--screen",
+                          "HDMI-1", "--screen", "DP-2", "--canvas", "1280x720", "--adaptive-range",
+                          "--backend", "cpu", "--log", "logs"})
+            .settings;
     QCOMPARE(settings.calibration, std::filesystem::path("venue"));
     QCOMPARE(settings.content.items.size(), qsizetype{1});
     QVERIFY((settings.hours == DailyHours{{18, 0}, {2, 30}}));
     QCOMPARE(settings.displays, (QStringList{"HDMI-1", "DP-2"}));
     QCOMPARE(settings.canvas.size, QSize(1280, 720));
     QVERIFY(settings.adaptiveRange);
+    QCOMPARE(settings.backend, BackendChoice::cpu);
     QCOMPARE(settings.folder, QString("logs"));
   }
 
   void theDefaultsAreOff() {
     ShowSettings settings = parsed<PlayShow>({"show", "venue", "--content", "chart:grid"}).settings;
+    QCOMPARE(settings.backend, BackendChoice::automatic);
     QVERIFY(!settings.adaptiveRange && !settings.hours && settings.displays.isEmpty());
     QCOMPARE(settings.content.items.front().path, QString("chart:grid"));
     QCOMPARE(settings.canvas.size, QSize(1920, 1080));
@@ -53,7 +56,7 @@ class TestShowArguments : public QObject {
   void whatIsInstalledIsTheSameShow() {
     QStringList said{"show",     "my venue", "--content", "films/a.mp4", "--schedule",       "09:00-17:00",
                      "--screen", "HDMI-1",   "--canvas",  "640x480",     "--adaptive-range", "--loop",
-                     "--log",    "logs"};
+                     "--log",    "logs",     "--backend", "opengl"};
     auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
     QCOMPARE(wanted.start, Start::service);
     QVERIFY(wanted.arguments.contains(QDir::current().filePath("my venue")));
@@ -61,7 +64,7 @@ class TestShowArguments : public QObject {
     QCOMPARE(again.calibration, std::filesystem::absolute(first.calibration));
     QVERIFY(again.content == first.content && again.hours == first.hours && again.displays == first.displays);
     QVERIFY(again.canvas.size == first.canvas.size && again.adaptiveRange &&
-            again.folder == QDir::current().filePath("logs"));
+            again.backend == BackendChoice::openGl && again.folder == QDir::current().filePath("logs"));
     QCOMPARE(parsed<InstallShow>(said + QStringList{"--install-autostart"}).start, Start::autostart);
     QVERIFY(parsed<InstallShow>({"show", "v", "--content", "screen:HDMI-1", "--install-service"})
                 .arguments.contains("screen:HDMI-1"));
@@ -75,8 +78,8 @@ class TestShowArguments : public QObject {
   void helpNamesEveryOption() {
     QString help = parsed<PrintText>({"--help"}).text;
     for (const char* option :
-         {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--log",
-          "--install-service", "--install-autostart", "--remove-service"})
+         {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--backend",
+          "--log", "--install-service", "--install-autostart", "--remove-service"})
       QVERIFY2(help.contains(option), option);
   }
 
@@ -90,6 +93,7 @@ class TestShowArguments : public QObject {
     QTest::newRow("no content") << QStringList{"show", "venue"} << "--content";
     QTest::newRow("unknown option") << right + QStringList{"--fast"} << "fast";
     QTest::newRow("no size") << right + QStringList{"--canvas", "7x7"} << "WIDTHxHEIGHT";
+    QTest::newRow("no backend") << right + QStringList{"--backend", "fast"} << "automatic";
     QTest::newRow("no hours") << right + QStringList{"--schedule", "9-5"} << "HH:MM-HH:MM";
     QTest::newRow("no time between") << right + QStringList{"--schedule", "09:00-09:00"} << "HH:MM-HH:MM";
   }

@@ -2,12 +2,14 @@
 #include "transport/files.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <new>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "transport/npz.h"
 
 namespace relucent {
@@ -163,44 +165,71 @@ class TransportFile {
       return;
     }
     blocks.scale_.assign(blocks.rows(), 0.0f);
-    eachValue(reader, blocks, [&](std::size_t row, std::uint64_t, std::size_t, float value) {
-      blocks.scale_[row] = std::max(blocks.scale_[row], std::abs(value) / largestCode);
+    // One after the other: a row may lie in two parts.
+    eachBlock(reader, blocks, 1, [&](std::size_t row, std::uint64_t, const NineValues& values) {
+      for (float value : values)
+        blocks.scale_[row] = std::max(blocks.scale_[row], std::abs(value) / largestCode);
     });
   }
 
   static void readData(const NpzReader& reader, BlockSparse& blocks) {
     blocks.code_.resize(blocks.blocks());
-    eachValue(reader, blocks, [&](std::size_t row, std::uint64_t entry, std::size_t place, float value) {
-      float scale = blocks.scale_[row];
-      float code = scale > 0.0f ? std::round(value / scale) : 0.0f;
-      if (!(std::abs(code) <= largestCode) || (scale == 0.0f && value != 0.0f))
+    constexpr std::size_t parts = 16;
+    eachBlock(reader, blocks, parts, [&](std::size_t row, std::uint64_t entry, const NineValues& values) {
+      float scale = blocks.scale_[row], largest = 0.0f;
+      NineValues steps;
+      for (std::size_t k = 0; k < steps.size(); ++k) {
+        steps[k] = scale > 0.0f ? values[k] / scale : values[k] == 0.0f ? 0.0f : 2.0f * largestCode;
+        largest = std::max(largest, std::abs(steps[k]));
+      }
+      if (!(largest < largestCode + 0.5f))
         reader.fail("has values in 'data' that do not fit their row's scale");
-      blocks.code_[entry][place] = static_cast<std::int16_t>(code);
+      // To the nearest, in a form that compilers have instructions for.
+      for (std::size_t k = 0; k < steps.size(); ++k)
+        blocks.code_[entry][k] =
+            static_cast<std::int16_t>(static_cast<std::int32_t>(steps[k] + (steps[k] < 0.0f ? -0.5f : 0.5f)));
     });
   }
 
+  using NineValues = std::array<float, 9>;
+
+  /// Gives all blocks to `take`, those of `parts` parts at once.
   template <typename Take>
-  static void eachValue(const NpzReader& reader, const BlockSparse& blocks, const Take& take) {
+  static void eachBlock(const NpzReader& reader, const BlockSparse& blocks, std::size_t parts,
+                        const Take& take) {
     NpyHeader header = reader.header("data");
     if (header.type != "<f4" && header.type != "<f8")
       reader.fail("has values that are no floating point numbers");
     if (header.shape != std::vector<std::uint64_t>{blocks.blocks(), 3, 3})
       reader.fail("has another number of 3x3 blocks in 'data' than in 'indices'");
     bool wide = header.type == "<f8";
-    RowCursor cursor;
     reader.read("data", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
-      for (std::uint64_t i = 0; i < items; ++i) {
-        double value = 0.0;
-        float narrow = 0.0f;
-        if (wide) std::memcpy(&value, in + 8 * i, 8);
-        if (!wide) std::memcpy(&narrow, in + 4 * i, 4);
-        if (wide) narrow = static_cast<float>(value);
-        if (!std::isfinite(narrow)) reader.fail("has a value in 'data' that is no finite number");
-        std::uint64_t entry = (begin + i) / 9;
-        take(cursor.rowOf(entry, [&](std::size_t r) { return blocks.rowStart_[r]; }), entry, (begin + i) % 9,
-             narrow);
-      }
+      std::uint64_t firstBlock = begin / 9;
+      parallelChunks(firstBlock, (begin + items) / 9, parts,
+                     [&](std::size_t, std::uint64_t first, std::uint64_t last) {
+                       auto after = std::upper_bound(blocks.rowStart_.begin(), blocks.rowStart_.end(), first);
+                       auto row = static_cast<std::size_t>(after - blocks.rowStart_.begin()) - 1;
+                       for (std::uint64_t entry = first; entry < last; ++entry) {
+                         while (entry >= blocks.rowStart_[row + 1]) ++row;
+                         take(row, entry, valuesAt(in, entry - firstBlock, wide, reader));
+                       }
+                     });
     });
+  }
+
+  static NineValues valuesAt(const char* in, std::uint64_t block, bool wide, const NpzReader& reader) {
+    NineValues values;
+    if (wide) {
+      std::array<double, 9> doubles;
+      std::memcpy(doubles.data(), in + block * sizeof(doubles), sizeof(doubles));
+      std::copy(doubles.begin(), doubles.end(), values.begin());
+    } else {
+      std::memcpy(values.data(), in + block * sizeof(values), sizeof(values));
+    }
+    float nothing = 0.0f;
+    for (float value : values) nothing += 0.0f * value;  // NaN where one is not finite
+    if (nothing != 0.0f) reader.fail("has a value in 'data' that is no finite number");
+    return values;
   }
 };
 

@@ -12,13 +12,15 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/parallel.h"
 
 namespace relucent {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "NumPy files are written in memory order");
 
-constexpr std::uint64_t pieceBytes = 1 << 20;
+constexpr std::uint64_t pieceBytes = 1 << 20;  // written at once
+constexpr std::uint64_t readBytes = 4 << 20;   // read at once: enough for several threads
 constexpr char magic[] = "\x93NUMPY";
 constexpr std::size_t magicBytes = 6;
 // Enough for any array of ours; a larger header is not one.
@@ -301,13 +303,25 @@ void NpzReader::read(const std::string& name, const Take& take) const {
     if (length > room) fail(fmt::format("ends within the array '{}'", name));
     room /= length;
   }
-  std::uint64_t count = parsed.count(), most = std::max<std::uint64_t>(1, pieceBytes / itemBytes);
-  std::vector<char> piece(std::min(count, most) * itemBytes);
-  for (std::uint64_t begin = 0; begin < count; begin += most) {
-    std::uint64_t items = std::min(most, count - begin);
-    if (!member.read(piece.data(), items * itemBytes))
+  std::uint64_t count = parsed.count(), most = std::max<std::uint64_t>(1, readBytes / itemBytes);
+  std::uint64_t inner = count > 0 && !parsed.shape.empty() ? count / parsed.shape[0] : 1;
+  if (inner <= most) most -= most % inner;
+  // The next piece is read, and its checksum taken, while this one is looked at.
+  std::vector<char> piece(std::min(count, most) * itemBytes), next(count > most ? piece.size() : 0);
+  auto readAt = [&](std::uint64_t begin, std::vector<char>& into) {
+    if (!member.read(into.data(), std::min(most, count - begin) * itemBytes))
       fail(fmt::format("is damaged in the array '{}'", name));
-    take(begin, items, piece.data());
+  };
+  if (count > 0) readAt(0, piece);
+  for (std::uint64_t begin = 0; begin < count; begin += most) {
+    std::uint64_t after = begin + most;
+    std::function<void()> reading;
+    if (after < count) reading = [&] { readAt(after, next); };
+    besides(reading, [&] {
+      take(begin, std::min(most, count - begin), piece.data());
+      return true;
+    });
+    std::swap(piece, next);
   }
   // Reading to the very end makes libzip compare the checksum.
   char beyond;

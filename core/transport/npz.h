@@ -59,7 +59,8 @@ class NpzReader {
   bool has(const std::string& name) const;
   NpyHeader header(const std::string& name) const;
 
-  /// Gives all items in order to `take`, in pieces of whole items.
+  /// Gives all items in order to `take`, in pieces of whole items of the first axis where these are not huge.
+  /// Meanwhile the next piece is read on another thread.
   using Take = std::function<void(std::uint64_t begin, std::uint64_t count, const char* items)>;
   void read(const std::string& name, const Take& take) const;
   /// A whole array of "<i4" or "<i8".

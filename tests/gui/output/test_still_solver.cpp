@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "output/still_solver.h"
+
+#include <QtTest>
+#include <atomic>
+#include <thread>
+
+#include "core/engine/engine_scenes.h"
+#include "image/color.h"
+#include "pipeline/projection.h"
+
+using namespace relucent;
+
+namespace {
+
+MeasuredCalibration calibrationOf(std::uint64_t seed) {
+  synthetic::SceneSettings settings;
+  settings.seed = seed;
+  synthetic::EngineScene scene = synthetic::engineScene(synthetic::venueOf(synthetic::makeScene(settings)));
+  MeasuredCalibration calibration;
+  calibration.venue = std::move(scene.venue);
+  calibration.inverse = std::move(scene.inverse);
+  calibration.linearization.projectors = scene.responses;
+  return calibration;
+}
+
+/// A ramp of colours that every scene can show in part.
+ContentPicture ramp(std::uint64_t number, int turn = 0) {
+  QImage image(32, 24, QImage::Format_RGBX8888);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      image.setPixelColor(x, y, QColor::fromHsv((11 * x + turn) % 360, 60 + 5 * y, 40 + 6 * x));
+  return {image, number};
+}
+
+int largestDifference(const QImage& a, const QImage& b) {
+  int largest = a.size() == b.size() ? 0 : 256;
+  for (int y = 0; y < a.height() && largest < 256; ++y)
+    for (int x = 0; x < a.width(); ++x) {
+      QColor one = a.pixelColor(x, y), other = b.pixelColor(x, y);
+      largest = std::max({largest, std::abs(one.red() - other.red()), std::abs(one.green() - other.green()),
+                          std::abs(one.blue() - other.blue())});
+    }
+  return largest;
+}
+
+}  // namespace
+
+class TestStillSolver : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void itIsThePipelinesSolution_data() {
+    QTest::addColumn<int>("method");
+    QTest::addColumn<quint64>("seed");
+    for (Method method : {Method::mix, Method::clusters, Method::windows, Method::optimum})
+      for (quint64 seed : {1u, 7u})
+        QTest::addRow("%s, %llu", toString(method).data(), static_cast<unsigned long long>(seed))
+            << static_cast<int>(method) << seed;
+  }
+  void itIsThePipelinesSolution() {
+    QFETCH(int, method);
+    QFETCH(quint64, seed);
+    MeasuredCalibration calibration = calibrationOf(seed);
+    TargetSettings place;
+    StillSolver solver(calibration, place, CompensatorSettings().clustering, static_cast<Method>(method));
+    ContentPicture content = ramp(1);
+    std::optional<RenderedFrame> frame = solver.solve(content);
+    QVERIFY(frame.has_value());
+    QCOMPARE(frame->drives.size(), std::size_t{1});
+
+    Image encoded(Size{content.image.width(), content.image.height()}, 3);
+    for (int y = 0; y < encoded.height(); ++y)
+      for (int x = 0; x < encoded.width(); ++x)
+        for (int c = 0; c < 3; ++c)
+          encoded.at(x, y, c) = static_cast<float>(content.image.constScanLine(y)[4 * x + c]) / 255.0f;
+    Progress quiet;
+    Target target = fitTarget(srgbDecoded(encoded), calibration.venue, place);
+    Compensator compensator(calibration.venue, calibration.inverse);
+    Compensation wanted = compensator.solve(static_cast<Method>(method), target, quiet);
+    Image drive =
+        encodedDrive(wanted.projector, calibration.venue.transport.projectors(), calibration.linearization)
+            .front();
+    QCOMPARE(frame->drives[0].size(), QSize(drive.width(), drive.height()));
+    // Codes are the nearest of 8 bits to the same numbers.
+    for (int y = 0; y < drive.height(); ++y)
+      for (int x = 0; x < drive.width(); ++x)
+        for (int c = 0; c < 3; ++c)
+          QVERIFY(std::abs(255.0f * drive.at(x, y, c) -
+                           static_cast<float>(frame->drives[0].constScanLine(y)[4 * x + c])) <= 0.501f);
+    QCOMPARE(frame->clipped, wanted.clipped);
+  }
+
+  void aPictureIsSolvedOnce() {
+    MeasuredCalibration calibration = calibrationOf(3);
+    StillSolver solver(calibration, {}, CompensatorSettings().clustering, Method::windows);
+    QImage first = solver.solve(ramp(1))->drives[0];
+    QCOMPARE(solver.solve(ramp(1, 90))->drives[0].cacheKey(), first.cacheKey());
+    QImage second = solver.solve(ramp(2, 90))->drives[0];
+    QVERIFY(largestDifference(first, second) > 8);
+    QCOMPARE(largestDifference(solver.solve(ramp(3))->drives[0], first), 0);
+  }
+
+  void linearFloatsAreTheSamePicture() {
+    MeasuredCalibration calibration = calibrationOf(5);
+    StillSolver solver(calibration, {}, CompensatorSettings().clustering, Method::mix);
+    ContentPicture bytes = ramp(1), floats{QImage(bytes.image.size(), QImage::Format_RGBX32FPx4), 2};
+    for (int y = 0; y < bytes.image.height(); ++y)
+      for (int x = 0; x < bytes.image.width(); ++x) {
+        Image pixel(Size{1, 1}, 3);
+        for (int c = 0; c < 3; ++c)
+          pixel.at(0, 0, c) = static_cast<float>(bytes.image.constScanLine(y)[4 * x + c]) / 255.0f;
+        Image linear = srgbDecoded(pixel);
+        auto* line = reinterpret_cast<float*>(floats.image.scanLine(y));
+        for (int c = 0; c < 3; ++c) line[4 * x + c] = linear.at(0, 0, c);
+        line[4 * x + 3] = 1.0f;
+      }
+    QImage one = solver.solve(bytes)->drives[0], other = solver.solve(floats)->drives[0];
+    QVERIFY(largestDifference(one, other) <= 1);  // what a last bit of a float turns over
+  }
+
+  void anInterruptedPictureIsGivenUpAndTheNextIsSolved() {
+    MeasuredCalibration calibration = calibrationOf(9);
+    StillSolver solver(calibration, {}, CompensatorSettings().clustering, Method::optimum);
+    solver.interrupt();  // of nothing: nothing
+    QVERIFY(solver.solve(ramp(1)).has_value());
+    bool givenUp = false;
+    for (std::uint64_t number = 2; number < 50 && !givenUp; ++number) {
+      std::atomic<bool> done = false;
+      std::thread other([&] {
+        while (!done) solver.interrupt();
+      });
+      givenUp = !solver.solve(ramp(number)).has_value();
+      done = true;
+      other.join();
+    }
+    QVERIFY(givenUp);
+    QVERIFY(solver.solve(ramp(100)).has_value());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestStillSolver)
+#include "test_still_solver.moc"

@@ -9,6 +9,7 @@
 #include "theme/icons.h"
 #include "theme/theme.h"
 #include "views/colour_bar.h"
+#include "views/view_tag.h"
 #include "views/vtk_view.h"
 
 namespace relucent {

@@ -103,7 +103,11 @@ void PlaneScene::setPicture(int number, const QImage& picture) {
   Layer& layer = *parts_->layers.at(static_cast<std::size_t>(number));
   if (layer.picture.cacheKey() == picture.cacheKey()) return;
   layer.picture = picture;
-  if (!picture.isNull()) layer.texture->SetInputData(vtkImageOf(picture));
+  if (picture.isNull()) return;
+  layer.texture->SetInputData(vtkImageOf(picture));
+  // Else VTK looks for itself, at every pixel.
+  layer.actor->SetForceOpaque(!picture.hasAlphaChannel());
+  layer.actor->SetForceTranslucent(picture.hasAlphaChannel());
 }
 
 const QImage& PlaneScene::picture(int layer) const {

@@ -1,44 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QPointer>
 #include <QWidget>
 #include <functional>
 #include <optional>
+
+#include "views/view_link.h"
 
 namespace relucent {
 
 class VtkView;
 
-/// Where linked views look: one place and one magnification for all of them, and one pick in pixels of the
-/// plane.
-class ViewLink : public QObject {
-  Q_OBJECT
-
- public:
-  using QObject::QObject;
-  /// 1: the plane just fits.
-  double zoom() const { return zoom_; }
-  QPointF centre() const { return centre_; }  // in shares of the plane
-  std::optional<QPoint> pick() const { return pick_; }
-  void look(double zoom, QPointF centre);
-  void setPick(std::optional<QPoint> pick);
-  double mostZoom() const { return mostZoom_; }
-  void setMostZoom(double most) { mostZoom_ = most; }
-
- Q_SIGNALS:
-  void moved();
-  void picked();
-
- private:
-  double zoom_ = 1.0, mostZoom_ = 64.0;
-  QPointF centre_{0.5, 0.5};
-  std::optional<QPoint> pick_;
-};
-
 /// A plane of pixels to look at closely: what pictures, maps and T have in common. The wheel zooms at the
 /// pointer, drag pans, a click picks; double-click or 0 resets, 1 shows pixel for pixel, + and - zoom, arrows
-/// move the pick, with Shift ten pixels. Several views of one raster share a ViewLink.
-/// A subclass paints the plane, or has a VTK scene drawn below everything else.
+/// move the pick, with Shift ten pixels; F11 shows it on the whole screen and Esc in its page again. Several
+/// views of one raster share a ViewLink. A subclass paints the plane, or has a VTK scene drawn below
+/// everything else.
 class PlaneView : public QWidget {
   Q_OBJECT
 
@@ -57,7 +35,13 @@ class PlaneView : public QWidget {
   void setEmptyText(const QString& text);
   /// A word in the corner: "Out of date".
   void setBadge(const QString& text);
+  /// Words in the lower left corner: how it goes with what is seen.
+  void setCaption(const QString& text);
   void setScaleBar(bool shown);
+
+  /// On the whole screen, or back in its page. Contract: it lies in a layout.
+  void setWholeScreen(bool whole);
+  bool isWholeScreen() const { return whole_ != nullptr; }
 
   /// Where a place of the plane (in its pixels) is in the widget, and back.
   QPointF widgetFromPicture(QPointF place) const;
@@ -106,9 +90,12 @@ class PlaneView : public QWidget {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
+  static constexpr double cornerRadius = 4.0;  // the cards'
   class Glass;
   void look(double zoom, QPointF centre) { link_->look(zoom, centre); }
   void movePick(int dx, int dy);
+  /// Only what stands over the plane has changed.
+  void refreshWords();
   void paintWords(QPainter& painter);
   void paintMarks(QPainter& painter);
   void paintPick(QPainter& painter);
@@ -118,17 +105,12 @@ class PlaneView : public QWidget {
   ViewLink* link_ = &own_;
   VtkView* vtk_ = nullptr;
   Glass* glass_ = nullptr;
-  QString emptyText_, badge_;
+  QPointer<QWidget> whole_;
+  QString emptyText_, badge_, caption_;
   bool scaleBar_ = false, dragging_ = false;
   Readout readout_;
   QPointF pressed_, lastDrag_;
   std::optional<QPoint> hovered_;
 };
-
-/// Room that drawTag() takes for a text of one or more lines.
-QSizeF tagSize(const QString& text);
-/// A small dark box with words, as it stands over pictures.
-void drawTag(QPainter& painter, QPointF topLeft, const QString& text, const QColor& colour,
-             bool rightAligned = false);
 
 }  // namespace relucent

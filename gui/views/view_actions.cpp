@@ -44,6 +44,9 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
   QToolButton* fit = toolOf(Icon::fit, Words::tr("Show everything"));
   QObject::connect(fit, &QToolButton::clicked, &view, [&view] { view.link().look(1.0, {0.5, 0.5}); });
   card.addAction(fit);
+  QToolButton* whole = toolOf(Icon::monitor, Words::tr("Whole screen (F11)"));
+  QObject::connect(whole, &QToolButton::clicked, &view, [&view] { view.setWholeScreen(true); });
+  card.addAction(whole);
 
   QToolButton* save = toolOf(Icon::save, Words::tr("Save"));
   auto* menu = new QMenu(save);

@@ -17,8 +17,8 @@ struct ViewValues {
   std::string units;
 };
 
-/// Buttons in a card's head: show everything, save what is seen as PNG or its numbers as OpenEXR.
-/// `failed` is told what could not be saved.
+/// Buttons in a card's head: show everything, show it on the whole screen, save what is seen as PNG or its
+/// numbers as OpenEXR. `failed` is told what could not be saved.
 void addViewActions(Card& card, PlaneView& view, ViewValues values,
                     std::function<void(const Failure&)> failed);
 

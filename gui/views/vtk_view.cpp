@@ -3,54 +3,17 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
-#include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkGenericRenderWindowInteractor.h>
-#include <vtkNew.h>
-#include <vtkOpenGLState.h>
-#include <vtkRenderer.h>
 
-#include <QGuiApplication>
 #include <QLabel>
 #include <QMouseEvent>
-#include <QOffscreenSurface>
-#include <QOpenGLContext>
-#include <QOpenGLWidget>
 #include <QVBoxLayout>
-#include <utility>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "views/vtk_canvas.h"
 
 namespace relucent {
 namespace {
-
-/// The least that VTK draws with.
-QSurfaceFormat formatOfVtk() {
-  QSurfaceFormat format;
-  format.setRenderableType(QSurfaceFormat::OpenGL);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setVersion(3, 2);
-  format.setDepthBufferSize(24);
-  format.setAlphaBufferSize(0);
-  format.setSamples(0);
-  return format;
-}
-
-bool isEnough(const QSurfaceFormat& format) {
-  return format.renderableType() != QSurfaceFormat::OpenGLES && format.version() >= qMakePair(3, 2);
-}
-
-bool foundPossible() {
-  QOpenGLContext context;
-  context.setFormat(formatOfVtk());
-  QOffscreenSurface surface;
-  surface.setFormat(formatOfVtk());
-  surface.create();
-  if (!surface.isValid() || !context.create() || !context.makeCurrent(&surface)) return false;
-  bool enough = isEnough(context.format());
-  context.doneCurrent();
-  return enough;
-}
 
 /// VTK's name of a key: what its styles compare with.
 const char* keyName(int key) {
@@ -74,106 +37,11 @@ const char* keyName(int key) {
 
 }  // namespace
 
-struct VtkView::Scene {
-  vtkNew<vtkGenericOpenGLRenderWindow> window;
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkGenericRenderWindowInteractor> interactor;
-};
-
-/// The picture that VTK draws into. It has a context of its own, which Qt replaces with the window's.
-class VtkView::Canvas : public QOpenGLWidget {
- public:
-  Canvas(VtkView& view, Scene& scene) : QOpenGLWidget(&view), view_(view), scene_(scene) {
-    setFormat(formatOfVtk());
-    setAttribute(Qt::WA_TransparentForMouseEvents);
-    observe(vtkCommand::WindowMakeCurrentEvent);
-    observe(vtkCommand::WindowIsCurrentEvent);
-    observe(vtkCommand::WindowSupportsOpenGLEvent);
-    observe(vtkCommand::WindowIsDirectEvent);
-  }
-  ~Canvas() override {
-    disconnect(losing_);
-    release();
-    for (unsigned long tag : observers_) scene_.window->RemoveObserver(tag);
-  }
-
- protected:
-  void initializeGL() override {
-    if (!isEnough(context()->format())) return view_.refuse();
-    losing_ = connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
-    scene_.window->SetReadyForRendering(true);
-    scene_.window->InitializeFromCurrentContext();
-    scene_.window->SetOwnContext(false);
-    scene_.window->OpenGLInit();
-    ready_ = true;
-  }
-  void resizeGL(int, int) override { adopt(); }
-  void paintGL() override {
-    if (!view_.works()) return;
-    // Also when only the screen's pixel ratio changed.
-    adopt();
-    // Qt's painter and compositor have left their own state behind.
-    vtkOpenGLState* state = scene_.window->GetState();
-    state->Reset();
-    state->Push();
-    scene_.window->SetFrameBlitModeToBlitToCurrent();
-    scene_.window->Render();
-    state->Pop();
-    ++view_.frames_;
-  }
-
- private:
-  void adopt() {
-    double ratio = devicePixelRatioF();
-    int width = qMax(1, qRound(ratio * this->width())), height = qMax(1, qRound(ratio * this->height()));
-    scene_.window->SetSize(width, height);
-    scene_.window->SetDPI(qRound(72.0 * ratio));
-    scene_.interactor->UpdateSize(width, height);
-  }
-  /// What VTK keeps in the context goes with it.
-  void release() {
-    if (!std::exchange(ready_, false)) return;
-    makeCurrent();
-    scene_.window->Finalize();
-    scene_.window->SetReadyForRendering(false);
-    doneCurrent();
-  }
-  bool isCurrent() const { return context() != nullptr && QOpenGLContext::currentContext() == context(); }
-  void observe(unsigned long event) {
-    vtkNew<vtkCallbackCommand> command;
-    command->SetClientData(this);
-    command->SetCallback([](vtkObject*, unsigned long what, void* self, void* answer) {
-      static_cast<Canvas*>(self)->answer(what, answer);
-    });
-    observers_.push_back(scene_.window->AddObserver(event, command));
-  }
-  void answer(unsigned long what, void* answer) {
-    switch (what) {
-      case vtkCommand::WindowMakeCurrentEvent:
-        // Qt's own would also bind the widget's picture, in the middle of VTK's work on its own.
-        if (isValid() && !isCurrent()) makeCurrent();
-        break;
-      case vtkCommand::WindowIsCurrentEvent:
-        *static_cast<bool*>(answer) = isCurrent();
-        break;
-      default:  // whether it is supported, and direct
-        *static_cast<int*>(answer) = 1;
-    }
-  }
-
-  VtkView& view_;
-  Scene& scene_;
-  std::vector<unsigned long> observers_;
-  QMetaObject::Connection losing_;
-  bool ready_ = false;  // VTK has something in the context
-};
-
 bool VtkView::isPossible() {
-  static const bool possible = foundPossible();
-  return possible;
+  return VtkCanvas::isPossible();
 }
 
-VtkView::VtkView(QWidget* parent) : QWidget(parent), scene_(std::make_unique<Scene>()) {
+VtkView::VtkView(QWidget* parent) : QWidget(parent), scene_(std::make_unique<VtkScene>()) {
   scene_->window->SetReadyForRendering(false);
   scene_->window->SetMultiSamples(0);
   scene_->window->AddRenderer(scene_->renderer);
@@ -195,7 +63,8 @@ VtkView::VtkView(QWidget* parent) : QWidget(parent), scene_(std::make_unique<Sce
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   if (isPossible())
-    column->addWidget(canvas_ = new Canvas(*this, *scene_));
+    column->addWidget(canvas_ = new VtkCanvas(
+                          *scene_, [this] { refuse(); }, this));
   else
     refuse();
 }
@@ -236,6 +105,10 @@ vtkRenderWindow& VtkView::renderWindow() {
 
 vtkRenderWindowInteractor& VtkView::interactor() {
   return *scene_->interactor;
+}
+
+int VtkView::frames() const {
+  return canvas_ == nullptr ? 0 : canvas_->frames();
 }
 
 void VtkView::redraw() {

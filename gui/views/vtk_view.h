@@ -11,6 +11,9 @@ class vtkRenderer;
 
 namespace relucent {
 
+class VtkCanvas;
+struct VtkScene;
+
 /// A place for a VTK scene. VTK draws into the picture of a QOpenGLWidget, in device pixels, whenever Qt
 /// wants it drawn; mouse, wheel and keys go to VTK's interactor. The context may come and go, as it does when
 /// the widget moves to another window: the scene stays. Where there is no OpenGL it shows a sentence instead,
@@ -37,7 +40,7 @@ class VtkView : public QWidget {
   /// Draws now and gives what was drawn, in device pixels; null where there is no OpenGL.
   QImage drawn();
   /// Scenes drawn so far.
-  int frames() const { return frames_; }
+  int frames() const;
 
  Q_SIGNALS:
   /// It no longer draws: the context is too old.
@@ -54,15 +57,12 @@ class VtkView : public QWidget {
   void keyReleaseEvent(QKeyEvent* event) override;
 
  private:
-  class Canvas;
-  struct Scene;
   void refuse();
   void tellPlace(QPointF place, Qt::KeyboardModifiers modifiers, int repeat = 0);
 
-  std::unique_ptr<Scene> scene_;
-  Canvas* canvas_ = nullptr;
+  std::unique_ptr<VtkScene> scene_;
+  VtkCanvas* canvas_ = nullptr;
   QLabel* sentence_ = nullptr;
-  int frames_ = 0;
 };
 
 }  // namespace relucent

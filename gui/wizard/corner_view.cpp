@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "theme/theme.h"
+#include "views/view_tag.h"
 
 namespace relucent {
 namespace {

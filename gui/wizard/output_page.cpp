@@ -5,46 +5,20 @@
 #include <QDesktopServices>
 #include <QFileInfo>
 #include <QGuiApplication>
-#include <QImageReader>
 #include <QScreen>
 #include <QStandardPaths>
 #include <QUrl>
 
 #include "base/error.h"
 #include "output/installation.h"
-#include "wizard/output_tap.h"
 #include "wizard/preview_page.h"
 
 namespace relucent {
-namespace {
-
-/// Larger than this a canvas would only be slower.
-constexpr QSize largestCanvas(1920, 1080);
-constexpr std::size_t frameTimesKept = 120;
-
-/// A canvas of the first picture's shape, so that it lies where Preview has put it; films have the usual one.
-Canvas canvasFor(const PlaylistSettings& list, Fit fit) {
-  QSize size = OutputPlaylist::isStill(list.items.front()) ? QImageReader(list.items.front().path).size()
-                                                           : largestCanvas;
-  if (!size.isValid()) size = largestCanvas;  // core's own formats
-  if (size.width() > largestCanvas.width() || size.height() > largestCanvas.height())
-    size.scale(largestCanvas, Qt::KeepAspectRatio);
-  return {size.expandedTo({8, 8}), fit};
-}
-
-}  // namespace
-
-/// What a player needs, made on another thread.
-struct OutputPage::Made {
-  std::unique_ptr<FrameRenderer> renderer;
-  std::shared_ptr<Playlist> content;
-};
 
 OutputPage::OutputPage(Session& session, QObject* parent)
     : PageModel(parent),
       session_(session),
       proof_(session),
-      tap_(std::make_shared<OutputTap>()),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   connect(&session_, &Session::opened, this, [this] {
     close();
@@ -66,12 +40,10 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
   connect(&proof_, &OutputProof::reported, this,
           [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
-  connect(&job_, &Job::progressed, this, &OutputPage::changed);
-  connect(&job_, &Job::ended, this, &OutputPage::opened);
+  connect(&projection_, &OutputProjection::changed, this, &OutputPage::changed);
+  connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
   connect(qApp, &QGuiApplication::screenRemoved, this, &OutputPage::listScreens);
-  often_.setInterval(500);
-  connect(&often_, &QTimer::timeout, this, &OutputPage::sample);
   listScreens();
 }
 
@@ -115,7 +87,7 @@ StepStatus OutputPage::status() const {
 }
 
 QString OutputPage::hint() const {
-  if (job_.isRunning()) return job_.stage();
+  if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (!chosen_) return tr("Choose the projector's screen.");
@@ -135,11 +107,12 @@ Command OutputPage::primary() const {
             !playlist_.isEmpty(),
             {},
             [self] { self->install(); }};
-  return {tr("Open output"),
-          Icon::play,
-          chosen_.has_value() && !playlist_.isEmpty() && !job_.isRunning() && session_.busy().isEmpty(),
-          {},
-          [self] { self->open(); }};
+  return {
+      tr("Open output"),
+      Icon::play,
+      chosen_.has_value() && !playlist_.isEmpty() && !projection_.isOpening() && session_.busy().isEmpty(),
+      {},
+      [self] { self->open(); }};
 }
 
 std::vector<Command> OutputPage::secondary() const {
@@ -153,16 +126,8 @@ std::vector<Command> OutputPage::secondary() const {
 }
 
 std::optional<double> OutputPage::progress() const {
-  if (job_.isRunning()) return job_.fraction();
+  if (projection_.isOpening()) return projection_.fraction();
   return proof_.work() != OutputProof::Work::none ? std::optional(proof_.fraction()) : std::nullopt;
-}
-
-qsizetype OutputPage::playing() const {
-  return isOpen() && content_ ? content_->status().playing : -1;
-}
-
-QStringList OutputPage::skipped() const {
-  return isOpen() && content_ ? content_->status().skipped : QStringList();
 }
 
 void OutputPage::setPlaylist(const PlaylistSettings& settings) {
@@ -171,10 +136,10 @@ void OutputPage::setPlaylist(const PlaylistSettings& settings) {
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }
-  if (!isOpen()) return;
-  if (playlist_.isEmpty()) return close();
-  content_ = std::make_shared<Playlist>(settings, canvas_);
-  player_->setContent(content_);
+  if (playlist_.isEmpty())
+    close();
+  else
+    projection_.setList(settings);
 }
 
 void OutputPage::edit(const QString& what, const PlaylistSettings& after) {
@@ -213,108 +178,18 @@ QString OutputPage::stillMethod() const {
 }
 
 void OutputPage::open() {
-  if (isOpen() || job_.isRunning() || !chosen_ || playlist_.isEmpty() || !session_.busy().isEmpty()) return;
-  wanted_ = true;
-  made_ = std::make_shared<Made>();
-  job_.start([made = made_, tap = tap_, path = session_.path(), list = playlist_.settings(),
-              fit = session_.settings().content.fit](Progress& progress) {
-    Progress preparing = progress.part(1.0, tr("Preparing the engine").toStdString());
-    Canvas canvas = canvasFor(list, fit);
-    made->content = std::make_shared<Playlist>(list, canvas);
-    made->renderer = std::make_unique<TappedRenderer>(
-        std::make_unique<EngineRenderer>(path, canvas, false, preparing), tap);
-  });
-  Q_EMIT changed();
-}
-
-void OutputPage::opened() {
-  if (job_.state() == Job::State::failed) tell(job_.failure());
-  if (job_.state() == Job::State::done && chosen_ && wanted_) {
-    try {
-      play();
-    } catch (...) {
-      close();
-      tell(failureOf(std::current_exception()));
-    }
-  }
-  made_ = nullptr;
-  Q_EMIT changed();
-}
-
-void OutputPage::play() {
-  engine_ = made_->renderer->name();
-  canvas_ = made_->renderer->canvas();
-  content_ = std::exchange(made_->content, nullptr);
-  window_ = std::make_unique<ProjectorWindow>(screens_[*chosen_].identity);
-  player_ = std::make_unique<Player>(std::move(made_->renderer), content_,
-                                     std::vector<ProjectorWindow*>{window_.get()});
-  // What these lead to ends the objects that tell it: later, when they are done telling.
-  auto closeLater = [this] {
-    QMetaObject::invokeMethod(
-        this, [this] { close(); }, Qt::QueuedConnection);
-  };
-  // The player itself looks at the projector's other keys.
-  connect(window_.get(), &ProjectorWindow::keyPressed, this, [this, closeLater](int key) {
-    if (key == Qt::Key_Escape) closeLater();
-    Q_EMIT changed();
-  });
-  connect(player_.get(), &Player::failed, this, [this, closeLater](const QString& sentence) {
-    closeLater();
-    tell({ErrorKind::device, sentence, tr("Open the output again."), sentence});
-  });
-  connect(player_.get(), &Player::shown, this, &OutputPage::changed);
-  awake_.emplace(tr("Relucent is projecting"));
-  frameTimes_.clear();
-  window_->shine();
-  player_->start();
-  often_.start();
-}
-
-void OutputPage::sample() {
-  PlayerStatistics now = statistics();
-  frameTimes_.push_back(now.frames > 0 ? 1000.0 * now.frameSeconds : 0.0);
-  if (frameTimes_.size() > frameTimesKept) frameTimes_.pop_front();
-  Q_EMIT changed();
+  if (isOpen() || projection_.isOpening() || !chosen_ || playlist_.isEmpty() || !session_.busy().isEmpty())
+    return;
+  projection_.open(
+      {session_.path(), playlist_.settings(), session_.settings().content.fit, screens_[*chosen_].identity});
 }
 
 void OutputPage::close() {
-  wanted_ = false;
-  often_.stop();
-  job_.cancel();
-  if (player_) player_->stop();
-  if (window_) window_->stop();
-  player_ = nullptr;
-  window_ = nullptr;
-  content_ = nullptr;
-  awake_.reset();
-  tap_->put({});
-  Q_EMIT changed();
-}
-
-void OutputPage::setBlack(bool black) {
-  if (player_) player_->setBlack(black);
-  Q_EMIT changed();
-}
-
-void OutputPage::setFrozen(bool frozen) {
-  if (player_) player_->setFrozen(frozen);
-  Q_EMIT changed();
-}
-
-void OutputPage::setCompensated(bool compensated) {
-  if (player_) player_->setCompensated(compensated);
-  Q_EMIT changed();
-}
-
-QImage OutputPage::onProjector() const {
-  if (!player_) return {};
-  QImage drive = tap_->get();
-  if (isBlack() && !drive.isNull()) drive.fill(Qt::black);
-  return drive;
+  projection_.close();
 }
 
 void OutputPage::whileClosed(const std::function<void()>& work) {
-  if (!proof_.isPossible() || job_.isRunning()) return;
+  if (!proof_.isPossible() || projection_.isOpening()) return;
   // A real camera would photograph the show.
   if (isOpen() && !session_.isSimulated()) {
     close();
@@ -333,7 +208,7 @@ void OutputPage::proofEnded() {
 
 QString OutputPage::pictureToProve() const {
   const QList<PlaylistItem>& items = playlist_.settings().items;
-  qsizetype now = playing();
+  qsizetype now = projection_.playing();
   if (now >= 0 && now < items.size() && OutputPlaylist::isStill(items[now])) return items[now].path;
   auto still = std::find_if(items.begin(), items.end(), OutputPlaylist::isStill);
   return still != items.end() ? still->path : ownPicture();
@@ -353,7 +228,8 @@ bool OutputPage::isInstalled() const {
 }
 
 QStringList OutputPage::showArguments() const {
-  Canvas canvas = isOpen() ? canvas_ : canvasFor(playlist_.settings(), Fit::fit);
+  Canvas canvas =
+      isOpen() ? projection_.canvas() : OutputProjection::canvasFor(playlist_.settings(), Fit::fit);
   QStringList arguments{"show",      QString::fromStdString(session_.path().string()),
                         "--content", playlist_.file(),
                         "--canvas",  QString("%1x%2").arg(canvas.size.width()).arg(canvas.size.height()),

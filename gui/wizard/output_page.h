@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QImage>
-#include <QTimer>
-#include <deque>
-
-#include "jobs/job.h"
-#include "output/awake.h"
-#include "output/engine_renderer.h"
-#include "output/player.h"
 #include "wizard/output_playlist.h"
+#include "wizard/output_projection.h"
 #include "wizard/output_proof.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
 
 namespace relucent {
-
-class OutputTap;
 
 /// A screen that the output can shine on.
 struct OutputScreen {
@@ -50,29 +41,22 @@ class OutputPage : public PageModel {
   void choose(std::size_t index);
 
   const OutputPlaylist& playlist() const { return playlist_; }
-  /// Which item plays; -1: none.
-  qsizetype playing() const;
-  /// What of the list could not be read, the newest last.
-  QStringList skipped() const;
   void addFiles(const QStringList& files);
   void removeItem(qsizetype index);
   void moveItem(qsizetype index, qsizetype by);
   void setRepeat(bool repeat);
   void setFade(double seconds);
 
-  bool isOpen() const { return player_ != nullptr; }
-  bool isBlack() const { return player_ && player_->isBlack(); }
-  bool isFrozen() const { return player_ && player_->isFrozen(); }
-  bool isCompensated() const { return !player_ || player_->isCompensated(); }
-  void setBlack(bool black);
-  void setFrozen(bool frozen);
-  void setCompensated(bool compensated);
-  PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }
-  /// Frame times of the last minute, milliseconds, twice a second; the newest last.
-  const std::deque<double>& frameTimes() const { return frameTimes_; }
-  QString engineName() const { return engine_; }
-  /// What the projector shows now, as far as this program knows; null while it is closed.
-  QImage onProjector() const;
+  bool isOpen() const { return projection_.isOpen(); }
+  bool isBlack() const { return projection_.isBlack(); }
+  bool isFrozen() const { return projection_.isFrozen(); }
+  bool isCompensated() const { return projection_.isCompensated(); }
+  void setBlack(bool black) { projection_.setBlack(black); }
+  void setFrozen(bool frozen) { projection_.setFrozen(frozen); }
+  void setCompensated(bool compensated) { projection_.setCompensated(compensated); }
+  /// What plays, and how it goes.
+  OutputProjection& projection() { return projection_; }
+  const OutputProjection& projection() const { return projection_; }
   Size projectorSize() const { return session_.projectorSize(); }
   /// Not the one for films: how pictures that stand are solved. Empty: like films.
   QString stillMethod() const;
@@ -100,11 +84,7 @@ class OutputPage : public PageModel {
   void setConfigFolder(const QString& folder) { config_ = folder; }
 
  private:
-  struct Made;
   void listScreens();
-  void opened();
-  void play();
-  void sample();
   void edit(const QString& what, const PlaylistSettings& after);
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
@@ -116,24 +96,13 @@ class OutputPage : public PageModel {
   Session& session_;
   OutputPlaylist playlist_;
   OutputProof proof_;
-  Job job_;
-  std::shared_ptr<Made> made_;
-  std::shared_ptr<OutputTap> tap_;
-  std::shared_ptr<Playlist> content_;
-  Canvas canvas_;
+  OutputProjection projection_;
   std::vector<OutputScreen> screens_;
   std::optional<std::size_t> chosen_;
-  std::unique_ptr<ProjectorWindow> window_;
-  std::unique_ptr<Player> player_;
-  std::optional<Awake> awake_;
-  QString engine_;
-  bool wanted_ = false;  // closed meanwhile, it does not open
   bool reopen_ = false;  // when the photographs are taken
-  std::deque<double> frameTimes_;
-  QString preferred_;  // Preview's picture
+  QString preferred_;    // Preview's picture
   QString config_;
   bool starts_ = true;
-  QTimer often_;
 };
 
 }  // namespace relucent

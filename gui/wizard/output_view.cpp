@@ -45,7 +45,7 @@ class PlaybackCard : public Card {
 
  private:
   void refresh() {
-    PlayerStatistics s = page_.statistics();
+    PlayerStatistics s = page_.projection().statistics();
     bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 1.0;
     QString none = QString::fromUtf8("–");
     rate_->setValue(open && moves ? QLocale().toString(s.framesPerSecond, 'f', 1) : none);
@@ -54,10 +54,10 @@ class PlaybackCard : public Card {
                         : none);
     late_->setValue(open ? countText(s.late) : none, s.late > 0);
     setSubtitle(!open   ? OutputPage::tr("closed")
-                : moves ? OutputPage::tr("on %1").arg(page_.engineName())
-                        : OutputPage::tr("still picture, on %1").arg(page_.engineName()));
+                : moves ? OutputPage::tr("on %1").arg(page_.projection().engineName())
+                        : OutputPage::tr("still picture, on %1").arg(page_.projection().engineName()));
     Curve curve{OutputPage::tr("Frame time"), accentColour, Marker::none, {}, {}};
-    const std::deque<double>& times = page_.frameTimes();
+    const std::deque<double>& times = page_.projection().frameTimes();
     double highest = 20.0;
     for (std::size_t i = 0; i < times.size(); ++i) {
       curve.line.emplace_back(-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]);
@@ -70,6 +70,32 @@ class PlaybackCard : public Card {
   OutputPage& page_;
   Readout *rate_, *time_, *late_;
   LineChart* chart_;
+};
+
+/// What the projector shows, small.
+class MirrorView : public ImageView {
+ public:
+  explicit MirrorView(OutputProjection& projection) : projection_(projection) {
+    connect(&projection_, &OutputProjection::mirrored, this, [this] { setPicture(projection_.mirror()); });
+  }
+
+ protected:
+  // Nothing is scaled for a view that nobody sees.
+  void showEvent(QShowEvent* event) override {
+    ImageView::showEvent(event);
+    projection_.watch(size() * devicePixelRatioF());
+  }
+  void resizeEvent(QResizeEvent* event) override {
+    ImageView::resizeEvent(event);
+    if (isVisible()) projection_.watch(size() * devicePixelRatioF());
+  }
+  void hideEvent(QHideEvent* event) override {
+    ImageView::hideEvent(event);
+    projection_.watch({});
+  }
+
+ private:
+  OutputProjection& projection_;
 };
 
 /// Pictures beside each other. While it has the focus: A held shows the original, space freezes, B blackens.
@@ -124,7 +150,7 @@ class OutputStage : public QWidget {
     compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
     compare_->setObjectName("compare");
     projector_->addAction(compare_);
-    output_ = new ImageView;
+    output_ = new MirrorView(page_.projection());
     output_->setObjectName("output-view");
     output_->setAccessibleName(OutputPage::tr("What the projector shows"));
     output_->setAccessibleDescription(
@@ -161,12 +187,21 @@ class OutputStage : public QWidget {
   void refresh() {
     compare_->setEnabled(page_.isOpen());
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
-    QImage drive = page_.onProjector();
-    if (drive.cacheKey() != output_->picture().cacheKey()) output_->setPicture(drive);
+    output_->setCaption(figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
     if (proof == shown_) return;
     shown_ = proof;
     showProof();
+  }
+  /// Over the projector's picture: how it goes.
+  QString figures() const {
+    PlayerStatistics s = page_.projection().statistics();
+    if (!page_.isOpen() || s.frames == 0) return {};
+    QString clipped = OutputPage::tr("%1 out of reach").arg(percentText(s.clipped));
+    if (s.framesPerSecond <= 1.0) return OutputPage::tr("still picture, %1").arg(clipped);
+    auto number = [](double value) { return QLocale().toString(value, 'f', 1); };
+    return OutputPage::tr("%1 fps, %2 ms, %3")
+        .arg(number(s.framesPerSecond), number(1000.0 * s.frameSeconds), clipped);
   }
   void showProof() {
     if (!shown_) {

@@ -53,7 +53,7 @@ void PlaylistView::refresh() {
   if (count() != items.size()) updateGeometry();
   while (count() > items.size()) delete takeItem(count() - 1);
   while (count() < items.size()) addItem(new QListWidgetItem);
-  qsizetype playing = page_.playing();
+  qsizetype playing = page_.projection().playing();
   for (int i = 0; i < count(); ++i) {
     QString name = OutputPlaylist::nameOf(items[i]);
     QListWidgetItem* entry = item(i);
@@ -169,7 +169,7 @@ QWidget* playlistPart(OutputPage& page) {
     for (QToolButton* button : {up, down}) button->setEnabled(several);
     for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow}) widget->setVisible(several);
     remove->setEnabled(!settings.items.isEmpty());
-    QStringList wrong = page.skipped();
+    QStringList wrong = page.projection().skipped();
     skipped->setVisible(!wrong.isEmpty());
     if (!wrong.isEmpty()) skipped->setText(OutputPage::tr("Skipped: %1").arg(wrong.last()));
   };

@@ -2,14 +2,6 @@
 #include "wizard/preview_page.h"
 
 #include <QFileInfo>
-#include <QImage>
-#include <cmath>
-#include <limits>
-
-#include "base/stopwatch.h"
-#include "compensation/uncorrectable.h"
-#include "image/color.h"
-#include "image/picture_files.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
 #include "views/number_text.h"
@@ -21,60 +13,7 @@ namespace {
 constexpr std::array comparedMethods{Method::none, Method::mix, Method::clusters, Method::refined,
                                      Method::optimum};
 
-/// The picture of the settings, or the product's own where that is gone.
-std::shared_ptr<const Image> contentFor(const ContentSettings& settings) {
-  if (!settings.picture.empty()) {
-    try {
-      return std::make_shared<Image>(linearContentOf(QString::fromStdString(settings.picture)));
-    } catch (const Error&) {
-    }
-  }
-  return std::make_shared<Image>(linearContentOf(ownPicture()));
-}
-
 }  // namespace
-
-QString methodName(std::string_view name) {
-  switch (methodFromName(name).value_or(Method::refined)) {
-    case Method::none:
-      return PreviewPage::tr("No correction");
-    case Method::scalar:
-      return PreviewPage::tr("Each pixel's brightness");
-    case Method::mix:
-      return PreviewPage::tr("Each pixel on its own");
-    case Method::sharpen:
-      return PreviewPage::tr("Each pixel, sharpened");
-    case Method::clusters:
-      return PreviewPage::tr("Clusters");
-    case Method::windows:
-      return PreviewPage::tr("Windows");
-    case Method::refined:
-      return PreviewPage::tr("Windows and steps");
-    case Method::optimum:
-      break;
-  }
-  return PreviewPage::tr("Best possible, still pictures");
-}
-
-QString ownPicture() {
-  return ":/pictures/demo.png";
-}
-
-Image linearContentOf(const QString& file) {
-  if (!file.startsWith(':')) return readLinearContent(file.toStdString());
-  QImage image = QImage(file).convertToFormat(QImage::Format_RGB888);
-  Image encoded(Size{image.width(), image.height()}, 3);
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < 3 * image.width(); ++x)
-      encoded.at(x / 3, y, x % 3) = static_cast<float>(image.constScanLine(y)[x]) / 255.0f;
-  return srgbDecoded(encoded);
-}
-
-/// Everything that predicting needs, made once for a threshold.
-struct PreviewPage::Engine {
-  MeasuredCalibration measured;
-  std::optional<Compensator> compensator;
-};
 
 PreviewPage::PreviewPage(Session& session, QObject* parent)
     : PageModel(parent),
@@ -141,7 +80,7 @@ void PreviewPage::prepare() {
   if (wanted == preparedFor_) return;
   preparedFor_ = wanted;
   engine_ = nullptr;
-  made_ = std::make_shared<Engine>();
+  made_ = std::make_shared<PreviewEngine>();
   session_.setBusy(name());
   job_.start([made = made_, path = session_.path()](Progress& progress) {
     {
@@ -242,46 +181,7 @@ void PreviewPage::compute() {
   if (!engine_) return;
   ++round_;
   computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
-                  settings = settings_]() -> std::shared_ptr<const ContentPreview> {
-    Progress quiet;
-    std::shared_ptr<const Image> content = known ? known : contentFor(settings);
-    const MeasuredVenue& venue = engine->measured.venue;
-    const Rasters& cameras = venue.transport.cameras();
-    Target target = fitTarget(*content, venue, targetOf(settings));
-    auto method = methodFromName(settings.method).value_or(Method::refined);
-    Prediction with = predict(venue, target, engine->compensator->solve(method, target, quiet));
-    Prediction without = predict(venue, target, engine->compensator->solve(Method::none, target, quiet));
-    auto preview = std::make_shared<ContentPreview>();
-    preview->content = content;
-    preview->picture = settings.picture;
-    preview->with = imageFromStack(with.camera, cameras, 0);
-    preview->without = imageFromStack(without.camera, cameras, 0);
-    preview->deltaE = with.deltaE;
-    preview->white = target.white[0];
-    preview->corners = target.corners;
-    preview->reachableShare = with.reachable;
-    preview->clipped = with.clipped;
-    preview->deltaEMean = with.meanDeltaE;
-    preview->psnr = with.psnrReachable;
-    std::size_t pixels = cameras.size(0).count();
-    preview->reach.resize(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) {
-      float brightest = std::numeric_limits<float>::infinity();
-      for (std::size_t c = 0; c < 3; ++c)
-        brightest = std::min(brightest, venue.flood[3 * i + c] + venue.black[3 * i + c]);
-      preview->reach[i] = brightest / preview->white;
-    }
-    preview->inside.assign(target.inside.begin(),
-                           target.inside.begin() + static_cast<std::ptrdiff_t>(pixels));
-    preview->reachable.assign(target.reachable.begin(),
-                              target.reachable.begin() + static_cast<std::ptrdiff_t>(pixels));
-    auto shares = sharesOf(uncorrectableMap(venue, target, {}, quiet));
-    preview->unlit = shares[static_cast<std::size_t>(Uncorrectable::unlit)] +
-                     shares[static_cast<std::size_t>(Uncorrectable::shadowed)];
-    preview->tooDark = shares[static_cast<std::size_t>(Uncorrectable::tooDark)] + preview->unlit;
-    preview->tooBright = shares[static_cast<std::size_t>(Uncorrectable::tooBright)];
-    return preview;
-  });
+                  settings = settings_] { return previewOf(*engine, settings, known); });
   Q_EMIT changed();
 }
 
@@ -290,14 +190,7 @@ void PreviewPage::compareNext() {
   if (!engine_ || !content_ || comparing_.isBusy() || table_.size() >= comparedMethods.size()) return;
   Method method = comparedMethods[table_.size()];
   comparing_.ask([engine = engine_, content = content_, settings = settings_, method, round = round_] {
-    Progress quiet;
-    Target target = fitTarget(*content, engine->measured.venue, targetOf(settings));
-    engine->compensator->solve(Method::none, target, quiet);
-    Stopwatch watch;
-    Compensation compensation = engine->compensator->solve(method, target, quiet);
-    double seconds = watch.seconds();
-    Prediction prediction = predict(engine->measured.venue, target, compensation);
-    return std::pair(round, MethodPreview{method, prediction.psnrReachable, prediction.meanDeltaE, seconds});
+    return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
   });
 }
 

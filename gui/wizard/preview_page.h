@@ -1,37 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compensation/methods.h"
-#include "compensation/prediction.h"
 #include "jobs/job.h"
 #include "jobs/latest.h"
+#include "wizard/content_preview.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
 
 namespace relucent {
-
-/// What one method is predicted to do with the content.
-struct MethodPreview {
-  Method method = Method::none;
-  double psnr = 0.0;
-  double deltaE = 0.0;
-  double seconds = 0.0;
-};
-
-/// Pictures of the first camera, linear, and the white they are looked at with.
-struct ContentPreview {
-  Image without, with;       // predicted: nothing corrected, and by the chosen method
-  Image deltaE;              // CIEDE2000; NaN outside the content
-  std::vector<float> reach;  // brightest possible, as a share of the content's white
-  std::vector<std::uint8_t> reachable, inside;
-  float white = 1.0f;
-  Corners corners{};
-  double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;
-  double tooDark = 0.0, tooBright = 0.0;  // shares of the content
-  double unlit = 0.0;                     // of these, what no projector lights
-  std::shared_ptr<const Image> content;   // what was placed
-  std::string picture;                    // where it came from
-};
 
 /// Step 7: content in its place, before it is projected.
 class PreviewPage : public PageModel {
@@ -76,7 +52,6 @@ class PreviewPage : public PageModel {
   bool isComputing() const { return computing_.isBusy(); }
 
  private:
-  struct Engine;
   void prepare();
   void prepared();
   void adopt(const ContentSettings& settings);
@@ -92,8 +67,8 @@ class PreviewPage : public PageModel {
   std::shared_ptr<const Image> content_;
   std::string contentOf_;  // where it was read
   QString problem_;
-  std::shared_ptr<Engine> made_;  // by the job, taken when it ends
-  std::shared_ptr<const Engine> engine_;
+  std::shared_ptr<PreviewEngine> made_;  // by the job, taken when it ends
+  std::shared_ptr<const PreviewEngine> engine_;
   std::string preparedFor_;
   std::shared_ptr<const ContentPreview> preview_;
   std::vector<MethodPreview> table_;
@@ -103,12 +78,5 @@ class PreviewPage : public PageModel {
   Latest<std::pair<std::string, std::shared_ptr<const Image>>> reading_;
   bool looked_ = false;  // now
 };
-
-/// A way to compensate, for people.
-QString methodName(std::string_view name);
-/// The product's own picture where the user has chosen none.
-QString ownPicture();
-/// A picture as linear content. Throws: as readLinearContent().
-Image linearContentOf(const QString& file);
 
 }  // namespace relucent

@@ -83,12 +83,12 @@ class PreviewStage : public QWidget {
   Card* tableCard() {
     auto* card = new Card(PreviewPage::tr("Methods"));
     card->setSubtitle(PreviewPage::tr("predicted for this content; click one to use it"));
-    table_ = new QTableWidget(0, 5);
+    table_ = new QTableWidget(0, 6);
     table_->setObjectName("methods");
     table_->setAccessibleName(PreviewPage::tr("Comparison of methods"));
     table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("PSNR"),
-                                       PreviewPage::tr("Colour error"), PreviewPage::tr("Time a picture"),
-                                       PreviewPage::tr("Notes")});
+                                       PreviewPage::tr("SSIM"), PreviewPage::tr("Colour error"),
+                                       PreviewPage::tr("Time a picture"), PreviewPage::tr("Notes")});
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(26);
     table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
@@ -131,6 +131,7 @@ class PreviewStage : public QWidget {
       const MethodPreview& method = rows[static_cast<std::size_t>(row)];
       QStringList cells{methodName(toString(method.method)),
                         PreviewPage::tr("%1 dB").arg(QLocale().toString(method.psnr, 'f', 1)),
+                        QLocale().toString(method.ssim, 'f', 3),
                         QString::fromUtf8("ΔE %1").arg(QLocale().toString(method.deltaE, 'f', 1)),
                         method.seconds < 1.0
                             ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))

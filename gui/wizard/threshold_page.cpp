@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/threshold_page.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "views/number_text.h"
 
 namespace relucent {
@@ -8,6 +11,28 @@ namespace {
 
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
+
+/// What a cut leaves, as a histogram has it: to a bin, and its brightest part as far as the cut goes into it.
+TransportStatistics estimated(const TransportStatistics& whole, double cut) {
+  TransportStatistics kept = whole;
+  double energy = 0.0, leaves = 0.0, all = 0.0;
+  for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
+    double low = std::log10(strengthOfBin(bin)), high = low + 1.0 / StrengthHistogram::binsPerDecade;
+    double share = cut > 0.0 ? std::clamp((high - std::log10(cut)) / (high - low), 0.0, 1.0) : 1.0;
+    energy += share * whole.histogram.energy[bin];
+    leaves += share * static_cast<double>(whole.histogram.leaves[bin]);
+    all += whole.histogram.energy[bin];
+    kept.histogram.energy[bin] *= share;
+    kept.histogram.leaves[bin] =
+        static_cast<std::uint64_t>(share * static_cast<double>(whole.histogram.leaves[bin]));
+  }
+  if (all > 0.0) kept.energyKept = energy / all;
+  double left = whole.leaves > 0 ? leaves / static_cast<double>(whole.leaves) : 1.0;
+  kept.leaves = static_cast<std::uint64_t>(leaves);
+  kept.bytes = static_cast<std::uint64_t>(left * static_cast<double>(whole.bytes));
+  kept.connections = static_cast<std::uint64_t>(left * static_cast<double>(whole.connections));
+  return kept;
+}
 
 }  // namespace
 
@@ -88,6 +113,7 @@ void ThresholdPage::adopt() {
 
 void ThresholdPage::compute() {
   if (adopted_) {
+    if (whole_ && !shareOfRow_) kept_ = estimated(*whole_, static_cast<double>(cut_.absolute));
     statistics_.ask(
         [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
     picturing_.ask([acquisition = adopted_, cut = cut_]() -> std::shared_ptr<const MatrixPictures> {

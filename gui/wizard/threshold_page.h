@@ -31,8 +31,10 @@ class ThresholdPage : public PageModel {
   std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
   /// Of everything that was measured; none while it is being read.
   const std::optional<TransportStatistics>& whole() const { return whole_; }
-  /// Of what the cut leaves; follows the cut.
+  /// Of what the cut leaves; follows the cut. At first as the histogram of the whole has it, where that
+  /// knows, then counted.
   const std::optional<TransportStatistics>& kept() const { return kept_; }
+  bool isExact() const { return kept_.has_value() && !statistics_.isBusy(); }
   /// The highest cut that keeps nearly all light.
   double suggested() const { return suggested_; }
 

@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   photographs.take("07-preview-corners");
   wizard.preview().primary().run();
   wizard.output().open();
-  until([&] { return !wizard.output().onProjector().isNull(); });
+  until([&] { return !wizard.output().projection().mirror().isNull(); });
   wizard.output().verify();
   until([&] { return wizard.output().proof().proof() != nullptr; });
   wizard.output().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});

@@ -302,10 +302,14 @@ class TestWizardWindow : public QObject {
     QVERIFY(wizard_->output().chosen().has_value());
     QVERIFY(!wizard_->output().screens()[*wizard_->output().chosen()].operators);
     click("primary");
-    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->output().onProjector().isNull(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->output().projection().onProjector().isNull(), patience);
     QTRY_VERIFY_WITH_TIMEOUT(!allBlack(seenOn("DUMMY1")), patience);
-    // Only while the stage has the focus, and while A is held.
     auto* view = find<ImageView>("output-view");
+    // The operator sees it too, no larger than there is room.
+    QTRY_VERIFY_WITH_TIMEOUT(!view->picture().isNull(), patience);
+    QVERIFY(!allBlack(view->picture()));
+    QVERIFY(view->picture().width() <= view->width() * view->devicePixelRatioF());
+    // Only while the stage has the focus, and while A is held.
     view->setFocus();
     QTest::keyPress(view, Qt::Key_A);
     QVERIFY(!wizard_->output().isCompensated());
@@ -316,6 +320,7 @@ class TestWizardWindow : public QObject {
     QTest::keyClick(view, Qt::Key_Space);
     QTest::keyClick(view, Qt::Key_B);
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    QTRY_VERIFY(allBlack(view->picture()));
     QTest::keyClick(view, Qt::Key_B);
     QTRY_VERIFY(!allBlack(seenOn("DUMMY1")));
   }
@@ -342,7 +347,7 @@ class TestWizardWindow : public QObject {
     QTest::keyClick(list, Qt::Key_Up, Qt::ControlModifier);
     QCOMPARE(output.playlist().settings().items[0].path, file);
     QCOMPARE(list->currentRow(), 0);
-    QTRY_COMPARE_WITH_TIMEOUT(output.playing(), qsizetype{0}, patience);
+    QTRY_COMPARE_WITH_TIMEOUT(output.projection().playing(), qsizetype{0}, patience);
     click("playlist-down");
     QCOMPARE(output.playlist().settings().items[1].path, file);
     QTest::keyClick(list, Qt::Key_Delete);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "views/map_view.h"
 
+#include <QLabel>
+#include <QVBoxLayout>
 #include <QtTest>
 #include <cmath>
 #include <limits>
@@ -174,6 +176,35 @@ class TestMapView : public QObject {
     view.setValues(values);
     view.setRelief(true);
     QCOMPARE(view.vtk()->drawn().pixelColor(40, 40), colours(Look::dark).picture);
+  }
+
+  void theWholeScreenAndBack() {
+    QWidget page;
+    auto* column = new QVBoxLayout(&page);
+    auto* view = new OpenedView;
+    auto* below = new QLabel("below");
+    column->addWidget(view, 1);
+    column->addWidget(below);
+    page.resize(400, 300);
+    page.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&page));
+    view->setPicture(numbered({40, 30}));
+    QRect before = view->geometry();
+    for (Qt::Key back : {Qt::Key_Escape, Qt::Key_F11}) {
+      QTest::keyClick(view, Qt::Key_F11);
+      QVERIFY(view->isWholeScreen());
+      QTRY_COMPARE(view->size(), page.screen()->geometry().size());
+      QVERIFY(QTest::qWaitForWindowExposed(view->window()));
+      QCOMPARE(drawnAt(*view, {20.5, 10.5}), QColor(20, 10, 0));
+      QTest::keyClick(view, back);
+      QVERIFY(!view->isWholeScreen());
+      QCOMPARE(view->window(), &page);
+      QTRY_COMPARE(view->geometry(), before);
+      QCOMPARE(column->indexOf(view), 0);
+      QCOMPARE(drawnAt(*view, {20.5, 10.5}), QColor(20, 10, 0));
+    }
+    // Its page may go meanwhile.
+    view->setWholeScreen(true);
   }
 };
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "views/view_tag.h"
+
+#include <QPainter>
+#include <algorithm>
+
+#include "theme/theme.h"
+
+namespace relucent {
+
+QSizeF tagSize(const QString& text) {
+  return QFontMetricsF(typeOf(type::note, QFont::DemiBold)).size(0, text) + QSizeF(20.0, 10.0);
+}
+
+void drawTag(QPainter& painter, QPointF place, const QString& text, const QColor& colour, bool rightAligned) {
+  painter.setFont(typeOf(type::note, QFont::DemiBold));
+  QSizeF size = tagSize(text);
+  double width = size.width();
+  QRectF box(QPointF(rightAligned ? place.x() - width : place.x(), place.y()), size);
+  if (painter.hasClipping()) {
+    // What is to be read lies where it can be.
+    QRectF seen = painter.clipBoundingRect();
+    box.moveLeft(std::max(seen.left() + 2.0, std::min(box.left(), seen.right() - width - 2.0)));
+  }
+  QColor ground = colours(Look::dark).input;
+  ground.setAlphaF(0.92f);
+  painter.setPen(colours(Look::dark).line);
+  painter.setBrush(ground);
+  painter.drawRoundedRect(box, 6.0, 6.0);
+  painter.setPen(colour);
+  painter.drawText(box, Qt::AlignCenter, text);
+}
+
+}  // namespace relucent

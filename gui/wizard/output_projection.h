@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QImage>
+#include <QTimer>
+#include <deque>
+
+#include "content/playlist.h"
+#include "jobs/job.h"
+#include "jobs/latest.h"
+#include "output/awake.h"
+#include "output/engine_renderer.h"
+#include "output/player.h"
+
+namespace relucent {
+
+class OutputTap;
+
+/// What plays on a projector's screen: engine, window and player, from opening to closing, and what of it the
+/// operator sees meanwhile.
+class OutputProjection : public QObject {
+  Q_OBJECT
+
+ public:
+  struct Wanted {
+    std::filesystem::path calibration;
+    PlaylistSettings list;
+    Fit fit = Fit::fit;
+    ScreenIdentity screen;
+  };
+
+  explicit OutputProjection(QObject* parent = nullptr);
+  ~OutputProjection() override;
+
+  /// A canvas of the first picture's shape, so that it lies where Preview has put it; films have the usual
+  /// one.
+  static Canvas canvasFor(const PlaylistSettings& list, Fit fit);
+
+  /// Prepares the engine on another thread, then shines. Contract: not open, not opening; the list has items.
+  void open(const Wanted& wanted);
+  void close();
+  bool isOpening() const { return job_.isRunning(); }
+  bool isOpen() const { return player_ != nullptr; }
+  /// Of the preparation.
+  QString stage() const { return job_.stage(); }
+  std::optional<double> fraction() const { return job_.fraction(); }
+
+  /// Another list from the next frame on.
+  void setList(const PlaylistSettings& list);
+  bool isBlack() const { return player_ && player_->isBlack(); }
+  bool isFrozen() const { return player_ && player_->isFrozen(); }
+  bool isCompensated() const { return !player_ || player_->isCompensated(); }
+  void setBlack(bool black);
+  void setFrozen(bool frozen);
+  void setCompensated(bool compensated);
+
+  PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }
+  /// Frame times of the last minute, milliseconds, twice a second; the newest last.
+  const std::deque<double>& frameTimes() const { return frameTimes_; }
+  QString engineName() const { return engine_; }
+  const Canvas& canvas() const { return canvas_; }
+  /// Which item plays; -1: none.
+  qsizetype playing() const;
+  /// What of the list could not be read, the newest last.
+  QStringList skipped() const;
+
+  /// What the first projector shows now, as far as this program knows; null while it is closed.
+  QImage onProjector() const;
+  /// The operator looks at the projector's picture in so many pixels; empty: nobody looks.
+  void watch(QSize within);
+  /// That picture, no larger than wanted, renewed a few times a second and without a share in the show's
+  /// work: it is scaled on another thread. Null while the projection is closed.
+  const QImage& mirror() const { return mirror_; }
+
+ Q_SIGNALS:
+  /// Opened, closed, switched; and twice a second while it plays.
+  void changed();
+  /// A new mirror().
+  void mirrored();
+  void failed(const relucent::Failure& failure);
+
+ private:
+  struct Made;
+  void opened();
+  void play();
+  void sample();
+  void reflect();
+
+  Job job_;
+  std::shared_ptr<Made> made_;
+  std::shared_ptr<OutputTap> tap_;
+  ScreenIdentity screen_;
+  bool wanted_ = false;  // closed meanwhile, it does not open
+  std::shared_ptr<Playlist> content_;
+  Canvas canvas_;
+  std::unique_ptr<ProjectorWindow> window_;
+  std::unique_ptr<Player> player_;
+  std::optional<Awake> awake_;
+  QString engine_;
+  QTimer sampling_, reflecting_;
+  std::deque<double> frameTimes_;
+  QSize within_;
+  qint64 reflected_ = 0;  // which picture, and how, is in the mirror
+  QImage mirror_;
+  Latest<QImage> scaling_;
+};
+
+}  // namespace relucent

@@ -54,11 +54,18 @@ std::size_t MatrixDensity::entries(Pixel cell) const {
 
 std::vector<float> MatrixDensity::means() const {
   std::vector<float> means(sums.size());
-  for (int y = 0; y < cells.height; ++y)
-    for (int x = 0; x < cells.width; ++x) {
-      std::size_t at = indexOf(cells, {x, y});
-      means[at] = sums[at] / static_cast<float>(entries({x, y}));
+  std::vector<std::size_t> columns(static_cast<std::size_t>(cells.width));
+  for (std::size_t x = 0; x < columns.size(); ++x)
+    columns[x] = pieceBegin(part.columns(), cells.width, x + 1) - pieceBegin(part.columns(), cells.width, x);
+  for (int y = 0; y < cells.height; ++y) {
+    auto line = static_cast<std::size_t>(y);
+    std::size_t rows =
+        pieceBegin(part.rows(), cells.height, line + 1) - pieceBegin(part.rows(), cells.height, line);
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+      std::size_t at = line * columns.size() + x;
+      means[at] = sums[at] / static_cast<float>(rows * columns[x]);
     }
+  }
   return means;
 }
 
@@ -124,7 +131,8 @@ class MatrixPictures::RowOfCells {
     }
   }
 
-  void finish(float* values) {
+  /// `share`: rows of the cell by rows that were added.
+  void finish(float* values, double share) {
     for (std::uint32_t node : scratch_.touched) {
       double value = static_cast<double>(std::exchange(scratch_.coarse[node], 0.0f));
       if (lines_)
@@ -138,7 +146,7 @@ class MatrixPictures::RowOfCells {
       sums_[line / lines_->perCell] += light;
     }
     scratch_.touched.clear();
-    for (std::size_t x = 0; x < sums_.size(); ++x) values[x] = static_cast<float>(sums_[x]);
+    for (std::size_t x = 0; x < sums_.size(); ++x) values[x] = static_cast<float>(share * sums_[x]);
   }
 
  private:
@@ -219,7 +227,7 @@ MatrixPart MatrixPictures::whole() const {
   return {0, transport_->cameras().count(), 0, transport_->projectors().count()};
 }
 
-MatrixDensity MatrixPictures::density(const MatrixPart& part, Size cells, Of of) const {
+MatrixDensity MatrixPictures::density(const MatrixPart& part, Size cells, Of of, std::size_t step) const {
   MatrixPart all = whole();
   require(part.firstRow < part.endRow && part.endRow <= all.endRow, "rows {} to {} of {}", part.firstRow,
           part.endRow, all.endRow);
@@ -229,6 +237,7 @@ MatrixDensity MatrixPictures::density(const MatrixPart& part, Size cells, Of of)
               static_cast<std::size_t>(cells.width) <= part.columns(),
           "{} x {} cells for {} x {} entries", cells.width, cells.height, part.columns(), part.rows());
 
+  require(step > 0, "no step from row to row");
   MatrixDensity density{part, cells, std::vector<float>(cells.count())};
   std::vector<std::uint32_t> cellOf(part.columns());
   for (int x = 0; x < cells.width; ++x) {
@@ -243,10 +252,12 @@ MatrixDensity MatrixPictures::density(const MatrixPart& part, Size cells, Of of)
     Scratch& scratch = scratches.local();
     scratch.coarse.resize(areas_.size(), 0.0f);
     RowOfCells line(*this, part, cellOf, lines, static_cast<std::size_t>(cells.width), scratch);
+    std::size_t begin = part.firstRow + pieceBegin(part.rows(), cells.height, y);
     std::size_t end = part.firstRow + pieceBegin(part.rows(), cells.height, y + 1);
-    for (std::size_t row = part.firstRow + pieceBegin(part.rows(), cells.height, y); row < end; ++row)
-      line.add(row, of);
-    line.finish(density.sums.data() + y * static_cast<std::size_t>(cells.width));
+    for (std::size_t row = begin; row < end; row += step) line.add(row, of);
+    std::size_t added = (end - begin + step - 1) / step;
+    line.finish(density.sums.data() + y * static_cast<std::size_t>(cells.width),
+                static_cast<double>(end - begin) / static_cast<double>(added));
   });
   return density;
 }

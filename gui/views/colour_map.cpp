@@ -52,11 +52,19 @@ QColor colourAt(ColourMap map, double place) {
 QImage mapped(std::span<const float> values, Size size, const ColourScale& scale) {
   require(values.size() == size.count(), "{} values for {} pixels", values.size(), size.count());
   QImage image(size.width, size.height, QImage::Format_RGB32);
+  // As ColourScale::place() has it, with everything that all values share worked out before.
+  const std::array<QRgb, 256>& colours = table(scale.map);
+  QRgb none = invalidColour.rgb();
+  double low = scale.logarithmic ? std::log(scale.low) : scale.low;
+  double range = (scale.logarithmic ? std::log(scale.high) : scale.high) - low;
   for (int y = 0; y < size.height; ++y) {
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
     for (int x = 0; x < size.width; ++x) {
-      double place = scale.place(static_cast<double>(values[indexOf(size, {x, y})]));
-      line[x] = std::isnan(place) ? invalidColour.rgb() : rgbAt(scale.map, place);
+      auto value = static_cast<double>(values[indexOf(size, {x, y})]);
+      bool known = std::isfinite(value) && (!scale.logarithmic || value > 0.0);
+      double share = known ? ((scale.logarithmic ? std::log(value) : value) - low) / range : 0.0;
+      share = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+      line[x] = known ? colours[static_cast<std::size_t>(share * 255.0 + 0.5)] : none;
     }
   }
   return image;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "views/colour_bar.h"
+#include "views/matrix_cells.h"
 #include "views/number_text.h"
 #include "views/plane_scene.h"
 #include "views/raster_axis.h"
@@ -15,12 +16,14 @@ namespace relucent {
 namespace {
 
 constexpr double rowsWidth = 52.0, columnsHeight = 34.0, barWidth = 64.0, margin = 8.0;
-constexpr int mostCells = 640;        // a side of what is seen: software draws it while it is moved
 constexpr double around = 0.3;        // of what is seen, on each side, so that a short pan needs nothing new
 constexpr double decades = 4.0;       // that colours tell apart
 constexpr double lensShare = 0.4;     // of the frame's shorter side
 constexpr double lensPower = 4.0;     // more than the view round it
 constexpr double entryPixels = 48.0;  // of a single entry at the highest magnification
+
+constexpr int stillAfter = 150;         // milliseconds without a move
+constexpr std::size_t sampledRows = 8;  // of a cell, for an estimate
 
 enum Layer { wholeLayer, detailLayer, lensLayer };
 
@@ -33,31 +36,6 @@ ColourScale scaleOf(const std::vector<float>& means) {
   return {ColourMap::viridis, high * std::pow(10.0, -decades), high, true};
 }
 
-/// How many entries make a cell, so that cells are about as large as the screen's pixels. From about a line
-/// of the device's picture on, whole lines: they are quicker to sum, and no pattern of their own is seen.
-std::size_t entriesOfACell(double entries, double pixels, int width) {
-  double least = entries / std::clamp(pixels, 1.0, static_cast<double>(mostCells));
-  auto cell = static_cast<std::size_t>(std::max(1.0, std::ceil(least - 1e-6)));
-  auto line = static_cast<std::size_t>(width);
-  return cell > 1 && 2 * cell >= line ? (cell + line / 2) / line * line : cell;
-}
-
-/// [first, last) widened to whole cells of equal length; all of it in cells of about that length.
-void fitCells(double first, double last, std::size_t all, std::size_t length, std::size_t& begin,
-              std::size_t& end, int& cells) {
-  length = std::min(length, all);
-  if (last - first >= static_cast<double>(all)) {
-    begin = 0, end = all, cells = static_cast<int>(all / length);
-    return;
-  }
-  auto wanted = static_cast<std::size_t>(std::ceil((last - first) / static_cast<double>(length))) + 1;
-  std::size_t count = std::clamp(wanted, std::size_t{1}, all / length);
-  auto from = static_cast<std::size_t>(std::max(0.0, first)) / length * length;
-  begin = std::min(from, all - count * length);
-  end = begin + count * length;
-  cells = static_cast<int>(count);
-}
-
 }  // namespace
 
 MatrixView::MatrixView(QWidget* parent)
@@ -67,6 +45,9 @@ MatrixView::MatrixView(QWidget* parent)
   useVtk();
   plane_ = std::make_unique<PlaneScene>(*vtk());
   for (Layer layer : {wholeLayer, detailLayer, lensLayer}) require(plane_->addLayer() == layer, "layers");
+  still_.setSingleShot(true);
+  still_.setInterval(stillAfter);
+  connect(&still_, &QTimer::timeout, this, [this] { want(); });
   setReadout([this](QPoint entry) {
     if (!QRect(QPoint(), planeSize()).contains(entry)) return QString();
     QString place =
@@ -192,9 +173,11 @@ bool MatrixView::hasLens() const {
   return shown_.lens.density && lensPart() == shown_.lens.density->part;
 }
 
-MatrixView::Picture MatrixView::pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells) {
+MatrixView::Picture MatrixView::pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells,
+                                          std::size_t step) {
   Picture picture;
-  picture.density = std::make_shared<MatrixDensity>(matrix.density(part, cells));
+  picture.density =
+      std::make_shared<MatrixDensity>(matrix.density(part, cells, MatrixPictures::Of::light, step));
   picture.means = picture.density->means();
   return picture;
 }
@@ -203,14 +186,23 @@ void MatrixView::want() {
   if (!matrix_ || !vtk()->works() || frame().isEmpty() || !isVisible()) return;
   std::optional<MatrixPart> lens = lensPart();
   bool lensDone = shown_.of == matrix_ && (!lens || hasLens());
-  wanted_ = !isSharp() || !lensDone;
-  if (!wanted_) return;
+  bool sharp = isSharp();
+  wanted_ = !sharp || !lensDone || !shown_.exact;
+  if (!wanted_ || (sharp && lensDone && still_.isActive())) return;
   Size cells;
   MatrixPart part = partFor(looked(), cells);
-  Picture whole = shown_.of == matrix_ ? shown_.whole : Picture();
+  // What is there already only lacks the other rows.
+  std::size_t rows = part.rows() / static_cast<std::size_t>(cells.height);
+  std::size_t step = sharp && !still_.isActive() ? 1 : std::max<std::size_t>(1, rows / sampledRows);
+  bool reuse = shown_.of == matrix_ && (step > 1 || shown_.exactWhole);
+  Picture whole = reuse ? shown_.whole : Picture();
+  // An estimate's highest value is not one to change all colours for.
+  std::optional<ColourScale> scale;
+  if (step > 1 && shown_.of && matrix_ && &shown_.of->transport() == &matrix_->transport()) scale = scale_;
   int side = static_cast<int>(lensFrame().width() * devicePixelRatioF());
-  asking_.ask([matrix = matrix_, part, cells, whole, lens, side] {
-    Answer answer{matrix, whole, pictureOf(*matrix, part, cells), {}, {}};
+  asking_.ask([matrix = matrix_, part, cells, whole, lens, side, step, scale,
+               exactWhole = reuse ? shown_.exactWhole : step == 1] {
+    Answer answer{matrix, whole, pictureOf(*matrix, part, cells, step), {}, {}, step == 1, exactWhole};
     if (lens)
       answer.lens = pictureOf(*matrix, *lens,
                               {std::clamp(side, 1, static_cast<int>(lens->columns())),
@@ -219,9 +211,9 @@ void MatrixView::want() {
     if (!answer.whole.density) {
       Size coarse{matrix->transport().projectors().size(0).height,
                   static_cast<int>(std::min<std::size_t>(all.rows(), 256))};
-      answer.whole = pictureOf(*matrix, all, coarse);
+      answer.whole = pictureOf(*matrix, all, coarse, std::max<std::size_t>(1, step));
     }
-    answer.scale = scaleOf(answer.detail.means);
+    answer.scale = scale ? *scale : scaleOf(answer.detail.means);
     for (Picture* picture : {&answer.whole, &answer.detail, &answer.lens})
       if (picture->density) picture->image = mapped(picture->means, picture->density->cells, answer.scale);
     return answer;
@@ -246,13 +238,16 @@ QRectF MatrixView::targetOf(const MatrixPart& part) const {
 void MatrixView::arrange() {
   plane_->fill(size());
   plane_->setShown(matrix_ != nullptr);
+  if (QRectF now = matrix_ ? looked() : QRectF(); std::exchange(lookedBefore_, now) != now) still_.start();
   if (shown_.of && matrix_) {
+    // What lies below cannot be seen, and drawing it takes as long.
+    bool covered = targetOf(shown_.detail.density->part).contains(frame());
     for (auto [layer, picture] :
          {std::pair(wholeLayer, &shown_.whole), std::pair(detailLayer, &shown_.detail)}) {
       QRectF target = targetOf(picture->density->part);
       bool large = target.width() >= picture->density->cells.width &&
                    target.height() >= picture->density->cells.height;
-      plane_->place(layer, target, frame(), 1.0, !large);
+      plane_->place(layer, layer == wholeLayer && covered ? QRectF() : target, frame(), 1.0, !large);
     }
   }
   QRectF lens = hasLens() ? lensFrame() : QRectF();
@@ -281,7 +276,7 @@ std::optional<float> MatrixView::valueAt(QPoint entry) const {
 }
 
 Image MatrixView::values() const {
-  if (!shown_.detail.density) return {};
+  if (!shown_.detail.density || !shown_.exact) return {};
   const MatrixDensity& density = *shown_.detail.density;
   MatrixPart wanted = seen();
   std::size_t firstRow = std::max(wanted.firstRow, density.part.firstRow);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QTimer>
 #include <memory>
 
 #include "image/image.h"
@@ -15,9 +16,9 @@ class PlaneScene;
 
 /// T from all of it to single entries: rows are camera pixels, columns projector pixels, colours the mean
 /// light of the entries in a screen's pixel on a logarithmic scale. Whatever is moved is seen at once, in the
-/// picture that is there; a sharper one of what is looked at is made on another thread and takes its place.
-/// The pick is (column, row); a lens in a corner shows what is round it. Where there is no OpenGL a sentence
-/// says so.
+/// picture that is there; a sharper one of what is looked at is made on another thread and takes its place:
+/// while the view moves, and first, an estimate from some of the rows, then the exact one. The pick is
+/// (column, row); a lens in a corner shows what is round it. Where there is no OpenGL a sentence says so.
 class MatrixView : public PlaneView {
   Q_OBJECT
 
@@ -27,7 +28,7 @@ class MatrixView : public PlaneView {
 
   /// None: nullptr.
   void setMatrix(std::shared_ptr<const MatrixPictures> matrix);
-  /// No sharper picture is being made.
+  /// No sharper or exact picture is to come.
   bool isSettled() const { return !asking_.isBusy() && !wanted_; }
 
   /// The entries that are seen.
@@ -35,7 +36,7 @@ class MatrixView : public PlaneView {
   /// Mean light of the entries in the finest picture's cell over a column and row; none where nothing is
   /// known yet.
   std::optional<float> valueAt(QPoint entry) const;
-  /// That picture's numbers, of what is seen. One channel.
+  /// That picture's numbers, of what is seen. One channel; empty until they are exact.
   Image values() const;
   const ColourScale& scale() const { return scale_; }
 
@@ -57,6 +58,7 @@ class MatrixView : public PlaneView {
     std::shared_ptr<const MatrixPictures> of;
     Picture whole, detail, lens;
     ColourScale scale;
+    bool exact = false, exactWhole = false;
   };
   /// Entries of the plane that are seen, in shares of pixels.
   QRectF looked() const;
@@ -69,7 +71,8 @@ class MatrixView : public PlaneView {
   bool hasLens() const;
   void want();
   void take(Answer answer);
-  static Picture pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells);
+  static Picture pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells,
+                           std::size_t step = 1);
   QRectF targetOf(const MatrixPart& part) const;
   const Picture* finestAt(QPoint entry) const;
   void paintAxes(QPainter& painter) const;
@@ -81,6 +84,8 @@ class MatrixView : public PlaneView {
   Answer shown_;
   ColourScale scale_{ColourMap::viridis, 1e-5, 1e-1, true};
   bool wanted_ = false;
+  QRectF lookedBefore_;
+  QTimer still_;  // runs while the view moves
   Latest<Answer> asking_;
 };
 

@@ -16,6 +16,9 @@
 #include <vtkScalarBarActor.h>
 #include <vtkTexture.h>
 
+#include <optional>
+#include <utility>
+
 #include "base/error.h"
 #include "theme/tokens.h"
 #include "views/vtk_image.h"
@@ -69,6 +72,7 @@ struct PlaneScene::Parts {
   vtkNew<vtkLookupTable> colours;
   QSize size{1, 1};
   bool shown = true;
+  std::optional<ColourMap> barMap;
 };
 
 PlaneScene::PlaneScene(VtkView& view) : view_(view), parts_(std::make_unique<Parts>()) {
@@ -146,10 +150,12 @@ void PlaneScene::setShown(bool shown) {
 void PlaneScene::placeBar(const QRectF& bar, const ColourScale& scale) {
   parts_->bar->SetVisibility(!bar.isEmpty());
   if (bar.isEmpty()) return;
-  for (int i = 0; i < 256; ++i) {
-    QColor colour = colourAt(scale.map, i / 255.0);
-    parts_->colours->SetTableValue(i, colour.redF(), colour.greenF(), colour.blueF(), 1.0);
-  }
+  // VTK makes everything anew when any of it is said again.
+  if (std::exchange(parts_->barMap, scale.map) != scale.map)
+    for (int i = 0; i < 256; ++i) {
+      QColor colour = colourAt(scale.map, i / 255.0);
+      parts_->colours->SetTableValue(i, colour.redF(), colour.greenF(), colour.blueF(), 1.0);
+    }
   double width = parts_->size.width(), height = parts_->size.height();
   parts_->bar->SetPosition(bar.left() / width, 1.0 - bar.bottom() / height);
   parts_->bar->SetWidth(bar.width() / width);

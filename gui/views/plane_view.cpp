@@ -62,11 +62,17 @@ void PlaneView::useVtk() {
   vtk_->setAttribute(Qt::WA_TransparentForMouseEvents);
   glass_ = new Glass(*this);
   glass_->setVisible(vtk_->works());
-  connect(vtk_, &VtkView::refused, glass_, &QWidget::hide);
+  // Scene and glass cover every pixel: what lies behind is not painted for each frame.
+  setAttribute(Qt::WA_OpaquePaintEvent, vtk_->works());
+  connect(vtk_, &VtkView::refused, this, [this] {
+    setAttribute(Qt::WA_OpaquePaintEvent, false);
+    glass_->hide();
+  });
 }
 
 void PlaneView::dropVtk() {
   if (vtk_ == nullptr) return;
+  setAttribute(Qt::WA_OpaquePaintEvent, false);
   vtk_->hide();
   std::exchange(vtk_, nullptr)->deleteLater();
   std::exchange(glass_, nullptr)->deleteLater();
@@ -187,6 +193,7 @@ void PlaneView::resizeEvent(QResizeEvent* event) {
 }
 
 void PlaneView::paintEvent(QPaintEvent*) {
+  if (vtk_ != nullptr && vtk_->works()) return;  // the scene covers it
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   QPainterPath shape;

@@ -55,6 +55,29 @@ float meanOf(const Image& map, int x0, int y0, int step) {
   return count > 0 ? static_cast<float>(sum / count) : std::numeric_limits<float>::quiet_NaN();
 }
 
+/// Neighbours weigh in, once and again: single pixels would stand as spikes and hide what lies behind them.
+/// Where there is no value there is none afterwards.
+void smooth(Image& heights) {
+  constexpr int passes = 2;
+  constexpr float weights[] = {1.0f, 2.0f, 1.0f};
+  for (int pass = 0; pass < passes; ++pass) {
+    Image before = heights;
+    for (int y = 0; y < heights.height(); ++y)
+      for (int x = 0; x < heights.width(); ++x) {
+        if (std::isnan(before.at(x, y, 0))) continue;
+        float sum = 0.0f, weight = 0.0f;
+        for (int j = std::max(0, y - 1); j <= std::min(y + 1, heights.height() - 1); ++j)
+          for (int i = std::max(0, x - 1); i <= std::min(x + 1, heights.width() - 1); ++i) {
+            if (std::isnan(before.at(i, j, 0))) continue;
+            float share = weights[j - y + 1] * weights[i - x + 1];
+            sum += share * before.at(i, j, 0);
+            weight += share;
+          }
+        heights.at(x, y, 0) = sum / weight;
+      }
+  }
+}
+
 vtkSmartPointer<vtkPolyData> groundOf(const Image& map, const ColourScale& scale) {
   int step = std::max(1, (std::max(map.width(), map.height()) + mostPoints - 1) / mostPoints);
   int columns = (map.width() + step - 1) / step, rows = (map.height() + step - 1) / step;
@@ -62,10 +85,16 @@ vtkSmartPointer<vtkPolyData> groundOf(const Image& map, const ColourScale& scale
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> places;
   places->SetNumberOfComponents(2);
+  Image heights({columns, rows}, 1);
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      heights.at(i, j, 0) =
+          static_cast<float>(scale.place(static_cast<double>(meanOf(map, i * step, j * step, step))));
+  smooth(heights);
   std::vector<std::uint8_t> known;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
-      double place = scale.place(static_cast<double>(meanOf(map, i * step, j * step, step)));
+      auto place = static_cast<double>(heights.at(i, j, 0));
       known.push_back(!std::isnan(place));
       double x = (i + 0.5) * step, y = (j + 0.5) * step;
       points->InsertNextPoint(x, map.height() - y, known.back() != 0 ? up * place : 0.0);

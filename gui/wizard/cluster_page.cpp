@@ -45,7 +45,7 @@ std::shared_ptr<const ClusterResult> resultOf(const ConnectionGraph& graph,
 
 /// The graph refers to T.
 struct ClusterPage::Prepared {
-  MeasuredVenue venue;
+  TransportMatrix transport;
   std::optional<ConnectionGraph> graph;
   QImage surface;
 };
@@ -99,9 +99,9 @@ void ClusterPage::prepare() {
   source_ = acquisition;
   preparing_.ask([acquisition, cut]() -> std::shared_ptr<const Prepared> {
     auto prepared = std::make_shared<Prepared>();
-    prepared->venue = measuredVenueOf(*acquisition, cut);
+    prepared->transport = thresholded(acquisition->transport, cut, acquisition->flood);
     Progress quiet;
-    prepared->graph.emplace(prepared->venue.transport, prepared->venue.usable, ConnectionGraphSettings(),
+    prepared->graph.emplace(prepared->transport, usablePixels(*acquisition), ConnectionGraphSettings(),
                             quiet);
     Image flood = imageFromStack(acquisition->flood, acquisition->transport.cameras(), 0);
     prepared->surface = relucent::pictureOf(flood, displayWhite(flood));

@@ -12,6 +12,10 @@ namespace {
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
 
+bool dropsNothing(const ThresholdSettings& cut) {
+  return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
+}
+
 /// What a cut leaves, as a histogram has it: to a bin, and its brightest part as far as the cut goes into it.
 TransportStatistics estimated(const TransportStatistics& whole, double cut) {
   TransportStatistics kept = whole;
@@ -41,7 +45,8 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
       session_(session),
       statistics_(
           [this](TransportStatistics statistics) {
-            kept_ = statistics;
+            // Lowered to nothing meanwhile, the cut leaves everything.
+            if (!dropsNothing(cut_)) kept_ = statistics;
             Q_EMIT changed();
           },
           [this](const Failure& failure) {
@@ -50,6 +55,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
       first_(
           [this](TransportStatistics statistics) {
             whole_ = statistics;
+            if (dropsNothing(cut_)) kept_ = statistics;
             suggested_ = cutKeeping(statistics.histogram, suggestedShare);
             Q_EMIT changed();
           },
@@ -113,9 +119,12 @@ void ThresholdPage::adopt() {
 
 void ThresholdPage::compute() {
   if (adopted_) {
-    if (whole_ && !shareOfRow_) kept_ = estimated(*whole_, static_cast<double>(cut_.absolute));
-    statistics_.ask(
-        [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
+    if (whole_ && dropsNothing(cut_)) kept_ = whole_;
+    if (!dropsNothing(cut_)) {
+      if (whole_ && !shareOfRow_) kept_ = estimated(*whole_, static_cast<double>(cut_.absolute));
+      statistics_.ask(
+          [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
+    }
     picturing_.ask([acquisition = adopted_, cut = cut_]() -> std::shared_ptr<const MatrixPictures> {
       std::shared_ptr<const TransportMatrix> transport(acquisition, &acquisition->transport);
       return std::make_shared<MatrixPictures>(transport, cut);

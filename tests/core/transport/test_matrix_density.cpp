@@ -184,6 +184,40 @@ class TestMatrixDensity : public QObject {
     }
   }
 
+  /// An estimate is the exact sum of the rows that were taken, times those that each stands for.
+  void someRowsStandForTheOthers_data() {
+    QTest::addColumn<int>("step");
+    QTest::newRow("all") << 1;
+    QTest::newRow("every other") << 2;
+    QTest::newRow("no divisor") << 5;
+    QTest::newRow("more than a cell has") << 1000;
+  }
+  void someRowsStandForTheOthers() {
+    QFETCH(int, step);
+    auto transport = randomTransport(Size{9, 8}, std::vector<Size>{{11, 6}, {3, 2}}, 0.3, 11);
+    MatrixPictures pictures(transport);
+    MatrixPart part{2, 70, 5, 60};
+    Size cells{7, 4};
+    auto every = static_cast<std::size_t>(step);
+    MatrixDensity estimate = pictures.density(part, cells, Of::light, every);
+    for (int y = 0; y < cells.height; ++y) {
+      std::size_t begin = part.firstRow + part.rows() * static_cast<std::size_t>(y) / 4;
+      std::size_t end = part.firstRow + part.rows() * static_cast<std::size_t>(y + 1) / 4;
+      std::vector<double> sums(7, 0.0);
+      int taken = 0;
+      for (std::size_t row = begin; row < end; row += every, ++taken) {
+        MatrixDensity line = pictures.density({row, row + 1, 5, 60}, {7, 1});
+        for (std::size_t x = 0; x < 7; ++x) sums[x] += static_cast<double>(line.sums[x]);
+      }
+      for (std::size_t x = 0; x < 7; ++x) {
+        double wanted = sums[x] * static_cast<double>(end - begin) / taken;
+        double found = static_cast<double>(estimate.sums[static_cast<std::size_t>(y) * 7 + x]);
+        QVERIFY(std::abs(found - wanted) <= rounding * static_cast<double>(end - begin));
+      }
+    }
+    QVERIFY_EXCEPTION_THROWN(pictures.density(part, cells, Of::light, 0), std::logic_error);
+  }
+
   void askingForWhatIsNotThereIsABreach_data() {
     QTest::addColumn<MatrixPart>("part");
     QTest::addColumn<Size>("cells");

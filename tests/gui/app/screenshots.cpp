@@ -13,6 +13,7 @@
 
 #include "app/wizard_window.h"
 #include "theme/theme.h"
+#include "views/map_view.h"
 #include "wizard/identify_overlay.h"
 
 using namespace relucent;
@@ -99,11 +100,22 @@ int main(int argc, char** argv) {
   wizard.threshold().useSuggested();
   QTest::qWait(300);
   photographs.take("05-threshold");
+  auto* matrix = wizard.window().findChild<PlaneView*>("matrix-view");
+  matrix->asSeen().save(folder.filePath("05-saved-matrix.png"));
+  matrix->setWholeScreen(true);
+  QTest::qWait(1000);
+  matrix->asSeen().save(folder.filePath("05-whole-screen.png"));
+  matrix->setWholeScreen(false);
   wizard.threshold().setAbsolute(0.0);
   until([&] { return wizard.threshold().kept()->energyKept == 1.0; });
   wizard.threshold().primary().run();
   until([&] { return wizard.cluster().result() && !wizard.cluster().isComputing(); });
   photographs.take("06-cluster");
+  auto* error = wizard.window().findChild<MapView*>("error-view");
+  error->setRelief(true);
+  photographs.take("06-cluster-relief");
+  error->asSeen().save(folder.filePath("06-saved-relief.png"));
+  error->setRelief(false);
   wizard.cluster().primary().run();
   until([&] { return wizard.preview().preview() && wizard.preview().table().size() >= 5; });
   photographs.take("07-preview");

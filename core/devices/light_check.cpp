@@ -97,17 +97,6 @@ double flickerOf(const Series& series) {
   return totals.relative();
 }
 
-double colourChangeOf(const Series& series) {
-  double worst = 0.0;
-  for (std::size_t colour = 0; colour < 3; ++colour) {
-    Moments shares;
-    for (const Bands& bands : series.bands)
-      if (sumOf(bands) > 0.0) shares.add(sumOf(bands, colour) / sumOf(bands));
-    worst = std::max(worst, shares.relative());
-  }
-  return worst;
-}
-
 /// Mean variance of single pixels around what their band and colour does in each photograph, absolute.
 double pixelVariance(const Series& series, const Lit& lit) {
   double sum = 0.0;
@@ -127,6 +116,27 @@ double pixelVariance(const Series& series, const Lit& lit) {
       sum += residual.variance() / 3.0;
     }
   return lit.spots.empty() ? 0.0 : sum / static_cast<double>(lit.spots.size());
+}
+
+/// Of S_kcg / S_kg, the worst colour, less what the noise of `variance` a pixel explains.
+double colourChangeOf(const Series& series, const Lit& lit, double variance) {
+  double worst = 0.0;
+  for (std::size_t colour = 0; colour < 3; ++colour) {
+    Moments changes;
+    for (std::size_t band = 0; band < mostBands; ++band) {
+      Moments shares, noise;
+      for (const Bands& bands : series.bands) {
+        const double all = bands[band][0] + bands[band][1] + bands[band][2];
+        if (lit.inBand[band] == 0 || !(all > 0.0)) continue;
+        shares.add(bands[band][colour] / all);
+        noise.add(variance * lit.inBand[band] / (all * all));
+      }
+      if (shares.mean() > 0.0)
+        changes.add(std::max(0.0, shares.variance() - noise.mean()) / (shares.mean() * shares.mean()));
+    }
+    worst = std::max(worst, std::sqrt(changes.mean()));
+  }
+  return worst;
 }
 
 /// Of S_kcg / S_kc, less what the noise of `variance` a pixel explains. Photographs in which a colour was
@@ -193,7 +203,7 @@ class LightMeasurement {
     const Series white = series_;
     const double noise = pixelVariance(white, lit_);
     check.flicker = flickerOf(white);
-    check.colours = colourChangeOf(white);
+    check.colours = colourChangeOf(white, lit_, noise);
     check.bands = bandsChangeOf(white, lit_, noise);
     look(check.brief, 0.5f);
     Moments grey;

@@ -28,7 +28,7 @@ std::vector<std::string> problems(const LightCheckSettings& settings);
 struct LightCheck {
   double unsteady = 0.0;  // of S_k under w
   double flicker = 0.0;   // of S_k under b
-  double colours = 0.0;   // of S_kc / S_k under b, the worst colour: colours that come one after the other
+  double colours = 0.0;   // of S_kcg / S_kg under b, the worst colour: colours one after the other
   double bands = 0.0;     // of S_kcg / S_kc under b: rows that are exposed one after the other
   double dither = 0.0;    // of single pixels of even grey against their band, beyond those of white
   double brief = 0.0;     // seconds of a brief exposure; 0: the camera can do none
@@ -38,7 +38,7 @@ struct LightCheck {
 /// Photographs flat fields of white and grey at drifting phases of the projector's frame: with whole frames,
 /// where light must be even, and with an eighth of a frame, where a lamp's modulation, a colour wheel, a
 /// rolling shutter and dithering in time show. `exposure`: one at which white is well exposed.
-/// What white's own noise explains is taken off `bands` and `dither`.
+/// What white's own noise explains is taken off `colours`, `bands` and `dither`.
 /// Throws: Error{device} if the camera does not see the projector; Cancelled; as the devices.
 LightCheck checkLight(Projector& projector, Camera& camera, double exposure,
                       const LightCheckSettings& settings, const Wait& wait, Progress& progress);

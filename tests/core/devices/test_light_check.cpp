@@ -113,7 +113,7 @@ class TestLightCheck : public QObject {
   void faultsPutInOnPurposeAreTold_data() {
     QTest::addColumn<Faults>("faults");
     QTest::addColumn<QStringList>("words");
-    const QString flicker = "lamp flickers", wheel = "colour wheel", rolling = "rolling shutter",
+    const QString flicker = "lamp flickers", wheel = "through a colour wheel", rolling = "rolling shutter",
                   dither = "mixes greys", unsteady = "let the lamp warm up", none = "The light is even";
     auto row = [](const char* name, const Faults& faults, const QStringList& words) {
       QTest::newRow(name) << faults << words;
@@ -152,7 +152,7 @@ class TestLightCheck : public QObject {
     for (const std::string& verdict : check.verdicts) all += QString::fromStdString(verdict) + "\n";
     qInfo("unsteady %.3f, flicker %.3f, colours %.3f, bands %.3f, dither %.3f", check.unsteady, check.flicker,
           check.colours, check.bands, check.dither);
-    for (const char* word : {"lamp flickers", "colour wheel", "rolling shutter", "mixes greys",
+    for (const char* word : {"lamp flickers", "through a colour wheel", "rolling shutter", "mixes greys",
                              "let the lamp warm up", "The light is even"})
       QVERIFY2(all.contains(word) == words.contains(word), qPrintable(QString(word) + " in:\n" + all));
   }

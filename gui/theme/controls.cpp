@@ -59,6 +59,31 @@ QFrame* lineOf() {
   return line;
 }
 
+namespace {
+
+/// One line; what has no room for it ends in an ellipsis and is read whole where the pointer rests.
+class ElidedLabel : public QLabel {
+ public:
+  void setWhole(const QString& text) {
+    whole_ = text;
+    setToolTip(text);
+    setAccessibleName(text);
+    elide();
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QLabel::resizeEvent(event);
+    elide();
+  }
+
+ private:
+  void elide() { setText(fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width())); }
+  QString whole_;
+};
+
+}  // namespace
+
 Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
   setRole(this, "card");
   auto* all = new QVBoxLayout(this);
@@ -70,8 +95,8 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
     title_ = labelOf(title, "section");
     title_->setWordWrap(false);
     header_->addWidget(title_);
-    subtitle_ = labelOf({}, "note");
-    subtitle_->setWordWrap(false);
+    subtitle_ = new ElidedLabel;
+    setRole(subtitle_, "note");
     subtitle_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     header_->addWidget(subtitle_, 1);
     all->addLayout(header_);
@@ -82,8 +107,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
 }
 
 void Card::setSubtitle(const QString& text) {
-  subtitle_->setText(text);
-  subtitle_->setToolTip(text);
+  static_cast<ElidedLabel*>(subtitle_)->setWhole(text);
 }
 
 void Card::addAction(QWidget* action) {

@@ -55,7 +55,7 @@ void MapView::arrange() {
   plane_->setPicture(Layer::overlay, ImageView::overlay());
   plane_->setShown(!relief_);
   if (relief_ && !std::exchange(risen_, true)) landscape_->set(values_, *scale(), ImageView::picture());
-  landscape_->setShown(relief_);
+  landscape_->setShown(relief_, width() > 0 ? barArea().width() / width() : 0.0);
   if (!relief_) {
     double brightness = scale() ? 1.0 : Theme::instance().pictureBrightness();
     plane_->place(Layer::picture, target(), frame(), brightness, !isEnlarged());

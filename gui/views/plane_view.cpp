@@ -33,6 +33,7 @@ class PlaneView::Glass : public QWidget {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     view_.paintWords(painter);
+    if (view_.saving_) return;
     // The scene is rectangular; its corners are the card's.
     QPainterPath corners;
     corners.addRect(QRectF(rect()));
@@ -171,7 +172,10 @@ std::optional<QPoint> PlaneView::pixelAt(QPointF widgetPlace) const {
 }
 
 QImage PlaneView::asSeen() {
-  return grab().toImage();
+  saving_ = true;
+  QImage seen = grab().toImage();
+  saving_ = false;
+  return seen;
 }
 
 void PlaneView::setWholeScreen(bool whole) {
@@ -198,7 +202,7 @@ void PlaneView::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   QPainterPath shape;
   shape.addRoundedRect(QRectF(rect()), cornerRadius, cornerRadius);
-  painter.setClipPath(shape);
+  if (!saving_) painter.setClipPath(shape);
   painter.fillRect(rect(), dark().picture);
   if (vtk_ != nullptr) return;
   if (!planeSize().isEmpty()) {

@@ -108,6 +108,7 @@ class PlaneView : public QWidget {
   QPointer<QWidget> whole_;
   QString emptyText_, badge_, caption_;
   bool scaleBar_ = false, dragging_ = false;
+  bool saving_ = false;  // what belongs to the program, corners and focus, is left out
   Readout readout_;
   QPointF pressed_, lastDrag_;
   std::optional<QPoint> hovered_;

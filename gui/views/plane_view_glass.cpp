@@ -70,6 +70,7 @@ void PlaneView::paintWords(QPainter& painter) {
     paintOver(painter);
     if (isFlat()) paintMarks(painter);
   }
+  if (saving_) return;
   if (isWholeScreen())
     drawTag(painter, {rect().center().x() - tagSize(tr("Esc goes back")).width() / 2.0, 12.0},
             tr("Esc goes back"), dark().secondary);

@@ -150,11 +150,12 @@ void Relief::set(const Image& map, const ColourScale& scale, const QImage& pictu
   parts_->texture->SetInputData(vtkImageOf(picture));
 }
 
-void Relief::setShown(bool shown) {
+void Relief::setShown(bool shown, double beside) {
   parts_->actor->SetVisibility(shown);
   view_.interactor().SetInteractorStyle(shown ? parts_->style.Get() : nullptr);
   if (!shown) return;
   view_.renderer().SetActiveCamera(parts_->camera);
+  parts_->camera->SetWindowCenter(beside, 0.0);
   if (!std::exchange(parts_->placed, true)) reset();
 }
 
@@ -177,7 +178,7 @@ void Relief::reset() {
   parts_->camera->SetPosition(0.0, -1.0, 1.3);
   parts_->camera->SetViewUp(0.0, 0.0, 1.0);
   view_.renderer().ResetCamera();
-  parts_->camera->Dolly(1.25);
+  parts_->camera->Dolly(1.1);
   view_.renderer().ResetCameraClippingRange();
   view_.redraw();
 }

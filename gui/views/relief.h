@@ -20,7 +20,8 @@ class Relief {
 
   /// Contract: the map has one channel, and the picture covers it.
   void set(const Image& map, const ColourScale& scale, const QImage& picture);
-  void setShown(bool shown);
+  /// `beside`: share of the view's width at its right that something else takes.
+  void setShown(bool shown, double beside = 0.0);
   /// By degrees.
   void turn(double right, double up);
   void approach(double factor);

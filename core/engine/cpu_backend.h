@@ -8,6 +8,7 @@
 
 #include "engine/backend.h"
 #include "engine/engine_kernels.h"
+#include "engine/patch_sums.h"
 #include "engine/scratch_pool.h"
 
 namespace relucent {
@@ -28,28 +29,41 @@ class CpuBackend : public EngineBackend {
   std::span<const float> projector() const { return {nodes_.data(), 3 * engine_.brightest.size()}; }
 
   /// The parts of a frame, for benchmarks: p = clamp(M u) and one step with its update.
-  void applyWindows() noexcept { invert(false); }
-  void takeStep(float length) noexcept { refine(length); }
+  void applyWindows() noexcept { invert(); }
+  void takeStep(float length) noexcept { refine(length, {}); }
 
  private:
-  /// Some columns of one patch that lie in one range of nodes.
-  struct Piece {
-    std::uint32_t begin, end;  // of PackedTransport::nodes()
-  };
   enum class Pass { correct, step };
+  using Words = std::span<std::uint32_t>;
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
-  void warpOnly() noexcept;
-  /// p = clamp(M u), or p = clamp(p + m M u + a C adjoint) with the settings' shares m and a.
-  void invert(bool correction) noexcept;
-  /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction C and u = U r.
+  /// What some camera pixels should see of the placed content, wanted = mixing c + offset, and how much that
+  /// counts there.
+  void fitTarget(std::size_t begin, std::size_t end, const ColourBlock& mixing, float offset) noexcept;
+  void warpOnly(Words words) noexcept;
+  /// p = clamp(M u).
+  void invert() noexcept;
+  /// p = clamp(p + m M u + a C adjoint) with the settings' shares m and a.
+  void correct(Words words) noexcept;
+  /// p = clamp(p + length C adjoint).
+  void refine(float length, Words words) noexcept;
+  /// The update of a refine() or a correct() on one line, and its words if there are any to be written.
+  void finishLine(std::size_t device, int y, float length, Words words) noexcept;
+  void encodeLine(std::size_t device, int y, Words words) const noexcept;
+  /// One row of tiles of M u: put(p, value) for all its values where something is free.
+  template <typename Put>
+  void putTiles(std::size_t device, std::size_t tileRow, bool clamped, const Put& put) noexcept;
+
+  /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r.
   void passThrough(Pass pass) noexcept;
-  void sumPatches(Pass pass) noexcept;
+  /// `sums` = T^T lit of all nodes, of the camera pixels with that weight alone.
+  void passBack(float weight, std::vector<float>& sums) noexcept;
+  void prepareBound() noexcept;
+  /// What hardly any weighted pixel sees would take steps of any length on rounding errors.
+  float leastBound() const noexcept { return 1e-7f * largestBound_; }
   void makePreconditioner() noexcept;
-  void refine(float length) noexcept;
-  /// p = clamp(p + length C adjoint), and how many values that cut off.
-  void update(float length) noexcept;
-  void encode(std::span<std::uint32_t> words) const noexcept;
+  PatchRows rowsOf(const TransportPatch& patch) const noexcept;
+  CameraArrays cameraArrays(const float* wanted) noexcept;
 
   const EngineVenue& engine_;
   const EngineContent* content_ = nullptr;
@@ -60,14 +74,17 @@ class CpuBackend : public EngineBackend {
 
   // Camera stacks.
   std::vector<float> wanted_, held_, weight_, unmixed_, placed_;
-  // Node values: p with its means, what comes back of the residual, and C^-1 on its way to C.
-  std::vector<float> nodes_, adjoint_, bound_;
-  std::vector<float> sums_;  // 8 for every column of every patch
-  std::vector<float> free_;  // per projector value: 1 or 0
+  // Node values: p with its means, and what comes back of the residual or of a part of what is lit.
+  std::vector<float> nodes_, adjoint_, part_;
+  PatchSums patchSums_;
+  std::vector<float> waiting_;
+  // Projector values: T^T W lit while all content is reachable, C then and C of the frame.
+  std::vector<float> bound_, reachableC_, frameC_;
+  float largestBound_ = 0.0f;
+  const float* preconditioner_ = nullptr;  // C = scale * preconditioner
+  float preconditionerScale_ = 1.0f;
   ScratchPool scratch_;
-  std::vector<std::uint32_t> rangeStart_;  // pieces of range r: [rangeStart_[r], rangeStart_[r + 1])
-  std::vector<Piece> piece_;
-  std::atomic<std::size_t> clipped_{0};
+  std::atomic<std::size_t> clipped_{0}, reachable_{0}, unreachable_{0};
   std::size_t freeValues_ = 0;
 };
 

@@ -8,41 +8,53 @@
 namespace relucent {
 namespace {
 
-/// Light of a channel of an encoded pixel.
+constexpr std::size_t pixelsOfATask = 1024;
+
+/// A weighted sum of colours, passed by value: it stays in registers.
+struct Colour {
+  float red = 0.0f, green = 0.0f, blue = 0.0f;
+};
+
 template <int bytes, int red, int blue>
 struct EncodedPixels {
-  const float* linear;
-  void add(const unsigned char* line, std::size_t count, const std::uint16_t* weight, float* sum) const {
+  const float* linear;  // of each code
+  Colour plus(Colour sum, const unsigned char* line, std::size_t count, const std::uint16_t* weight) const {
     for (std::size_t i = 0; i < count; ++i, line += bytes) {
-      auto w = static_cast<float>(weight[i]);
-      sum[0] += w * linear[line[red]];
-      sum[1] += w * linear[line[1]];
-      sum[2] += w * linear[line[blue]];
+      const auto w = static_cast<float>(weight[i]);
+      sum.red += w * linear[line[red]];
+      sum.green += w * linear[line[1]];
+      sum.blue += w * linear[line[blue]];
     }
+    return sum;
   }
 };
 
 struct LinearPixels {
   static float light(float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; }
-  void add(const unsigned char* line, std::size_t count, const std::uint16_t* weight, float* sum) const {
+  Colour plus(Colour sum, const unsigned char* line, std::size_t count, const std::uint16_t* weight) const {
     const auto* pixel = reinterpret_cast<const float*>(line);
-    for (std::size_t i = 0; i < count; ++i, pixel += 3)
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<float>(weight[i]) * light(pixel[c]);
+    for (std::size_t i = 0; i < count; ++i, pixel += 3) {
+      const auto w = static_cast<float>(weight[i]);
+      sum.red += w * light(pixel[0]);
+      sum.green += w * light(pixel[1]);
+      sum.blue += w * light(pixel[2]);
+    }
+    return sum;
   }
 };
 
 /// The content's mean over one camera pixel.
 template <typename Pixels>
-void meanOver(const ContentWarp::Footprint& footprint, const std::uint16_t* weight, const ContentFrame& frame,
-              const Pixels& pixels, float* mean) {
-  mean[0] = mean[1] = mean[2] = 0.0f;
+Colour meanOver(const ContentWarp::Footprint& footprint, const std::uint16_t* weight,
+                const ContentFrame& frame, const Pixels& pixels) {
   const auto* line = static_cast<const unsigned char*>(frame.data) +
                      static_cast<std::size_t>(footprint.y) * frame.bytesPerLine +
                      static_cast<std::size_t>(footprint.x) * bytesPerPixel(frame.format);
   weight += footprint.weight;
+  Colour sum;
   for (int y = 0; y < footprint.height; ++y, line += frame.bytesPerLine, weight += footprint.width)
-    pixels.add(line, footprint.width, weight, mean);
-  for (std::size_t c = 0; c < 3; ++c) mean[c] *= footprint.scale;
+    sum = pixels.plus(sum, line, footprint.width, weight);
+  return {footprint.scale * sum.red, footprint.scale * sum.green, footprint.scale * sum.blue};
 }
 
 template <typename Visit>
@@ -62,35 +74,60 @@ void withPixels(ContentFrame::Format format, const float* linear, const Visit& v
 }  // namespace
 
 void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept {
-  const MeasuredVenue& venue = engine_.venue;
   const ContentWarp& warp = content_->warp;
-  const ColourBlock& k = engine_.mixing;
   const float white = content_->white * request.brightness, lift = request.blackLift;
-  const auto unreachable = static_cast<float>(engine_.settings.target.unreachableWeight);
+  const ColourBlock mixing = white * (1.0f - lift) * engine_.mixing;
+  const std::size_t count = warp.footprints().size();
+  reachable_ = unreachable_ = 0;
   withPixels(frame.format, linearOfSrgb_.data(), [&](const auto& pixels) {
-    parallelFor(0, warp.footprints().size(), 1024, [&](std::size_t i) {
-      if (!warp.inside(i)) return;
-      float* c = &placed_[3 * i];
-      meanOver(warp.footprints()[i], warp.weights().data(), frame, pixels, c);
-      float* wanted = &wanted_[3 * i];
-      float* held = &held_[3 * i];
-      bool reachable = true;
-      for (std::size_t d = 0; d < 3; ++d) {
-        auto row = static_cast<Eigen::Index>(d);
-        float value =
-            white * (lift + (1.0f - lift) * (k(row, 0) * c[0] + k(row, 1) * c[1] + k(row, 2) * c[2]));
-        const float black = venue.black[3 * i + d], flood = venue.flood[3 * i + d];
-        reachable = reachable && value >= black && value <= black + flood;
-        wanted[d] = value - black;
-        held[d] = std::clamp(wanted[d], 0.0f, std::max(0.0f, flood));
-      }
-      weight_[i] = venue.usable[i] ? (reachable ? 1.0f : unreachable) : 0.0f;
-      const float* u = windows_.unmix + 9 * i;
-      float* unmixed = &unmixed_[4 * i];
-      for (std::size_t d = 0; d < 3; ++d)
-        unmixed[d] = u[3 * d] * held[0] + u[3 * d + 1] * held[1] + u[3 * d + 2] * held[2];
-    });
+    auto place = [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (warp.inside(i)) {
+          const Colour c = meanOver(warp.footprints()[i], warp.weights().data(), frame, pixels);
+          placed_[3 * i] = c.red;
+          placed_[3 * i + 1] = c.green;
+          placed_[3 * i + 2] = c.blue;
+        }
+      fitTarget(begin, end, mixing, white * lift);
+    };
+    parallelChunks(0, count, (count + pixelsOfATask - 1) / pixelsOfATask, place);
   });
+}
+
+void CpuBackend::fitTarget(std::size_t begin, std::size_t end, const ColourBlock& mixing,
+                           float offset) noexcept {
+  const MeasuredVenue& venue = engine_.venue;
+  const auto unreachable = static_cast<float>(engine_.settings.target.unreachableWeight);
+  std::size_t usable = 0, reached = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!content_->warp.inside(i)) continue;
+    const float *c = &placed_[3 * i], *black = &venue.black[3 * i], *flood = &venue.flood[3 * i];
+    float wanted[3], held[3];
+    // Without branches: content decides them, and no processor guesses content.
+    unsigned reachable = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const float* k = mixing.data() + 3 * d;
+      const float value = offset + (k[0] * c[0] + k[1] * c[1] + k[2] * c[2]);
+      reachable &=
+          static_cast<unsigned>(value >= black[d]) & static_cast<unsigned>(value <= black[d] + flood[d]);
+      wanted[d] = value - black[d];
+      const float most = flood[d] > 0.0f ? flood[d] : 0.0f;
+      const float positive = wanted[d] > 0.0f ? wanted[d] : 0.0f;
+      held[d] = positive < most ? positive : most;
+    }
+    usable += venue.usable[i] != 0;
+    reached += venue.usable[i] != 0 ? reachable : 0u;
+    weight_[i] = venue.usable[i] != 0 ? (reachable != 0 ? 1.0f : unreachable) : 0.0f;
+
+    const float* u = windows_.unmix + 9 * i;
+    for (std::size_t d = 0; d < 3; ++d) {
+      wanted_[3 * i + d] = wanted[d];
+      held_[3 * i + d] = held[d];
+      unmixed_[4 * i + d] = u[3 * d] * held[0] + u[3 * d + 1] * held[1] + u[3 * d + 2] * held[2];
+    }
+  }
+  reachable_.fetch_add(reached, std::memory_order_relaxed);
+  unreachable_.fetch_add(usable - reached, std::memory_order_relaxed);
 }
 
 }  // namespace relucent

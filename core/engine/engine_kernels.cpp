@@ -70,9 +70,48 @@ RELUCENT_KERNEL void windowOf(const WindowArrays& windows, std::size_t tile, con
   }
 }
 
+// Leaves taken at once: sums that need not wait for each other.
+constexpr std::size_t together = 4;
+
+/// What a row sees of its columns' light, before mixing.
+RELUCENT_KERNEL Floats seenBy(const PackedLeaf* leaf, const PackedLeaf* end, const float* columns) {
+  Floats sum[together] = {};
+  for (; leaf + together <= end; leaf += together)
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < together; ++k)
+      sum[k] += lanesOf(leaf[k]) * load(columns + stepColumn * leaf[k].column);
+  for (; leaf < end; ++leaf) sum[0] += lanesOf(*leaf) * load(columns + stepColumn * leaf->column);
+  return lanesToCodes * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+}
+
+/// Adds what a row sends back to its columns' sums, which lie `stride` floats apart. As the columns of a row
+/// differ, some sums are read before those before them are written.
+template <std::size_t stride>
+RELUCENT_KERNEL void sendBack(const PackedLeaf* leaf, const PackedLeaf* end, Floats down, float* sums) {
+  for (; leaf + together <= end; leaf += together) {
+    Floats sum[together];
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < together; ++k)
+      sum[k] = load(sums + stride * leaf[k].column) + lanesOf(leaf[k]) * down;
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < together; ++k)
+      std::memcpy(sums + stride * leaf[k].column, &sum[k], sizeof sum[k]);
+  }
+  for (; leaf < end; ++leaf) {
+    const Floats sum = load(sums + stride * leaf->column) + lanesOf(*leaf) * down;
+    std::memcpy(sums + stride * leaf->column, &sum, sizeof sum);
+  }
+}
+
+/// A row's light on its way back: through the transpose of its mixing `m`.
+RELUCENT_KERNEL Floats unmixedBack(const float* m, const float* light) {
+  return lanesToCodes * Floats{m[0] * light[0] + m[3] * light[1] + m[6] * light[2],
+                               m[1] * light[0] + m[4] * light[1] + m[7] * light[2],
+                               m[2] * light[0] + m[5] * light[1] + m[8] * light[2], 0.0f};
+}
+
 template <bool correct>
 RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera, float* columns) {
-  constexpr std::size_t stride = correct ? correctColumn : stepColumn;
   for (std::size_t row = rows.rowBegin; row < rows.rowEnd; ++row) {
     const PackedLeaf* const begin = rows.leaf + rows.leafStart[row];
     const PackedLeaf* const end = rows.leaf + rows.leafStart[row + 1];
@@ -83,51 +122,30 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
       continue;
     }
 
-    Floats even{}, odd{};
-    const PackedLeaf* leaf = begin;
-    for (; leaf + 1 < end; leaf += 2) {
-      even += lanesOf(leaf[0]) * load(columns + stride * leaf[0].column);
-      odd += lanesOf(leaf[1]) * load(columns + stride * leaf[1].column);
-    }
-    if (leaf < end) even += lanesOf(*leaf) * load(columns + stride * leaf->column);
-    const Floats seen = lanesToCodes * (even + odd);
-
+    const Floats seen = seenBy(begin, end, columns);
     const float* m = rows.mixing + 9 * row;
     const float* wanted = camera.wanted + 3 * pixel;
     float residual[3];
     for (std::size_t c = 0; c < 3; ++c)
       residual[c] =
           weight * (wanted[c] - (m[3 * c] * seen[0] + m[3 * c + 1] * seen[1] + m[3 * c + 2] * seen[2]));
-    auto back = [m](const float* r) {
-      return lanesToCodes * Floats{m[0] * r[0] + m[3] * r[1] + m[6] * r[2],
-                                   m[1] * r[0] + m[4] * r[1] + m[7] * r[2],
-                                   m[2] * r[0] + m[5] * r[1] + m[8] * r[2], 0.0f};
-    };
-    const Floats down = back(residual);
-
-    if constexpr (!correct) {
-      for (leaf = begin; leaf < end; ++leaf) {
-        float* sum = columns + stride * leaf->column + 4;
-        Floats more = load(sum) + lanesOf(*leaf) * down;
-        std::memcpy(sum, &more, sizeof more);
-      }
-    } else {
+    if constexpr (correct) {
       const float* u = camera.unmix + 9 * pixel;
       float* unmixed = camera.unmixed + 4 * pixel;
       for (std::size_t c = 0; c < 3; ++c)
         unmixed[c] = u[3 * c] * residual[0] + u[3 * c + 1] * residual[1] + u[3 * c + 2] * residual[2];
       unmixed[3] = 0.0f;
-      const float* lit = camera.lit + 3 * pixel;
-      const float weighted[3] = {weight * lit[0], weight * lit[1], weight * lit[2]};
-      const Floats bound = back(weighted);
-      for (leaf = begin; leaf < end; ++leaf) {
-        float* sum = columns + stride * leaf->column + 4;
-        const Floats codes = lanesOf(*leaf);
-        Floats first = load(sum) + codes * down, second = load(sum + 4) + codes * bound;
-        std::memcpy(sum, &first, sizeof first);
-        std::memcpy(sum + 4, &second, sizeof second);
-      }
     }
+    sendBack<stepColumn>(begin, end, unmixedBack(m, residual), columns + 4);
+  }
+}
+
+RELUCENT_KERNEL void boundOf(const PatchRows& rows, const CameraArrays& camera, float weight, float* sums) {
+  for (std::size_t row = rows.rowBegin; row < rows.rowEnd; ++row) {
+    const std::size_t pixel = rows.pixel[row];
+    if (camera.weight[pixel] != weight) continue;
+    sendBack<sumColumn>(rows.leaf + rows.leafStart[row], rows.leaf + rows.leafStart[row + 1],
+                        unmixedBack(rows.mixing + 9 * row, camera.lit + 3 * pixel), sums);
   }
 }
 
@@ -164,18 +182,14 @@ RELUCENT_KERNEL std::size_t updateAll(float* p, const float* c, const float* bac
   return sum;
 }
 
-RELUCENT_KERNEL void reciprocalOf(float* c, const float* free, float least, std::size_t count) {
-  constexpr std::size_t lanes = 8;
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    WideFloats value, numerator;
-    std::memcpy(&value, c + i, sizeof value);
-    std::memcpy(&numerator, free + i, sizeof numerator);
-    WideFloats quotient = numerator / value;
-    quotient = value > least ? quotient : WideFloats{};
-    std::memcpy(c + i, &quotient, sizeof quotient);
+RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* part, float share,
+                                  float partShare, float least, std::size_t count) {
+  constexpr float rounding = 1e-6f;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = share * bound[i] + partShare * part[i];
+    const float smallest = rounding * bound[i] > least ? rounding * bound[i] : least;
+    c[i] = value > smallest ? 1.0f / value : 0.0f;
   }
-  for (; i < count; ++i) c[i] = c[i] > least ? free[i] / c[i] : 0.0f;
 }
 
 // One version of each for an instruction set.
@@ -194,8 +208,13 @@ RELUCENT_KERNEL void reciprocalOf(float* c, const float* free, float least, std:
                                       std::size_t count) {                                           \
     return updateAll(p, c, back, length, count);                                                     \
   }                                                                                                  \
-  __VA_ARGS__ void reciprocal##set(float* c, const float* free, float least, std::size_t count) {    \
-    reciprocalOf(c, free, least, count);                                                             \
+  __VA_ARGS__ void bound##set(const PatchRows& rows, const CameraArrays& camera, float weight,       \
+                              float* sums) {                                                         \
+    boundOf(rows, camera, weight, sums);                                                             \
+  }                                                                                                  \
+  __VA_ARGS__ void reciprocal##set(float* c, const float* bound, const float* part, float share,     \
+                                   float partShare, float least, std::size_t count) {                \
+    reciprocalOf(c, bound, part, share, partShare, least, count);                                    \
   }
 
 RELUCENT_KERNELS(Baseline)
@@ -208,13 +227,14 @@ RELUCENT_KERNELS(Avx2, [[gnu::target("avx2,fma")]])
 std::span<const EngineKernels> engineKernels() {
 #ifdef __x86_64__
   static const EngineKernels all[] = {
-      {"baseline", windowBaseline, stepBaseline, correctBaseline, updateBaseline, reciprocalBaseline},
-      {"AVX2, FMA", windowAvx2, stepAvx2, correctAvx2, updateAvx2, reciprocalAvx2}};
+      {"baseline", windowBaseline, stepBaseline, correctBaseline, boundBaseline, updateBaseline,
+       reciprocalBaseline},
+      {"AVX2, FMA", windowAvx2, stepAvx2, correctAvx2, boundAvx2, updateAvx2, reciprocalAvx2}};
   static const bool newer = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return {all, newer ? 2u : 1u};
 #else
-  static const EngineKernels all[] = {
-      {"baseline", windowBaseline, stepBaseline, correctBaseline, updateBaseline, reciprocalBaseline}};
+  static const EngineKernels all[] = {{"baseline", windowBaseline, stepBaseline, correctBaseline,
+                                       boundBaseline, updateBaseline, reciprocalBaseline}};
   return all;
 #endif
 }

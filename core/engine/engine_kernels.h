@@ -19,7 +19,7 @@ struct CameraArrays {
   float* unmixed = nullptr;       // 4: the weighted residual through `unmix`, and a zero
 };
 
-/// The rows of one patch.
+/// The rows of one patch. The leaves of a row differ in their columns.
 struct PatchRows {
   std::uint32_t rowBegin = 0, rowEnd = 0;
   const std::uint32_t* pixel = nullptr;
@@ -28,8 +28,8 @@ struct PatchRows {
   const float* mixing = nullptr;
 };
 
-/// Floats of a column in a pass over T.
-inline constexpr std::size_t stepColumn = 8, correctColumn = 16;
+/// Floats of a column in a pass over T, and of one that only sums.
+inline constexpr std::size_t stepColumn = 8, sumColumn = 4;
 
 /// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly cut.
 inline constexpr float visibleCut = 0.002f;
@@ -44,15 +44,18 @@ struct EngineKernels {
   /// A step's way through T and back for one patch, in one reading of its leaves:
   ///   r = weight (wanted - T light),   sums += T^T r
   /// `columns`: 8 floats a column, light there and sums back together, because they are needed together:
-  /// projector value 3, 0; sum 3, 0.
+  /// projector value 3, anything; sum 3, 0.
   void (*step)(const PatchRows& rows, const CameraArrays& camera, float* columns);
-  /// The same with 16 floats a column, the third four for the sums of T^T (weight lit), the fourth unused;
-  /// and `unmixed` is written.
+  /// The same, and `unmixed` is written.
   void (*correct)(const PatchRows& rows, const CameraArrays& camera, float* columns);
+  /// sums += T^T lit, of those rows alone whose weight is `weight`. 4 floats a column: sum 3, 0.
+  void (*bound)(const PatchRows& rows, const CameraArrays& camera, float weight, float* sums);
   /// p <- clamp(p + length c back); returns how many values were visibly cut off.
   std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
-  /// c <- free / c where c > least, 0 elsewhere.
-  void (*reciprocal)(float* c, const float* free, float least, std::size_t count);
+  /// c <- 1 / d,  d = share bound + partShare part, where that is more than `least` and more than rounding
+  /// leaves of the difference; 0 elsewhere.
+  void (*reciprocal)(float* c, const float* bound, const float* part, float share, float partShare,
+                     float least, std::size_t count);
 };
 
 /// What this processor can run, the quickest last; the first runs on every processor of its kind.

@@ -117,8 +117,10 @@ class TestBackends : public QObject {
       CpuBackend reference(engine, &engineKernels().front());
       std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
       Image content = makeContent(Content::saturated, {53, 40}, 6);
-      for (int steps : {-1, 0, 1, 2}) {
-        const FrameRequest request{steps >= 0, steps, 0.9f, 0.05f};
+      // So bright that some of it cannot be reached, most of it, or nothing.
+      for (const auto& [steps, brightness] : std::vector<std::pair<int, float>>{
+               {-1, 0.9f}, {0, 0.9f}, {1, 0.9f}, {2, 0.9f}, {1, 4.0f}, {1, 1e4f}}) {
+        const FrameRequest request{steps >= 0, steps, brightness, 0.05f};
         FrameReport report, expected;
         auto words = rendered(*device, engine, frameOf(content), request, &report);
         int apart = mostApart(words, rendered(reference, engine, frameOf(content), request, &expected), bits);

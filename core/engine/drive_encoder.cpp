@@ -2,6 +2,7 @@
 #include "engine/drive_encoder.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "base/error.h"
@@ -76,10 +77,9 @@ struct DriveEncoder::Channel {
 
   /// Without a branch that depends on the light: they are what would take the time.
   template <bool dithered>
-  std::uint32_t level(float value, std::size_t x, std::uint32_t last, int mostPerStep) const noexcept {
-    value = value > 0.0f ? value : 0.0f;
-    value = value < 1.0f ? value : 1.0f;
-    std::uint32_t k = first[stepOf(value)];
+  std::uint32_t level(float value, std::uint32_t step, std::size_t x, std::uint32_t last,
+                      int mostPerStep) const noexcept {
+    std::uint32_t k = first[step];
     k += static_cast<std::uint32_t>(lights[k + 1] <= value);
     for (int i = 1; i < mostPerStep; ++i) k += static_cast<std::uint32_t>(lights[k + 1] <= value);
     const float next =
@@ -88,15 +88,45 @@ struct DriveEncoder::Channel {
   }
 };
 
+namespace {
+
+/// Some pixels' values between 0 and 1 and their steps in the tables, many at a time.
+struct Steps {
+  static constexpr std::size_t pixels = 64;
+  std::array<float, 3 * pixels> light;
+  std::array<std::uint32_t, 3 * pixels> step;
+
+  void find(const float* from, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+      // In two steps, each of them one instruction; what is no number becomes 0.
+      const float positive = from[i] > 0.0f ? from[i] : 0.0f;
+      light[i] = positive < 1.0f ? positive : 1.0f;
+    }
+    for (std::size_t i = 0; i < count; ++i) step[i] = DriveEncoder::stepOf(light[i]);
+  }
+};
+
+}  // namespace
+
 template <bool dithered>
 void DriveEncoder::encode(const float* light, std::size_t width, int y, std::uint32_t* words) const noexcept {
   const auto last = static_cast<std::uint32_t>(levels() - 1);
   const std::uint32_t opaque = bits_ == 8 ? 0xff000000u : 0xc0000000u;
   const Channel red(*this, 0, y), green(*this, 1, y), blue(*this, 2, y);
-  for (std::size_t x = 0; x < width; ++x, light += 3)
-    words[x] = opaque | red.level<dithered>(light[0], x, last, mostPerStep_) |
-               green.level<dithered>(light[1], x, last, mostPerStep_) << bits_ |
-               blue.level<dithered>(light[2], x, last, mostPerStep_) << 2 * bits_;
+  const int bits = bits_, most = mostPerStep_;
+  Steps found;
+  for (std::size_t begin = 0; begin < width; begin += Steps::pixels) {
+    const std::size_t count = std::min(Steps::pixels, width - begin);
+    found.find(light + 3 * begin, 3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* value = &found.light[3 * i];
+      const std::uint32_t* step = &found.step[3 * i];
+      const std::size_t x = begin + i;
+      words[x] = opaque | red.level<dithered>(value[0], step[0], x, last, most) |
+                 green.level<dithered>(value[1], step[1], x, last, most) << bits |
+                 blue.level<dithered>(value[2], step[2], x, last, most) << 2 * bits;
+    }
+  }
 }
 
 void DriveEncoder::encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept {

@@ -27,7 +27,7 @@ class DriveEncoder {
   // Steps of the tables: the upper bits of light + knee as a float, finer in the dark as levels are.
   static constexpr float knee = 0x1p-6f;
   static constexpr int shift = 13;
-  static constexpr std::size_t stepOf(float light) {
+  static constexpr std::uint32_t stepOf(float light) {
     return (std::bit_cast<std::uint32_t>(light + knee) - std::bit_cast<std::uint32_t>(knee)) >> shift;
   }
   static constexpr std::size_t steps =

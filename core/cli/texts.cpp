@@ -120,9 +120,14 @@ std::string textOf(const BenchResult& result) {
       fmt::format("{}, {} threads, copies {:.1f} GB/s\n",
                   result.machine.device.empty() ? result.machine.processor : result.machine.device,
                   result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
-  for (const Benchmark& benchmark : result.benchmarks)
-    text += fmt::format("{:<32} {:>10.3f} ms {:>8.1f} MB {:>5.0f} % of copying\n", benchmark.name,
+  for (const Benchmark& benchmark : result.benchmarks) {
+    text += fmt::format("{:<32} {:>10.3f} ms {:>8.1f} MB {:>5.0f} % of copying", benchmark.name,
                         1e3 * benchmark.seconds, benchmark.bytes / 1e6, 100.0 * benchmark.shareOfCopy);
+    for (const EngineBenchRatio& ratio : benchmark.timesAsFastAs)
+      text += fmt::format(", {:.1f} times {}", ratio.times, ratio.reference);
+    text += "\n";
+  }
+  for (const std::string& note : result.notes) text += note + "\n";
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -72,16 +73,46 @@ struct Case {
   std::function<void()> run;
 };
 
+/// Bytes that programs may still take.
+double availableMemory() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string line; std::getline(info, line);)
+    if (double kibibytes = 0.0; std::sscanf(line.c_str(), "MemAvailable: %lf", &kibibytes) == 1)
+      return 1024.0 * kibibytes;
+  return 0.0;
+}
+
+void append(const EngineBenchResult& engine, const std::string& prefix, BenchResult& result) {
+  for (const EngineBenchLine& line : engine.lines)
+    result.benchmarks.push_back(
+        {prefix + line.name, line.seconds, line.bytes, line.shareOfCopy, line.best, line.timesAsFastAs});
+  result.notes.insert(result.notes.end(), engine.notes.begin(), engine.notes.end());
+}
+
 }  // namespace
 
 BenchResult benchEngine(BackendChoice backend, Progress& progress) {
   EngineBenchSettings settings;
   settings.backend = backend;
-  const EngineBenchResult engine = benchEngine(settings, progress);
+  Progress usual = progress.part(0.4, "1024x768 / 640x480");
+  const EngineBenchResult engine = benchEngine(settings, usual);
   BenchResult result;
   result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
-  for (const EngineBenchLine& line : engine.lines)
-    result.benchmarks.push_back({line.name, line.seconds, line.bytes, line.shareOfCopy});
+  append(engine, "", result);
+
+  constexpr double memoryOfLarge = 12e9;
+  settings.projector = {1920, 1080};
+  settings.camera = {1632, 1224};
+  settings.references = false;
+  const std::string sizes = fmt::format("{}x{} / {}x{}", settings.projector.width, settings.projector.height,
+                                        settings.camera.width, settings.camera.height);
+  if (availableMemory() < memoryOfLarge) {
+    result.notes.push_back(
+        fmt::format("{} was not timed: it takes {:.0f} GB of memory", sizes, memoryOfLarge / 1e9));
+    return result;
+  }
+  Progress large = progress.part(0.6, sizes);
+  append(benchEngine(settings, large), sizes + ", ", result);
   return result;
 }
 

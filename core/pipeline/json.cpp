@@ -179,16 +179,22 @@ Json toJson(const AcquisitionBenchResult& result) {
 
 Json toJson(const BenchResult& result) {
   Json benchmarks = Json::array();
-  for (const Benchmark& benchmark : result.benchmarks)
-    benchmarks.push_back({{"name", benchmark.name},
-                          {"seconds", benchmark.seconds},
-                          {"bytes", benchmark.bytes},
-                          {"share_of_copy", benchmark.shareOfCopy}});
+  for (const Benchmark& benchmark : result.benchmarks) {
+    Json& line = benchmarks.emplace_back(Json{{"name", benchmark.name},
+                                              {"seconds", benchmark.seconds},
+                                              {"bytes", benchmark.bytes},
+                                              {"share_of_copy", benchmark.shareOfCopy}});
+    if (benchmark.best > 0.0) line["best"] = benchmark.best;
+    for (const EngineBenchRatio& ratio : benchmark.timesAsFastAs)
+      line["times_as_fast_as"][ratio.reference] = ratio.times;
+  }
   Json machine{{"processor", result.machine.processor},
                {"threads", result.machine.threads},
                {"copy_bytes_per_second", result.machine.copyBytesPerSecond}};
   if (!result.machine.device.empty()) machine["device"] = result.machine.device;
-  return {{"machine", std::move(machine)}, {"benchmarks", std::move(benchmarks)}};
+  Json document{{"machine", std::move(machine)}, {"benchmarks", std::move(benchmarks)}};
+  if (!result.notes.empty()) document["notes"] = result.notes;
+  return document;
 }
 
 Json toJson(const ImportResult& result) {

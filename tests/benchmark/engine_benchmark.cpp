@@ -36,6 +36,13 @@ std::string processorName() {
   return "unknown";
 }
 
+std::string ratiosOf(const EngineBenchLine& line) {
+  std::string ratios;
+  for (const EngineBenchRatio& ratio : line.timesAsFastAs)
+    ratios += fmt::format("{}\"{}\":{:.2f}", ratios.empty() ? "" : ",", ratio.reference, ratio.times);
+  return ratios.empty() ? ratios : fmt::format(",\"times_as_fast_as\":{{{}}}", ratios);
+}
+
 /// As `relucent-cli bench engine --json` prints it.
 void print(const EngineBenchResult& result) {
   fmt::print(
@@ -46,11 +53,15 @@ void print(const EngineBenchResult& result) {
   for (std::size_t i = 0; i < result.lines.size(); ++i) {
     const EngineBenchLine& line = result.lines[i];
     fmt::print(
-        "{{\"name\":\"{}\",\"seconds\":{:.6f},\"best\":{:.6f},\"bytes\":{:.4g},\"share_of_copy\":{:.3f}}}{}"
+        "{{\"name\":\"{}\",\"seconds\":{:.6f},\"best\":{:.6f},\"bytes\":{:.4g},\"share_of_copy\":{:.3f}{}}}{}"
         "\n",
-        line.name, line.seconds, line.best, line.bytes, line.shareOfCopy,
-        i + 1 < result.lines.size() ? "," : "]}");
+        line.name, line.seconds, line.best, line.bytes, line.shareOfCopy, ratiosOf(line),
+        i + 1 < result.lines.size() ? "," : "]");
   }
+  std::string notes;
+  for (const std::string& note : result.notes)
+    notes += fmt::format("{}\"{}\"", notes.empty() ? "" : ",", note);
+  fmt::print("{}}}\n", notes.empty() ? "" : fmt::format(",\"notes\":[{}]", notes));
 }
 
 }  // namespace
@@ -69,7 +80,7 @@ int main(int argc, char** argv) {
                  "A calibration's transport.npz instead of the synthetic one");
   app.add_flag("--one-thread", settings.oneThread,
                "Seconds of one core instead of those on the wall: for machines that others use too");
-  app.add_flag("--no-references", noReferences, "Without the pipeline's own products and Eigen's");
+  app.add_flag("--no-references", noReferences, "Without the pipeline's own products, Eigen's and SciPy's");
   CLI11_PARSE(app, argc, argv);
   settings.references = !noReferences;
   if (auto wrong = problems(settings); !wrong.empty()) {

@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "engine/bench/bench_transport.h"
+#include "engine/bench/reference_products.h"
 #include "engine/cpu_backend.h"
 #include "engine/opengl/gl_context.h"
 #include "engine/opengl/opengl_backend.h"
@@ -55,11 +56,7 @@ class Bench {
   void timeItself(const std::string& name, double bytes, const std::function<double()>& run) {
     progress_.checkpoint();
     EngineBenchTiming timing = timedRuns(run);
-    add({name, timing.median, timing.best, bytes, 0.0});
-  }
-  void add(EngineBenchLine line) {
-    line.shareOfCopy = line.bytes / line.best / result.copyBytesPerSecond;
-    result.lines.push_back(std::move(line));
+    result.lines.push_back({name, timing.median, timing.best, bytes, 0.0, {}});
   }
 
  private:
@@ -162,7 +159,22 @@ void timeReferences(Bench& bench, const EngineVenue& engine) {
              [&] { engine.inverse.apply(camera); });
   bench.time("TransportMatrix: T p and adjoint", 2.0 * static_cast<double>(transport.leaves().bytes()),
              [&] { transport.applyTransposed(transport.apply(projector)); });
-  for (EngineBenchLine& line : benchEigen(engine, bench.clock())) bench.add(std::move(line));
+}
+
+/// M and step against what other programs take for the same.
+void compare(EngineBenchResult& result) {
+  for (const char* product : {": M", ": step"}) {
+    for (const char* reference : {"Eigen CSR", "SciPy CSR"}) {
+      const auto other = std::find_if(
+          result.lines.begin(), result.lines.end(),
+          [&](const EngineBenchLine& line) { return line.name == std::string(reference) + product; });
+      if (other == result.lines.end()) continue;
+      const double seconds = other->best;
+      for (EngineBenchLine& line : result.lines)
+        if (line.name.ends_with(product) && line.name.starts_with("CPU"))
+          line.timesAsFastAs.push_back({reference, seconds / line.best});
+    }
+  }
 }
 
 MeasuredVenue venueOf(const EngineBenchSettings& settings) {
@@ -238,7 +250,13 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
     timeCpu(bench, engine, content, settings.content);
   else
     timeOpenGl(bench, engine, content, settings.content, std::move(context));
-  if (settings.references && onProcessor) timeReferences(bench, engine);
+  if (settings.references && onProcessor) {
+    timeReferences(bench, engine);
+    benchReferences(engine, oneThread, bench.clock(), bench.result);
+    compare(bench.result);
+  }
+  for (EngineBenchLine& line : bench.result.lines)
+    line.shareOfCopy = line.bytes / line.best / bench.result.copyBytesPerSecond;
   progress.report(1.0);
   return std::move(bench.result);
 }

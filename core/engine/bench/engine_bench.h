@@ -19,10 +19,16 @@ struct EngineBenchSettings {
   std::filesystem::path transport;  // a calibration's T instead of benchTransport()
   BackendChoice backend = BackendChoice::automatic;
   int patchSide = EngineSettings().patchSide;
-  bool references = true;  // beside them the pipeline's own products and Eigen's
+  bool references = true;  // beside them the pipeline's own products, Eigen's and SciPy's
   bool oneThread = false;  // of the processor: seconds of one core, for machines that others use too
 };
 std::vector<std::string> problems(const EngineBenchSettings& settings);
+
+/// How many times as fast as another program's product with the same operator.
+struct EngineBenchRatio {
+  std::string reference;
+  double times = 0.0;
+};
 
 struct EngineBenchLine {
   std::string name;
@@ -30,6 +36,7 @@ struct EngineBenchLine {
   double best = 0.0;
   double bytes = 0.0;        // of operator that must be read
   double shareOfCopy = 0.0;  // bytes / best / what the same device copies in a second, read and written
+  std::vector<EngineBenchRatio> timesAsFastAs;  // by the best of both
 };
 
 struct EngineBenchResult {
@@ -37,6 +44,7 @@ struct EngineBenchResult {
   int threads = 0;     // of the processor
   double copyBytesPerSecond = 0.0;
   std::vector<EngineBenchLine> lines;
+  std::vector<std::string> notes;  // what could not be timed, and why
 };
 
 /// Times the engine: M, one step, whole frames with K = 0, 1 and 2. Takes minutes of preparation at large
@@ -48,9 +56,5 @@ struct EngineBenchTiming {
   double median = 0.0, best = 0.0;
 };
 EngineBenchTiming timedRuns(const std::function<double()>& run);
-
-/// Eigen's compressed rows of the same operators as single floats, one thread; their three channels one after
-/// the other. `clock`: in seconds.
-std::vector<EngineBenchLine> benchEigen(const EngineVenue& engine, const std::function<double()>& clock);
 
 }  // namespace relucent

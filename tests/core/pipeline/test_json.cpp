@@ -90,6 +90,17 @@ class TestJson : public QObject {
             R"("benchmarks":[{"name":"T p","seconds":0.01,"bytes":100000000.0,"share_of_copy":0.5}]})"));
   }
 
+  void engineBenchDocument() {
+    BenchResult result{{"a processor", 2, 1e10, "CPU"},
+                       {{"CPU: M", 0.01, 1e8, 0.5, 0.008, {{"Eigen CSR", 4.0}, {"SciPy CSR", 5.0}}}},
+                       {"something was not timed"}};
+    Json document = toJson(result);
+    QCOMPARE(document["benchmarks"][0]["best"].get<double>(), 0.008);
+    QCOMPARE(document["benchmarks"][0]["times_as_fast_as"].dump(),
+             std::string(R"({"Eigen CSR":4.0,"SciPy CSR":5.0})"));
+    QCOMPARE(document["notes"][0].get<std::string>(), std::string("something was not timed"));
+  }
+
   void inverseBenchDocument() {
     VenueInversion venue;
     venue.venue = "corner";

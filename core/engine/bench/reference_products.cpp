@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/SparseCore>
+#include "engine/bench/reference_products.h"
 
-#include "engine/bench/engine_bench.h"
+#include "base/error.h"
 
 namespace relucent {
 namespace {
 
-using Plane = Eigen::SparseMatrix<float, Eigen::RowMajor, int>;
+using Plane = ReferencePlane;
 constexpr double bytesOfAnEntry = 8.0;  // a float and an index
 
 /// The windows' channel: projector pixels x camera pixels.
@@ -53,35 +53,39 @@ Plane transportPlane(const EngineVenue& engine, std::size_t channel) {
 }
 
 /// All three channels from one: three planes of single floats would fill gigabytes.
-EngineBenchLine threeTimes(const char* name, const EngineBenchTiming& timing, double bytes) {
-  return {name, 3.0 * timing.median, 3.0 * timing.best, 3.0 * bytes, 0.0};
+EngineBenchLine threeTimes(const std::string& name, const EngineBenchTiming& timing, double bytes) {
+  return {name, 3.0 * timing.median, 3.0 * timing.best, 3.0 * bytes, 0.0, {}};
+}
+
+EngineBenchTiming timeEigen(const Plane& plane, ReferenceProduct product,
+                            const std::function<double()>& clock) {
+  Eigen::VectorXf in = Eigen::VectorXf::Random(plane.cols()), out(plane.rows()), back(plane.cols());
+  return timedRuns([&] {
+    const double begin = clock();
+    out.noalias() = plane * in;
+    if (product == ReferenceProduct::both) back.noalias() = plane.transpose() * out;
+    return clock() - begin;
+  });
 }
 
 }  // namespace
 
-std::vector<EngineBenchLine> benchEigen(const EngineVenue& engine, const std::function<double()>& clock) {
-  std::vector<EngineBenchLine> lines;
-  auto timed = [&](const auto& run) {
-    return timedRuns([&] {
-      const double begin = clock();
-      run();
-      return clock() - begin;
-    });
+void benchReferences(const EngineVenue& engine, bool oneThread, const std::function<double()>& clock,
+                     EngineBenchResult& result) {
+  bool sciPyMissing = false;
+  auto timeBoth = [&](const Plane& plane, ReferenceProduct product, const char* name) {
+    const double reads = product == ReferenceProduct::both ? 2.0 : 1.0;
+    const double bytes = reads * bytesOfAnEntry * static_cast<double>(plane.nonZeros());
+    result.lines.push_back(
+        threeTimes(fmt::format("Eigen CSR: {}", name), timeEigen(plane, product, clock), bytes));
+    if (auto timing = timeSciPy(plane, product, oneThread))
+      result.lines.push_back(threeTimes(fmt::format("SciPy CSR: {}", name), *timing, bytes));
+    else
+      sciPyMissing = true;
   };
-  {
-    Plane plane = windowsPlane(engine, 0);
-    Eigen::VectorXf in = Eigen::VectorXf::Random(plane.cols()), out(plane.rows());
-    lines.push_back(threeTimes("Eigen CSR: M", timed([&] { out.noalias() = plane * in; }),
-                               bytesOfAnEntry * static_cast<double>(plane.nonZeros())));
-  }
-  Plane plane = transportPlane(engine, 0);
-  Eigen::VectorXf in = Eigen::VectorXf::Random(plane.cols()), out(plane.rows()), back(plane.cols());
-  lines.push_back(threeTimes("Eigen CSR: T p and adjoint", timed([&] {
-                               out.noalias() = plane * in;
-                               back.noalias() = plane.transpose() * out;
-                             }),
-                             2.0 * bytesOfAnEntry * static_cast<double>(plane.nonZeros())));
-  return lines;
+  timeBoth(windowsPlane(engine, 0), ReferenceProduct::there, "M");
+  timeBoth(transportPlane(engine, 0), ReferenceProduct::both, "step");
+  if (sciPyMissing) result.notes.emplace_back("SciPy was not timed: no python3 of this machine has it");
 }
 
 }  // namespace relucent

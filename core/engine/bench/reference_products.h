@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <optional>
+#include <string>
+
+#include "engine/bench/engine_bench.h"
+
+namespace relucent {
+
+/// One colour channel of an operator in compressed rows.
+using ReferencePlane = Eigen::SparseMatrix<float, Eigen::RowMajor, int>;
+
+enum class ReferenceProduct {
+  there,  // y = A x
+  both,   // y = A x and A^T y, as a step has them
+};
+
+/// Eigen's and SciPy's compressed rows of M and of the packed T as single floats, one thread; their three
+/// channels one after the other, T's without mixing. What is missing is said in `result.notes`.
+void benchReferences(const EngineVenue& engine, bool oneThread, const std::function<double()>& clock,
+                     EngineBenchResult& result);
+
+/// SciPy's product with a plane, by a Python of this machine; nothing where none has SciPy.
+/// `oneThread`: seconds of the processor instead of those on the wall.
+/// Throws: Error{disk} where the plane cannot be written.
+std::optional<EngineBenchTiming> timeSciPy(const ReferencePlane& plane, ReferenceProduct product,
+                                           bool oneThread);
+
+}  // namespace relucent

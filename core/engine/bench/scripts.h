@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+/// The texts of the .py files beside this one, which the build puts into the library.
+namespace relucent::scripts {
+
+extern const std::string_view scipy_products;
+
+}  // namespace relucent::scripts

@@ -89,12 +89,17 @@ void append(const EngineBenchResult& engine, const std::string& prefix, BenchRes
   result.notes.insert(result.notes.end(), engine.notes.begin(), engine.notes.end());
 }
 
+std::string sizesOf(const EngineBenchSettings& settings) {
+  return fmt::format("{}x{} / {}x{}", settings.projector.width, settings.projector.height,
+                     settings.camera.width, settings.camera.height);
+}
+
 }  // namespace
 
 BenchResult benchEngine(BackendChoice backend, Progress& progress) {
   EngineBenchSettings settings;
   settings.backend = backend;
-  Progress usual = progress.part(0.4, "1024x768 / 640x480");
+  Progress usual = progress.part(0.4, sizesOf(settings));
   const EngineBenchResult engine = benchEngine(settings, usual);
   BenchResult result;
   result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
@@ -104,8 +109,7 @@ BenchResult benchEngine(BackendChoice backend, Progress& progress) {
   settings.projector = {1920, 1080};
   settings.camera = {1632, 1224};
   settings.references = false;
-  const std::string sizes = fmt::format("{}x{} / {}x{}", settings.projector.width, settings.projector.height,
-                                        settings.camera.width, settings.camera.height);
+  const std::string sizes = sizesOf(settings);
   if (availableMemory() < memoryOfLarge) {
     result.notes.push_back(
         fmt::format("{} was not timed: it takes {:.0f} GB of memory", sizes, memoryOfLarge / 1e9));

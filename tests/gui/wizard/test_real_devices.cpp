@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 /// Of the projector: frames so short that a test need not wait for light.
-constexpr double frameRate = 400.0;
+constexpr double frameRate = 1000.0;
 
 Size sizeFrom(const QString& text) {
   const QStringList sides = text.split('x');

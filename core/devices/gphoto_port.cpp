@@ -127,7 +127,11 @@ class LibraryPort : public GphotoPort {
     OwnedCamera camera(made);
     check(gp_camera_set_abilities(camera.get(), model));
     check(gp_camera_set_port_info(camera.get(), port));
-    check(gp_camera_init(camera.get(), context_.get()));
+    const int connected = gp_camera_init(camera.get(), context_.get());
+    // What the library says of a port that does not exist: it makes up an entry for every name.
+    if (connected == GP_ERROR_BAD_PARAMETERS)
+      throw GphotoFailure(GphotoFault::absent, "nothing is plugged in at " + wanted.port);
+    check(connected);
     camera_ = std::move(camera);
   }
 

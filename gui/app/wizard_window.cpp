@@ -52,7 +52,8 @@ void WizardWindow::speakAnew() {
   if (before->isVisible()) {
     window_->setWindowState(before->windowState());
     window_->show();
-    if (before->findChild<SettingsDialog*>() != nullptr) window_->showSettings();
+    const auto* settings = before->findChild<SettingsDialog*>();
+    if (settings != nullptr && settings->isVisible()) window_->showSettings();
   }
   before->hide();
   // It may be its own settings that ask for this.

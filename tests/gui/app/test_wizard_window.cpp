@@ -9,6 +9,7 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <algorithm>
 
 #include "app/help_window.h"
 #include "app/wizard_window.h"
@@ -38,11 +39,14 @@ class TestWizardWindow : public QObject {
   std::unique_ptr<WizardWindow> wizard_;
   QUrl shown_;
 
+  /// Stages of a page share names: what is in sight is meant.
   template <typename Widget>
   Widget* find(const char* name) {
-    Widget* widget = wizard_->window().findChild<Widget*>(name);
-    if (widget == nullptr) qWarning("there is no %s", name);
-    return widget;
+    const QList<Widget*> widgets = wizard_->window().findChildren<Widget*>(name);
+    if (widgets.isEmpty()) qWarning("there is no %s", name);
+    const auto inSight =
+        std::find_if(widgets.begin(), widgets.end(), [](Widget* widget) { return widget->isVisible(); });
+    return inSight != widgets.end() ? *inSight : widgets.value(0);
   }
   void click(const char* name) {
     auto* button = find<QAbstractButton>(name);
@@ -141,7 +145,7 @@ class TestWizardWindow : public QObject {
     QTRY_COMPARE(gone(), 1);
     plug();
     QTRY_COMPARE(gone(), 0);
-    QVERIFY(find<Tile>("venue-screen-DUMMY1")->isChecked());
+    QTRY_VERIFY(find<Tile>("venue-screen-DUMMY1")->isChecked());
     wizard_->venue().setMode(VenuePage::Mode::start);
   }
 
@@ -426,6 +430,7 @@ class TestWizardWindow : public QObject {
     // Where the choice was made, it may be made again.
     QTRY_VERIFY(find<QDialog>("settings")->isVisible());
     click("close-settings");
+    QTRY_VERIFY(wizard_->window().findChild<QDialog*>("settings") == nullptr);
     wizard_->preferences().setLanguage({});
     QTRY_VERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
   }

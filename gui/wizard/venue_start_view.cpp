@@ -56,9 +56,9 @@ class StartStage : public QWidget {
                               VenuePage::tr("Learn every step in a simulated venue. No devices needed."));
     auto* open = new Tile(Icon::folder, VenuePage::tr("Open a venue"),
                           VenuePage::tr("Continue where you stopped, or change the content."));
-    auto* create = new Tile(
-        Icon::plus, VenuePage::tr("New venue"),
-        VenuePage::tr("Measure a surface with a screen of this computer as projector, and a camera."));
+    auto* create =
+        new Tile(Icon::plus, VenuePage::tr("New venue"),
+                 VenuePage::tr("Measure a surface with a projector and a camera at this computer."));
     auto* script = new Tile(Icon::settings, VenuePage::tr("New venue by script"),
                             VenuePage::tr("Projector and camera are driven by programs of yours."));
     rehearse->setObjectName("rehearse");

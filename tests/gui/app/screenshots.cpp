@@ -80,6 +80,8 @@ int main(int argc, char** argv) {
   photographs.take("01-rehearse");
   wizard.venue().setMode(VenuePage::Mode::script);
   photographs.take("01-script");
+  wizard.venue().setMode(VenuePage::Mode::devices);
+  photographs.take("01-devices");
 
   wizard.venue().open(argv[2]);
   wizard.wizard().go(0);

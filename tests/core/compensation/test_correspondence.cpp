@@ -50,6 +50,14 @@ class TestCorrespondence : public QObject {
     QCOMPARE(of(t, {41, 40}), -1);
   }
 
+  /// The same pixels whatever order the cores come in.
+  void ofEqualsTheFirstRowWins() {
+    TransportMatrix t =
+        venueOf({{1, {0, 0, 40, 40}, 0.5f}, {2, {0, 0, 40, 40}, 0.5f}, {3, {0, 0, 40, 40}, 0.5f}});
+    QCOMPARE(of(t, {40, 40}), 1);
+    QCOMPARE(of(t, {40, 40}, {1, 0, 1, 1}), 2);
+  }
+
   /// A white square that the camera does not see must not be projected: its glow is no place for content.
   void glowHasNoPlace_data() {
     QTest::addColumn<int>("level");

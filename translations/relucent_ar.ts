@@ -1,0 +1,3034 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="ar">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>حول Relucent</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>الإصدار ⁨%1⁩، مع هذه المكتبات: ⁨%2⁩.</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 ث</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 د</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 س %2 د</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>نفدت ذاكرة الحاسوب.</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>أغلق البرامج الأخرى، أو اختر عدد بكسلات أقل.</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>وقع Relucent في خطأ.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>كل ما حُفظ آمن. انسخ التفاصيل لمن يعتني بالبرنامج، ثم حاول مجددًا.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>كل ما حُفظ آمن. حاول مجددًا.</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>شاشة جهاز العرض غير موصولة</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>كل اللقطات آمنة. أعد توصيل الشاشة، فيتابع القياس تلقائيًا.</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>%1 إطار/ث، ⁨%2 ms⁩ للإطار، تأخّر %3 من %4</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>مع تعويض، الخطوات: %1، خارج المدى: %2 %</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>دون تعويض</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>مجمّد</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>لوحة اختبار: ⁨%1⁩</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>لم يُقَس شيء بعد</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>التالي: القياس</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>جاهز للتشغيل</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>المعاينة بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>تم القياس</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>هذا الحاسوب</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>⁨%1⁩، ⁨%2 × %3⁩، ⁨%4 Hz⁩</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>لا توجد شاشة أخرى: تغطي الأنماط هذه النافذة أثناء عرضها. صِل جهاز العرض، واضبط سطح المكتب على الشاشات الموسّعة، للفصل بينهما.</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>هذه هي الشاشة التي تعمل عليها. اختر شاشة جهاز العرض.</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>الخوارزمية 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>تركيب نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>المعايرة</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>التحقق من جمعية ألوان {}</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>تقسيم نقل الضوء إلى تجمّعات</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>تجمّعات مقيّدة الحجم</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>مقارنة معكوسات التجمّعات في {}</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>مقارنة الطرق</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>مقارنة الطرق في {}</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>التعويض</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>فك الترميز</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>تقدير الاستجابة والألوان</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>تقدير نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>التقييم</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>تقدير الخروج عن البؤرة</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>تحديد التعريض</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>نمذجة انتشار الضوء</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>تكوين الرقع</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>تقييد حجم التجمّعات</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>حساب معكوسات التجمّعات</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>حساب معكوس نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>حساب معكوس {}</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>ضم التجمّعات</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>جعل الاستجابة خطية</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>البحث عن الظلال</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>البحث عمّا يتعذّر تصحيحه</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>قياس منحنيات سطوع {}</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>قياس الكاميرا</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>تقييم الإضاءة</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>البحث عن صورة جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>قياس زمن التأخير</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>قياس نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>قياس {}</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>تصوير أنماط الاختبار</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>تصوير الصور المعروضة</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>توقّع الأنماط المحجوزة للاختبار</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>تحضير اختبارات الأداء</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>تحضير الأجهزة</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>تحضير المحرك</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>تحضير الموقع</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>قراءة المعايرة</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>قراءة الأنماط</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>قراءة اللقطات</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>قراءة الصور</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>قراءة {}</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>الضبط على صورة الإضاءة الكاملة</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>فصل الضوء المباشر عن غير المباشر</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>زيادة الحدّة</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>إيجاد الحل</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>قياس سرعة المحرك</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>النوافذ</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>الكتابة</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>كتابة نقل الضوء كاملًا</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>كتابة النتائج</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>الأسود والإضاءة الكاملة</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>المستوى {} من {}، الأنماط: {}</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>نقل الضوء</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>إعادة قياس البكسلات المعلّمة: {}</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>جهاز العرض {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>أنماط الاختبار</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>جهاز العرض</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>تتبّع ضوء الموقع المحاكى</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>إظهار الكل</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>ملء الشاشة (F11)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>حفظ</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>الصورة كما تُرى</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>حفظ الصورة</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>صور ‎(*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>القيم</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>حفظ القيم</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>يطبّق سطح المكتب على هذه الشاشة مقياس %1، فيموّه كل بكسل. اضبط المقياس على 100 %.</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>يجري قياس أحد المواقع</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>متوقف مؤقتًا، %1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>جارٍ القياس، %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>لا أنماط، %1</numerusform>
+            <numerusform>نمط واحد، %1</numerusform>
+            <numerusform>نمطان، %1</numerusform>
+            <numerusform>%n أنماط، %1</numerusform>
+            <numerusform>%n نمطًا، %1</numerusform>
+            <numerusform>%n نمط، %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>تم القياس</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>توقف بسبب عطل</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>لم تُحفظ أي لقطة</numerusform>
+            <numerusform>حُفظت لقطة واحدة</numerusform>
+            <numerusform>حُفظت لقطتان</numerusform>
+            <numerusform>حُفظت %n لقطات</numerusform>
+            <numerusform>حُفظت %n لقطة</numerusform>
+            <numerusform>حُفظت %n لقطة</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>بانتظارك. لا يُعرض شيء.</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>جارٍ الإنهاء بما تم قياسه.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>كل اللقطات محفوظة. تُفتح العتبة بعد التقاط الأخيرة.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>الأجهزة مستخدمة في خطوة «%1».</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>مدة القياس: %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>أكّد أن القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>اترك القاعة مظلمة وساكنة، ثم ابدأ.</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>إظهار العتبة</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>استئناف</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>بدء القياس</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>إيقاف مع الاحتفاظ</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>إيقاف مؤقت</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>هذا القياس يعود إلى إعدادات سابقة</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>ما زال صالحًا، ويبقى حتى يجهز القياس الجديد.</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>إعادة القياس</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>انتهت الجلسة الأخيرة قبل اكتمال القياس</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>لا لقطات بعد. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطة واحدة آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>لقطتان آمنتان. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>%n لقطات آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>%n لقطة آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+            <numerusform>%n لقطة آمنة. يعطي الاستئناف النتيجة نفسها كأن شيئًا لم يحدث.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>لم يتغيّر شيء.</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>الدقة</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>الألوان</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>فتح الأجهزة</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>قراءة الاستجابة</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>قياس نقل الضوء</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>لا لقطات على القرص بعد. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
+            <numerusform>لقطة واحدة على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
+            <numerusform>اللقطتان على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
+            <numerusform>اللقطات كلها (%n) على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
+            <numerusform>اللقطات كلها (%n) على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
+            <numerusform>اللقطات كلها (%n) على القرص. اللقطة الجاري التقاطها غير محسوبة.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>القياس</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>قِس كيف يضيء كل بكسل في جهاز العرض كل بكسل في الكاميرا. اترك القاعة مظلمة وساكنة.</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>المرسل إلى جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>ما تراه الكاميرا</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>النمط الذي يعرضه جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>اللقطة الأخيرة</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>تظهر عند بدء القياس. لا يُعرض شيء قبل أن تبدأ.</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>مستوى الدقة</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>سريع</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>نظرة أولى؛ تفوته الانعكاسات الضعيفة</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>معتاد</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>يناسب معظم الأسطح</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>دقيق</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>زجاج، لمعان، زوايا عميقة</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>أحمر، أخضر، أزرق</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>أبيض فقط</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>الأبيض فقط أسرع بثلاث مرات، مع فرق بضعة بالمئة في الألوان.</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>اللقطات في الثانية</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>المُلتقط في هذه الجلسة</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>الأنماط المتبقية</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>مساحة القرص اللازمة</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>المراقبة</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>الإضاءة والمشهد تحت المراقبة</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>كل 40 لقطة تُقارن إضاءة القاعة والمصباح ومكان الكاميرا بما كانت عليه في البداية. إذا تحرّك شيء، يتوقف القياس مؤقتًا ويسألك.</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>متوقف مؤقتًا</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>بقي نحو %1</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>جارٍ القياس</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>نحو %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>تقدّم القياس</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>رجوع</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>⁨%1 × %2⁩ بكسل، %3 بت، التعريضات من ⁨%4⁩ إلى ⁨%5⁩</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>لا يمكن استخدامها: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>اختيار</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>اختيار ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>الكاميرات</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>اختر الكاميرا الموجّهة إلى السطح.</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>بحث مجددًا</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>البحث عن كاميرات</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>لا تستجيب أي كاميرا. افحص كابلها وتغذيتها.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>لم يتغيّر شيء.</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>جارٍ الفحص</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>آخر فحص: %1</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>اختر الكاميرا الموجّهة إلى السطح.</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>الكاميرا مستخدمة في خطوة «%1».</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>فتح الأجهزة</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>%1 مفرط السطوع في كل التعريضات.</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>شاهد صورة الكاميرا أولًا.</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>التالي: أنماط اختبار لاستجابة جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>قياس الاستجابة</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>إيقاف مؤقت</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>إعادة الفحص</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>اختيار كاميرا أخرى</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>منطقة التركيز</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>فحص جهاز العرض والكاميرا</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>تحديد التعريضات</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>مشاهدة صورة الكاميرا</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>لا يُقاس شيء في هذه الخطوة، فلا يضيع شيء.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>الكاميرا</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>اجعل السطح داخل الإطار، واضبط التركيز، ودع التعريضات تغطي أسطع أجزائه وأعتمها.</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>التركيز، %1 من الأفضل</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>مشهد الكاميرا</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>ما تراه الكاميرا الآن</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>لا تُشاهَد صورة الكاميرا الآن.</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>التعريض ⁨%1⁩. انقر حيث يُقيَّم التركيز.</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>الضوء في هذا التعريض: أحمر، أخضر، أزرق</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>الإشارة</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>التركيز</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>أدر العدسة حتى يثبت الشريط عند العلامة: الأفضل حتى الآن.</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>التعريضات</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>الفحوص</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>الإشارة، نسبة من الكامل</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>البكسلات</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>البحث عن ضوء جهاز العرض</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>الكاميرا ترى جهاز العرض</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>الفرق بين الأبيض والأسود كما ينبغي.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>كل المشهد عدا %1.</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>الأجزاء الساطعة مغطاة</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>%1 مفرط السطوع في كل التعريضات</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>أغلق العدسة قليلًا، أو احجب المصابيح الظاهرة في المشهد.</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>الأجزاء المعتمة مغطاة</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>%1 مفرط العتمة في كل التعريضات</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>قد لا يصل جهاز العرض إلى هناك. افتح العدسة حيث ينبغي أن يصل.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>كل ما تم قياسه آمن.</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>التجمّعات: %1</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>جارٍ التجميع مجددًا</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>جارٍ التجميع</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>قراءة نقل الضوء</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>التجمّعات: %1، الوسيط: %2 من بكسلات جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>معاينة المحتوى</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>التجمّعات المحفوظة تعود إلى عتبة سابقة</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>ما تراه هنا جُمّع من جديد. المتابعة تحفظه.</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>التجميع</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>قسّم الموقع إلى مجموعات صغيرة من البكسلات تُحل كل منها وحدها، بسرعة تكفي للفيديو.</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>خريطة التجمّعات</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>انقر بكسلًا</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>خريطة الخطأ</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>مسطّح</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>مجسّم</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>أحجام التجمّعات</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>بكسلات جهاز العرض في التجمّع</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>التجمّعات</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1، %2: ليس في أي تجمّع</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1، %2: بكسلات جهاز العرض %3، الخطأ %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>خريطة التجمّعات، العدد %1، الأكبر %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>RMS نسبي</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>خريطة الخطأ، الوسيط %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>الوسيط %1، و95 % تحت %2</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>الحد الأقصى %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>التجمّعات: %1، الوسيط: %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>المسافة</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>صغيرة، حادّة</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>كبيرة، سريعة</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>النسبة من الأسطع</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>تفاصيل أكثر</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>سرعة أكبر</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>أكبر تجمّع</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>سريع</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>دقيق</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>النتيجة</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>المقطوع بالحد الأقصى</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>الضوء الباقي في التجمّعات</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>وسيط الخطأ</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>الخطأ من 70 إلى 80 % طبيعي هنا.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>يُسقط التجميع تمويه العدسة عمدًا. ابحث عن بقع تختلف عمّا حولها.</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 بكسل</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>لا مجاهيل</numerusform>
+            <numerusform>مجهول واحد</numerusform>
+            <numerusform>مجهولان</numerusform>
+            <numerusform>%n مجاهيل</numerusform>
+            <numerusform>%n مجهولًا</numerusform>
+            <numerusform>%n مجهول</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>%1 من الضوء</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>بلا الحد الأقصى يغطي تجمّع واحد %1 من الصورة.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>السطح مموّه عبر البكسلات المتجاورة، فتتصل المجموعات. الحد الأقصى يفصل بينها.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>الزاوية العليا اليسرى، %1، %2.</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>الزاوية العليا اليمنى، %1، %2.</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>الزاوية السفلى اليمنى، %1، %2.</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>الزاوية السفلى اليسرى، %1، %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>توقف أحد الأجهزة عن الاستجابة</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>لم ينفّذ القرص ما طُلب منه</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>الذاكرة ممتلئة</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>تتعذّر قراءة ملف</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>لا يمكن تنفيذ هذا على حاله</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>فشل الحساب</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>ما حدث</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>ما هو آمن</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>ما العمل</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>نسخ التفاصيل</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>إغلاق</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>يعرض جهاز العرض أنماطًا تتغيّر بمعدل نحو %1 في الثانية.</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>يعرض جهاز العرض أنماطًا تتغيّر بأسرع ما تستطيعه الأجهزة، وربما أكثر من 3 مرات في الثانية.</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>القاعة خالية</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>ضوء وامض</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>القاعة خالية وكل من هنا على علم</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>قد يسبب الضوء الوامض نوبات صرع. أخلِ القاعة وغطِّ المدخل.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>مساعدة</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>البحث في الدليل</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>صفحات الدليل</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>الصفحة</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>لا توجد صفحة فيها هذه الكلمات.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>⁨%1⁩، ⁨%2 × %3⁩، ⁨%4 Hz⁩</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>هل الخطوط حادّة؟ إذن هذه دقة جهاز العرض الأصلية.</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>الشاشة %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>لقطات هذه الخطوة ما زالت في المجلد.</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>جارٍ القياس، %1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>خطأ الجمعية %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>تم القياس</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>توقف بسبب عطل</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>الأجهزة مستخدمة في خطوة «%1».</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>مجموع الألوان لا يساوي الأبيض. تُسجّل المتابعة في التقرير.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>مدة القياس: %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>أكّد أن القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>أنماط الاختبار: نحو %1</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>تخطيط القياس</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>المتابعة رغم ذلك</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>قياس الاستجابة</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>إيقاف</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>إعادة القياس</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>هذه المنحنيات تعود إلى إعدادات سابقة</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>ما زالت صالحة، وتبقى حتى تُقاس الجديدة.</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>المستويات</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>لم يتغيّر شيء.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>فتح الأجهزة</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>قياس الاستجابة</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>إعادة المحاولة</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>كل لقطة التُقطت موجودة على القرص. تتابع إعادة المحاولة من هناك.</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>الخطية</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>قِس مقدار الضوء الذي يعطيه فعلًا كل مستوى من ألوان جهاز العرض الثلاثة.</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>أحمر</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>أخضر</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>أزرق</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>المرسل إلى جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>ما تراه الكاميرا</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>النمط الذي يعرضه جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>اللقطة الأخيرة</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>تظهر عند بدء القياس.</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>⁨%1⁩، اللقطة %2</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>استجابة جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>المستوى المرسل إلى جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>الضوء، % من الكامل</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>ضوء كل مستوى، ثلاثة ألوان</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>أثناء القياس، بترتيب عشوائي</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>لا مستويات، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+            <numerusform>مستوى واحد لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+            <numerusform>مستويان لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+            <numerusform>%n مستويات لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+            <numerusform>%n مستوى لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+            <numerusform>%n مستوى لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>لم تُقَس بعد</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>النتيجة</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>التعريضات</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>المختار لهذا الموقع</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>القياس باستخدام</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>المستويات لكل لون</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>جارٍ القياس</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>لم يُقَس بعد</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>عند اكتمال قياس كل المستويات يُعرف هل مجموع الألوان يساوي الأبيض، وهل الكاميرا خطية، وهل كل مستوى أسطع مما دونه.</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>مجموع الألوان يساوي الأبيض</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>الأحمر والأخضر والأزرق معًا تعطي الأبيض بفارق لا يتجاوز %1.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>مجموع الألوان لا يساوي الأبيض</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>يختلف الأبيض عن مجموع ألوانه بمقدار %1. أوقف «brilliant» أو «dynamic» في قائمة جهاز العرض، ثم أعد القياس.</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>الكاميرا خطية</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>منحنى الكاميرا معروف</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>مضاعفة التعريض تضاعف الإشارة.</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>تُعاد لقطاتها إلى ضوء خطي.</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>المنحنيات صاعدة في كل موضع</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>لا مستوى أعتم مما دونه.</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>ما وُجد أثناء القياس</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>تعتيم الصور</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>الصور معتّمة</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>الإعدادات</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>مساعدة</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>الكاميرا %1
+جهاز العرض %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>النقل</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>جهاز العرض x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>سطر جهاز العرض</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>الكاميرا x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>سطر الكاميرا</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>أفقيًا %1، رأسيًا %2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>شاشة جهاز العرض</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>هذه الشاشة</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1: قيمة ΔE المقيسة %2، المتوقّعة %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>لم تُلتقط لقطة بعد</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>تبيّن لقطة واحدة هل يبدو السطح كما هو متوقّع.</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>مصحّح</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>أصلي</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>%1 من الصورة ضمن المدى.</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>السطح يبدو كما هو متوقّع</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>ربما تحرّكت الكاميرا أو جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>خطأ أنماط الاختبار: %1، وعند القياس %2. تغيّر %3 من المشهد.</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>القياس ما زال صالحًا</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>تغيّر شيء ما. أعد قياس نقل الضوء.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>لا يكاد شيء يتطابق. وجّه الأجهزة واضبط التركيز وأعد قياس كل شيء.</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>التحقق</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>التقاط لقطة التحقق</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Ctrl+Shift+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>فحص الانحراف</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>يعيد تصوير أنماط اختبار القياس، نحو عشرة.</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>التسليم</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>حفظ التقرير</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>بدء العرض مع هذا الحاسوب</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>تم التثبيت. يبدأ العرض عند تسجيل الدخول التالي، دون كاميرا أو معالج.</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>العرض مثبّت. ثبّته مجددًا، فلا يعود يبدأ تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>بعد التثبيت يعمل العرض دون إشراف، ودون كاميرا أو معالج.</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>العرض لا يبدأ تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>قائمة التشغيل</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>بكسلات هذه الشاشة غير بكسلات جهاز العرض الذي تم قياسه.</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>تقع الصورة في وسطها، بكسلًا ببكسل.</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>الصور الثابتة: %1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>الأفلام والتلاشي المتداخل تستخدم «النوافذ والخطوات»، وهي سريعة بما يكفي.</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>أنشئ القائمة من جديد.</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>أسود</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>مجمّد</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>قيد التشغيل</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>أضف صورة أو فيلمًا إلى قائمة التشغيل.</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>اختر شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>قيد التشغيل. استمر في ضغط A للمقارنة.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>التقط لقطة التحقق، أو ثبّت دون إثبات.</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>توجد شاشة واحدة فقط. سيغطيها الخرج، ويغلقه Esc.</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>لا يُعرض شيء قبل أن تفتح الخرج.</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>تثبيت العرض</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>تثبيت دون إثبات</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>فتح الخرج</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>تشغيل</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>تجميد</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>إظهار مجددًا</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>إغلاق الخرج</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>الإضافة إلى قائمة التشغيل</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>الإزالة من قائمة التشغيل</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>ترتيب قائمة التشغيل</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>تكرار</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>التلاشي المتداخل</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>المعايرة كما كانت.</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>الخرج</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>شغّل المحتوى المصحّح، وأثبت نجاحه بلقطة واحدة، وسلّم الموقع.</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>التشغيل</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>إطار في الثانية</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>زمن الإطار</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>إطارات متأخرة</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>الثواني</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>زمن الإطار، ms</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>أزمنة الإطارات في الدقيقة الأخيرة</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>⁨%1 ms⁩</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>مغلق</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>على ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>صورة ثابتة، على ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>زمن الإطار</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>على جهاز العرض الآن</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>ما يعرضه جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>استمر في ضغط A لرؤية الأصل، ومفتاح المسافة يجمّد، والمفتاح B يسوّد.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>الخرج مغلق. لا يُعرض شيء.</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>لقطة السطح</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>المطلوب على يسار الفاصل، واللقطة على يمينه</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>لم تُلتقط لقطة تحقق بعد.</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>اللقطة مقابل المطلوب</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>فرق اللون</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>فرق اللون بين اللقطة والمطلوب</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>تبيّن لقطة التحقق هنا ما بقي من فروق.</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>%1 خارج المدى</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>صورة ثابتة، %1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 إطار/ث، ⁨%2 ms⁩، %3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>التُقطت في %1</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>المطلوب</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>اللقطة</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>يزيل Delete عنصرًا، وينقله Ctrl+Up أو Ctrl+Down. يمكن إفلات الملفات هنا.</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>⁨%1⁩، قيد التشغيل</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>إضافة</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>إضافة ملفات إلى قائمة التشغيل</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>نقل لأعلى</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>نقل لأسفل</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>التلاشي المتداخل، بأعشار الثانية</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>إضافة صور أو أفلام</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 ث</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>تم تخطي: ⁨%1⁩</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>تحضير المحرك</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>افتح الخرج مجددًا.</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>يعرض Relucent الآن</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>فتح الأجهزة</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>التقاط لقطة التحقق</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>فحص الانحراف</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>كتابة التقرير</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 بكسل</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>للرجوع: Esc</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>دون تصحيح</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>سطوع كل بكسل</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>كل بكسل على حدة</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>كل بكسل، بحدّة أعلى</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>التجمّعات</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>النوافذ</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>النوافذ والخطوات</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>الأفضل الممكن، صور ثابتة</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>صورة توضيحية</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>المحتوى</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>تغيير</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>كاملة</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>ملء</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>تمديد</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>تحديد الموضع تلقائيًا</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>في أكبر مستطيل قائم ضمن المدى</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>الضوء</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>قد يبقى شديد العتمة</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>نسبة المحتوى الذي قد يبقى شديد العتمة، بالمئة</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>كلما زادت القيمة ازدادت الصورة سطوعًا، واتسع الجزء الذي يبقى شديد العتمة منها.</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>رفع الأسود</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>رفع الأسود، بالمئة</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>المدى</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>ضمن المدى</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>أعتم من المطلوب</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>أقل سوادًا من المطلوب</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>خطأ اللون</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>جزء من الصورة لا يصله ضوء من جهاز العرض هذا.</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>قد يغطيه جهاز ثانٍ.</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>اختيار صورة</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>صور ‎(*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>الملاءمة</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>السطوع</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>كل ما تم قياسه آمن.</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>الصورة</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>تبقى الصورة السابقة.</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>قراءة نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>حساب معكوس نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>تحضير المعاينة</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>الزوايا متقاطعة. اسحبها لتتباعد.</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>الزوايا</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>الموضع التلقائي</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>جارٍ التحضير</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>%1 ضمن المدى</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>المعاينة غير محضّرة.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>الأجهزة مستخدمة في خطوة «%1».</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>جارٍ التوقّع</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>متوقّع من القياس. لا يُعرض شيء بعد.</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>فتح الخرج</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>المعاينة</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>ضع المحتوى في مشهد الكاميرا، وشاهد ما سيراه الجمهور قبل عرضه.</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>مشهد الجمهور</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>متوقّع من القياس</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>الضوء ضمن المدى</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>الفرق</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>ما سيراه الجمهور، دون تصحيح على يسار الفاصل ومصحّحًا على يمينه</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>أسطع ضوء ضمن المدى؛ مظلّل بخطوط حيث لا يكفي</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>فرق اللون بين المطلوب والمتوقّع</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>الطرق</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>متوقّعة لهذا المحتوى؛ انقر طريقة لاستخدامها</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>مقارنة الطرق</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>الطريقة</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>زمن الصورة</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>ملاحظات</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>لا ترى الانعكاسات</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>موصى بها</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>حدّ هذا الموقع</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>⁨%1 dB⁩</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>⁨%1 ms⁩</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 ث</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>دون تصحيح</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>مصحّح، متوقّع</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>من الأبيض</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>الإعدادات</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>إغلاق</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>المظهر</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>داكن</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>فاتح</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>السمة. الداكنة للقاعة المظلمة.</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>تعتيم الصور: الحاسوب المحمول ضوء في القاعة</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>كما في الحاسوب</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>اللغة</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>القياس</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>بأسرع ما تستطيعه الأجهزة، بعد الموافقة</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>لا تغيّر في الثانية</numerusform>
+            <numerusform>تغيّر واحد في الثانية على الأكثر</numerusform>
+            <numerusform>تغيّران في الثانية على الأكثر</numerusform>
+            <numerusform>%n تغيّرات في الثانية على الأكثر</numerusform>
+            <numerusform>%n تغيّرًا في الثانية على الأكثر</numerusform>
+            <numerusform>%n تغيّر في الثانية على الأكثر</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>ضوء جهاز العرض الوامض</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>أكثر من ثلاثة تغيّرات في الثانية قد يسبب نوبات صرع. القياس الأبطأ لا يحتاج إلى موافقة.</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>صوت عند انتهاء القياس</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>المواقع الجديدة</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>مجلد المواقع الجديدة</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>اختيار مجلد</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>المجلد</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>هناك عرض قيد التشغيل.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>الكاميرا</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>القرص</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>غير مختار</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>المتاح %1</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>محاكاة</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>بنص برمجي</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>⁨%1⁩، قيد الاستخدام</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>آخر حفظ: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>مقفلة</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>منجزة</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>فشلت</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>قيد القياس</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>الحالية</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>متاحة</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>الخطوة %1، %2، %3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>لا يوجد موقع مفتوح</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>بقي %1 من الضوء</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>قراءة نقل الضوء</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>إذا بقي أقل من 95 % من الضوء تضيع انعكاسات.</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>التالي: مجموعات بكسلات تُحل كل منها وحدها</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>التقسيم إلى تجمّعات</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>اختيرت العتبة لقياس سابق</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>راجعها ثم تابع.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>كل ما تم قياسه آمن.</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>العتبة</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>اختر أضعف ضوء يستحق الاحتفاظ به. القليل أسرع وأصغر؛ والقليل جدًا يُضيع الانعكاسات.</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>مشهد الكاميرا</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>السطح في الإضاءة الكاملة</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>البكسل %1، %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>بكسلات جهاز العرض التي تضيء بكسل الكاميرا المختار</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>اختر بكسلًا في مشهد الكاميرا.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>الكاميرا</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>جهاز العرض</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>النقل</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>مصفوفة النقل</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>انقر خانة</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>مصفوفة نقل الضوء، بكسلات الكاميرا رأسيًا، وبكسلات جهاز العرض أفقيًا</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>قيمة النقل، إشارة الكاميرا في الثانية</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>مقدار الضوء المار في كل ارتباط</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>اسحب حد القطع، أو استخدم مفاتيح الأسهم</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>الارتباطات</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>حد القطع</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>حد القطع ⁨%1⁩، يُبقي %2</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>يبقى كل شيء</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>استبعاد الضوء الأقل من</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>قيمة واحدة</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>نسبة من الصف</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>النسبة من أقوى ارتباط في الصف، بأعشار الواحد بالمئة</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>ما يبقى</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>الضوء</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>الكتل المخزّنة</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>الذاكرة</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>ما يُستبعد يُعاد توزيعه بالتناسب، ليحتفظ السطح بسطوعه.</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>البكسل المختار</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>يضيئه</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>الأقوى</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>مما حوله</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>ضوء من مواضع أخرى</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>أقل من %1 من أقوى ارتباط في الصف</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>استخدام المقترح، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>⁨%1⁩ من ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>البكسل المختار %1، %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>لا بكسلات</numerusform>
+            <numerusform>بكسل واحد</numerusform>
+            <numerusform>بكسلان</numerusform>
+            <numerusform>%n بكسلات</numerusform>
+            <numerusform>%n بكسلًا</numerusform>
+            <numerusform>%n بكسل</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>غير موصولة. صِلها أو اختر غيرها.</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>⁨%1⁩، %2 في %3، مختارة</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>⁨%1⁩، %2 في %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>الشاشات</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>اختر الشاشة التي تضيء السطح. بكسلاتها هي بكسلات جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>تمييز الشاشات</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>جهاز العرض يشارك شاشتك</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>أجهزة حقيقية</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>جهاز العرض</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>تُختار الكاميرا في الخطوة التالية.</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>زاوية لامعة</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>ينعكس الضوء بين بطاقتين</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>تمثال نصفي أمام جدار طوب</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>ملمس وظل وضوء بين الأسطح</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>أعماق متعددة</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>بعض الأسطح خارج البؤرة</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>قبة</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>كل جزء يضيء كل جزء آخر</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>كأس زجاجية</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>ينكسر الضوء في الاتجاهين</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>جدار مدهون</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>مسطّح، عليه معيّنات؛ الأسهل</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>⁨%1⁩، نظرة أولى</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>⁨%1⁩، سريع</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>⁨%1⁩، معتاد</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>⁨%1⁩، دقيق</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>الموقع</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>التدريب في موقع محاكى</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>موقع جديد بنص برمجي</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>موقع جديد</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>الخطوات نفسها، مع محاكاة جهاز العرض والكاميرا. لا يُعرض شيء في القاعة.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>حدّد الشاشة التي تضيء، والبرامج التي تعرض وتصوّر، ومكان حفظ العمل.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>حدّد الشاشة التي تضيء السطح، ومكان حفظ العمل.</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>ابدأ هنا. لكل موقع قياساته وإعداداته.</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>قيد الإعداد</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>⁨%1⁩، ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>محاكاة، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>بنص برمجي، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>الموقع ⁨%1⁩ مفتوح</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>يفتح Enter الخيار المميّز</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>الأنماط: نحو %1، %2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>فحص الكاميرا</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>بدء التدريب</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>لم يتغيّر شيء في ذلك المجلد.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>أعطِ الموقع اسمًا.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>لا يجوز في الاسم شرطة مائلة.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>يوجد مجلد بهذا الاسم. اختر اسمًا آخر.</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>اختر الشاشة التي تضيء السطح.</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>أخلِ %1 أو اختر مجلدًا آخر.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>أكّد أن القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>لم يُقَس شيء بعد.</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>البرامج</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>أي جهاز عرض وأي كاميرا يمكن تشغيلهما بأمر</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>يعرض الملف {image} وينتهي حين يخرج الضوء</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>يصوّر لمدة {exposure} ثانية إلى الملف {output}: ملف EXR عائم، أو PNG أو TIFF بعمق 16 بت</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>بكسلات جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>العرض</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>الارتفاع</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>تدريب. آخر فتح: %1</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>آخر فتح: %1</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>فتح</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>فتح ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>فتح موقع</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>تدريب</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>تعلّم كل خطوة في موقع محاكى. لا حاجة إلى أجهزة.</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>تابع من حيث توقفت، أو غيّر المحتوى.</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>قِس سطحًا بجهاز عرض وكاميرا على هذا الحاسوب.</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>برامجك هي التي تشغّل جهاز العرض والكاميرا.</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>الأخيرة</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>لا مواقع بعد</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>تُدرج هنا المواقع التي تقيسها، الأحدث أولًا.</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>يستغرق التدريب الأول بضع دقائق.</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>هذا الموقع</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>الاسم</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>اسم الموقع</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>المجلد</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>المجلد الذي يحوي الموقع</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>اختيار مجلد</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>التقدير</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>الأنماط</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>القرص</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>المتاح هناك</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>نحو %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>أجهزة محاكاة</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>بكسلات جهاز العرض المحاكى</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>المزيد من البكسلات يُظهر تفاصيل أدق ويستغرق وقتًا أطول. في المرة الأولى يُتتبّع ضوء الموقع؛ ثم يُحفظ لما بعد.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>يحتاج هذا المشهد إلى OpenGL 3.2، وهذا الحاسوب يرسم من دونه. كل ما عداه يعمل: تُعرض الصور والخرائط بلا عمق.</translation>
+    </message>
+</context>
+</TS>

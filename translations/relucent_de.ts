@@ -1,0 +1,3002 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>Über Relucent</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>Version %1, mit diesen Bibliotheken: %2.</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 min</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 h %2 min</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>Der Arbeitsspeicher reicht nicht.</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>Schließen Sie andere Programme oder wählen Sie weniger Pixel.</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>In Relucent ist ein Fehler aufgetreten.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>Gespeichertes ist sicher. Kopieren Sie die Details für die Person, die das Programm betreut, und versuchen Sie es erneut.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>Gespeichertes ist sicher. Versuchen Sie es erneut.</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>Der Bildschirm des Projektors ist getrennt</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>Alle Fotos sind sicher. Schließen Sie ihn wieder an: Die Messung läuft von selbst weiter.</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>%1 Bilder je Sekunde, %2 ms je Bild, %3 von %4 verspätet</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>kompensiert, %1 Schritte, %2 % unerreichbar</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>nicht kompensiert</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>eingefroren</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>Testbild: %1</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>Noch nichts gemessen</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>Als Nächstes: Erfassen</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>Spielbereit</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>Vorschau veraltet</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>Dieser Computer</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4 Hz</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>Es gibt keinen anderen Bildschirm: Die Muster verdecken dieses Fenster, solange sie gezeigt werden. Um beides zu trennen, schließen Sie den Projektor an und erweitern Sie den Desktop auf ihn.</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>Auf diesem Bildschirm arbeiten Sie. Wählen Sie den des Projektors.</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algorithmus 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Zusammensetzen des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Prüfung der Farbsumme: {}</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Clusterbildung im Lichttransport</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Cluster mit begrenzter Größe</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Vergleich der Cluster-Inversen: {}</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Vergleich der Methoden</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Vergleich der Methoden: {}</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>Kompensation</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>Dekodierung</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Schätzung von Kennlinie und Farben</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Schätzung des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>Auswertung</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Bestimmung des Defokus</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Bestimmung der Belichtung</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Anpassung der Lichtstreuung</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>Bildung der Pixelbereiche</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Begrenzung der Clustergröße</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Inversion der Cluster</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversion des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Inversion: {}</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Vereinigung der Cluster</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linearisierung</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Suche nach Schatten</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Suche nach nicht Korrigierbarem</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Messung der Helligkeitskurven: {}</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Messung der Kamera</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>Beurteilung des Lichts</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Suche nach dem Projektorbild</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Messung der Latenz</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Messung des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Messung: {}</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Fotografieren der Testmuster</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Fotografieren der Projektionen</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Vorhersage zurückgehaltener Muster</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Vorbereitung der Benchmarks</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Vorbereitung der Geräte</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Vorbereitung des Rechenkerns</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Vorbereitung des Spielorts</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Lesen der Kalibrierung</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Lesen der Muster</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Lesen der Fotos</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Lesen der Bilder</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>Lesen: {}</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Skalierung auf das Volllichtbild</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Trennung von direktem und indirektem Licht</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>Schärfung</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>Berechnung der Lösung</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Zeitmessung des Rechenkerns</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Fenster</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>Schreiben</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Ausschreiben des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>Schreiben der Ergebnisse</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>Schwarz und Volllicht</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>Ebene {} von {}: {} Muster</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>Lichttransport</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>Neumessung von {} markierten Pixeln</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>Projektor {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>Testmuster</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>Projektor</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>Lichtberechnung am simulierten Spielort</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>Alles zeigen</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>Vollbild (F11)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>Bild wie angezeigt</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Bild speichern</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Bilder (*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>Werte</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>Werte speichern</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>Der Desktop skaliert diesen Bildschirm um den Faktor %1; das macht jedes Pixel unscharf. Stellen Sie die Skalierung auf 100 %.</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>Ein Spielort wird gemessen</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>Pausiert, %1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Messung, %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>%n Muster, %1</numerusform>
+            <numerusform>%n Muster, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Veraltet</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Durch Fehler gestoppt</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>%n Foto gesichert</numerusform>
+            <numerusform>%n Fotos gesichert</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>Wartet auf Sie. Es wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>Abschluss mit dem bisher Gemessenen.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>Jedes Foto wird gespeichert. Nach dem letzten öffnet sich „Schwelle“.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Die Seite „%1“ nutzt die Geräte.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Gemessen in %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>Lassen Sie den Raum dunkel und ruhig, dann starten Sie.</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>Schwelle zeigen</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Fortsetzen</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>Messung starten</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>Stoppen, behalten</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pause</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>Diese Messung gehört zu früheren Einstellungen</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>Sie gilt weiter, bis die neue fertig ist.</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Neu messen</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>Die letzte Sitzung endete vorzeitig</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n Foto ist sicher. Fortsetzen führt zum selben Ergebnis, als wäre nichts geschehen.</numerusform>
+            <numerusform>%n Fotos sind sicher. Fortsetzen führt zum selben Ergebnis, als wäre nichts geschehen.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>Feinheit</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Öffnen der Geräte</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>Lesen der Kennlinie</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Messung des Lichttransports</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>%n Foto ist auf dem Laufwerk. Das gerade entstehende zählt nicht mit.</numerusform>
+            <numerusform>Alle %n Fotos sind auf dem Laufwerk. Das gerade entstehende zählt nicht mit.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>Erfassen</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>Messen Sie, wie jedes Projektorpixel jedes Kamerapixel beleuchtet. Lassen Sie den Raum dunkel und ruhig.</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>An den Projektor gesendet</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Von der Kamera gesehen</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Muster, das der Projektor zeigt</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Letztes Foto</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>Erscheint, sobald die Messung beginnt. Vor dem Start wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>Wie fein</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>Schnell</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>ein erster Blick; schwache Reflexionen fehlen</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Üblich</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>für die meisten Oberflächen</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>Fein</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>Glas, Glanz, tiefe Ecken</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>Rot, Grün, Blau</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>Nur Weiß</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>Nur Weiß ist dreimal so schnell; die Farben weichen um einige Prozent ab.</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>Fotos je Sekunde</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>Fotos dieser Sitzung</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>Ausstehende Muster</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>Noch nötiger Platz</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>Überwachung</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>Licht und Kamerabild werden überwacht</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>Alle 40 Fotos werden Raumlicht, Lampe und Kamerastandort mit dem Beginn verglichen. Hat sich etwas verändert, hält die Messung an und fragt.</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>Pausiert</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Noch etwa %1</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Messung</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>etwa %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>Fortschritt der Messung</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>%1 × %2 Pixel, %3 Bit, Belichtungen %4 bis %5</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>Nicht nutzbar: %1</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>Wählen</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>%1 wählen</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>Wählen Sie die, die auf die Oberfläche blickt.</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Erneut suchen</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Suche nach Kameras</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Keine Kamera antwortet. Prüfen Sie Kabel und Stromversorgung.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>Prüfung läuft</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>Geprüft %1</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>Wählen Sie die Kamera, die auf die Oberfläche blickt.</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>Die Seite „%1“ nutzt die Kamera.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Öffnen der Geräte</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>%1 sind in jeder Belichtung zu hell.</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>Sehen Sie zuerst durch die Kamera.</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>Als Nächstes: Testmuster für die Kennlinie des Projektors</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Kennlinie messen</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pause</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>Erneut prüfen</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>Andere Kamera wählen</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>Fokusbereich</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Prüfung von Projektor und Kamera</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Bestimmung der Belichtungen</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Blick durch die Kamera</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>In diesem Schritt wird nichts gemessen, also geht nichts verloren.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>Wählen Sie den Ausschnitt, stellen Sie scharf und decken Sie mit den Belichtungen die hellsten und dunkelsten Stellen ab.</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>Fokus, %1 des Bestwerts</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Kamerabild</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>Was die Kamera jetzt sieht</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>Es wird nicht durch die Kamera gesehen.</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>Belichtung %1. Klicken Sie, wo der Fokus beurteilt werden soll.</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>Licht in dieser Belichtung: Rot, Grün, Blau</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Fokus</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>Drehen Sie am Objektiv, bis der Balken an der Marke bleibt: dem bisher besten Wert.</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Belichtungen</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Prüfungen</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>Signal, Anteil am Maximum</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>Suche nach dem Licht des Projektors</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>Die Kamera sieht den Projektor</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>Weiß und Schwarz unterscheiden sich wie erwartet.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>Bis auf %1 des Kamerabilds.</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>Helle Stellen sind abgedeckt</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>%1 sind in jeder Belichtung zu hell</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>Schließen Sie die Blende etwas oder schirmen Sie Lampen im Bild ab.</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>Dunkle Stellen sind abgedeckt</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>%1 sind in jeder Belichtung zu dunkel</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>Vielleicht reicht der Projektor nicht dorthin. Wo er es sollte, öffnen Sie die Blende.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Das Gemessene ist sicher.</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>%1 Cluster</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Veraltet</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>Neue Gruppierung</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>Gruppierung</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lesen des Lichttransports</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>%1 Cluster, Median %2 Projektorpixel</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>Vorschau zeigen</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>Die gespeicherten Cluster gehören zu einer früheren Schwelle</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>Was Sie hier sehen, ist neu gruppiert. Beim Weitergehen wird es gespeichert.</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>Teilen Sie den Spielort in kleine Pixelgruppen, die sich einzeln lösen lassen, schnell genug für Video.</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>Clusterkarte</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>Pixel anklicken</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>Fehlerkarte</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>Flach</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>Relief</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>Clustergrößen</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>Projektorpixel im Cluster</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1, %2: in keinem Cluster</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1, %2: %3 Projektorpixel, Fehler %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>Clusterkarte, %1 Cluster, größter %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>rel. RMS</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>Fehlerkarte, Median %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>Median %1, 95 % unter %2</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>max. %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>%1 Cluster, Median %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>klein, scharf</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>groß, schnell</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>Anteil am Hellsten</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>mehr Details</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>mehr Tempo</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>Größter Cluster</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>schnell</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>genau</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>Gekappt</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>Licht in Clustern</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>Fehler (Median)</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>Ein Fehler von 70 bis 80 % ist hier normal.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>Die Gruppierung lässt die Unschärfe des Objektivs absichtlich weg. Achten Sie auf Stellen, die sich von ihrer Umgebung abheben.</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>%n Unbekannte</numerusform>
+            <numerusform>%n Unbekannte</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>%1 des Lichts</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>Ohne Obergrenze würde ein Cluster %1 des Bilds bedecken.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>Die Oberfläche ist über benachbarte Pixel hinweg unscharf, daher verbinden sich Gruppen. Die Obergrenze hält sie getrennt.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>Ecke oben links, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>Ecke oben rechts, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>Ecke unten rechts, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>Ecke unten links, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>Ein Gerät antwortet nicht mehr</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>Der Zugriff auf das Laufwerk ist gescheitert</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>Der Arbeitsspeicher ist voll</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>Eine Datei ist nicht lesbar</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>So ist das nicht möglich</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>Die Berechnung ist gescheitert</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Was geschehen ist</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>Was sicher ist</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Was zu tun ist</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>Details kopieren</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>Der Projektor zeigt Muster, die etwa %1-mal je Sekunde wechseln.</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>Der Projektor zeigt Muster, die so schnell wechseln, wie die Geräte es können, vielleicht öfter als 3-mal je Sekunde.</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>Der Raum ist geräumt</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>Lichtblitze</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>Der Raum ist geräumt und alle hier wissen Bescheid</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>Lichtblitze können Anfälle auslösen. Räumen Sie den Raum und verdecken Sie den Eingang.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>Im Handbuch suchen</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>Seiten des Handbuchs</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>Die Seite</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>Keine Seite enthält diese Wörter.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4 Hz</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>Linien scharf? Dann ist dies die native Auflösung des Projektors.</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Bildschirm %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>Die Fotos dieses Schritts liegen noch im Ordner.</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Messung, %1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>Additivität auf %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Veraltet</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Durch Fehler gestoppt</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Die Seite „%1“ nutzt die Geräte.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>Die Farben addieren sich nicht. Fortfahren wird im Bericht vermerkt.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Gemessen in %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>Etwa %1 Testmuster</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>Erfassung planen</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Trotzdem weiter</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Kennlinie messen</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Neu messen</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>Diese Kurven gehören zu früheren Einstellungen</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>Sie gelten weiter, bis die neuen gemessen sind.</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>Stufen</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Öffnen der Geräte</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Messung der Kennlinie</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Erneut versuchen</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>Jedes aufgenommene Foto ist auf dem Laufwerk. Ein neuer Versuch macht dort weiter.</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>Linearisieren</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>Messen Sie, wie viel Licht jede Stufe der drei Projektorfarben wirklich gibt.</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>Rot</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>Grün</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>Blau</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>An den Projektor gesendet</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Von der Kamera gesehen</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Muster, das der Projektor zeigt</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Letztes Foto</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>Erscheint, sobald die Messung beginnt.</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>%1, Foto %2</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>Kennlinie des Projektors</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>An den Projektor gesendete Stufe</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>Licht, % des Maximums</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>Licht jeder Stufe, drei Farben</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>während der Messung, in zufälliger Folge</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>%n Stufe je Farbe, zufällige Folge, ohne Drift</numerusform>
+            <numerusform>%n Stufen je Farbe, zufällige Folge, ohne Drift</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>noch nicht gemessen</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Belichtungen</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>Gewählt</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>Messen mit</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>Stufen je Farbe</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Messung</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>Noch nicht gemessen</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>Ob sich die Farben addieren, die Kamera linear ist und jede Stufe heller ist als die darunter, zeigt sich, wenn alle Stufen gemessen sind.</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>Die Farben addieren sich</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>Rot, Grün und Blau zusammen ergeben Weiß auf %1 genau.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>Die Farben addieren sich nicht</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>Weiß weicht um %1 von seinen Farben ab. Schalten Sie „Brillant“ oder „Dynamisch“ im Menü des Projektors aus, dann messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>Die Kamera ist linear</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>Die Kurve der Kamera ist bekannt</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>Doppelte Belichtung verdoppelt das Signal.</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>Ihre Fotos werden in lineares Licht umgerechnet.</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>Kurven steigen überall</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>Keine Stufe ist dunkler als die darunter.</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Beim Messen bemerkt</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>Bilder dimmen</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>Bilder gedimmt</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Optionen</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>Kamera %1
+Projektor %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>Transport</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>Projektor x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>Projektorzeile</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>Kamera x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>Kamerazeile</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>%1 waagerecht, %2 senkrecht</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>Bildschirm des Projektors</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>Dieser Bildschirm</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1: gemessen ΔE %2, vorhergesagt %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>Noch nicht fotografiert</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>Ein Foto zeigt, ob die Oberfläche wie vorhergesagt aussieht.</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Korrigiert</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>Original</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>%1 des Bilds sind erreichbar.</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>Die Oberfläche sieht aus wie vorhergesagt</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>Kamera oder Projektor haben sich vielleicht bewegt.</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>Fehler der Testmuster: %1, bei der Messung %2. %3 des Kamerabilds sind verändert.</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>Die Messung gilt noch</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>Etwas hat sich verändert. Messen Sie den Lichttransport neu.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>Kaum etwas passt noch. Richten Sie aus, stellen Sie scharf und messen Sie alles neu.</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Prüfung</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>Prüffoto aufnehmen</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Strg+Umschalt+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>Auf Drift prüfen</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>Fotografiert die Testmuster der Messung noch einmal, etwa zehn.</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>Übergabe</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>Bericht speichern</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>Show mit diesem Computer starten</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>Installiert. Die Show startet bei der nächsten Anmeldung, ohne Kamera und Assistent.</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>Installiert. Installieren Sie erneut, dann startet sie nicht mehr von selbst.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>Einmal installiert, läuft die Show unbeaufsichtigt, ohne Kamera und Assistent.</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>Die Show startet nicht von selbst.</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>Playlist</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>Dieser Bildschirm hat andere Pixel als der gemessene Projektor.</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>Das Bild steht in der Mitte, Pixel für Pixel.</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>Standbilder: %1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>Filme und Überblendungen nutzen „Fenster und Schritte“; das ist schnell genug.</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>Erstellen Sie die Playlist neu.</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Schwarz</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Eingefroren</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>Läuft</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>Fügen Sie der Playlist ein Bild oder einen Film hinzu.</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>Wählen Sie den Bildschirm des Projektors.</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>Läuft. Zum Vergleichen A halten.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>Nehmen Sie ein Prüffoto auf oder installieren Sie ohne Prüfung.</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>Es gibt nur einen Bildschirm. Die Ausgabe wird ihn verdecken; Esc schließt die Ausgabe.</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>Vor dem Öffnen der Ausgabe wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>Show installieren</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>Ungeprüft installieren</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Ausgabe öffnen</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>Einfrieren</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>Wieder zeigen</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>Ausgabe schließen</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>Zur Playlist hinzufügen</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>Aus der Playlist entfernen</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>Reihenfolge der Playlist</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>Endlos</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>Überblendung</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>Die Kalibrierung ist unverändert.</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>Ausgabe</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>Spielen Sie korrigierten Inhalt ab, prüfen Sie ihn mit einem Foto und übergeben Sie den Spielort.</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>Wiedergabe</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>Bilder je Sekunde</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>Bildzeit</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>Bilder verspätet</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>Sekunden</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>Bildzeit, ms</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>Bildzeiten der letzten Minute</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>geschlossen</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>auf %1</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>Standbild, auf %1</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>Bildzeit</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>Jetzt am Projektor</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>Was der Projektor zeigt</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>A halten für das Original, Leertaste friert ein, B macht schwarz.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>Die Ausgabe ist geschlossen. Es wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>Foto der Oberfläche</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>Links der Trennlinie das Soll, rechts das Foto</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>Es wurde noch kein Prüffoto aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>Foto gegen Soll</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>Farbabstand</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>Farbabstand zwischen Foto und Soll</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>Ein Prüffoto zeigt hier, welche Abweichung noch zu sehen ist.</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>%1 unerreichbar</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>Standbild, %1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 Bilder/s, %2 ms, %3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>um %1</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>Soll</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>Foto</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>Entf entfernt einen Eintrag, Strg+Hoch und Strg+Runter verschieben ihn. Dateien lassen sich hier ablegen.</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>%1, läuft</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Einfügen</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>Dateien zur Playlist hinzufügen</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>Nach oben</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>Nach unten</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>Überblendung, Zehntelsekunden</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>Bilder oder Filme hinzufügen</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>Übersprungen: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Vorbereitung des Rechenkerns</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>Öffnen Sie die Ausgabe noch einmal.</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>Relucent projiziert</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Öffnen der Geräte</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Aufnahme des Prüffotos</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Prüfung auf Drift</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Schreiben des Berichts</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>Esc führt zurück</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>Keine Korrektur</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>Helligkeit je Pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Jedes Pixel für sich</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Jedes Pixel, geschärft</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Fenster</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Fenster und Schritte</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Bestmöglich, Standbilder</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Demobild</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>Inhalt</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>Ändern</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>Ganz</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>Füllen</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>Strecken</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>Automatisch platzieren</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>Im größten aufrechten Rechteck, das erreichbar ist</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>Darf zu dunkel bleiben</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>Anteil des Inhalts, der zu dunkel bleiben darf, Prozent</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>Weiter rechts wird das Bild heller, und mehr davon bleibt zu dunkel.</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>Schwarzanhebung</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>Schwarzanhebung, Prozent</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Erreichbarkeit</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>Erreichbar</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>Bleibt zu dunkel</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>Nie schwarz genug</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Farbfehler</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>Ein Teil des Bilds bekommt von diesem Projektor kein Licht.</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>Ein zweiter könnte ihn füllen.</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>Bild wählen</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>Bilder (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Einpassung</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Helligkeit</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Das Gemessene ist sicher.</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>Das vorige Bild bleibt.</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lesen des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversion des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Vorbereitung der Vorschau</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>Die Ecken überkreuzen sich. Ziehen Sie sie auseinander.</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>Ecken</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>Automatische Platzierung</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>Vorbereitung</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>%1 erreichbar</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Veraltet</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>Die Vorschau ist nicht vorbereitet.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Die Seite „%1“ nutzt die Geräte.</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>Vorhersage</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>Aus der Messung vorhergesagt. Noch wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Ausgabe öffnen</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Vorschau</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>Platzieren Sie den Inhalt im Kamerabild und sehen Sie vor dem Projizieren, was das Publikum sehen wird.</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>Publikumssicht</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>aus der Messung vorhergesagt</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>Erreichbares Licht</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>Differenz</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>Was das Publikum sehen wird, links der Trennlinie unkorrigiert, rechts korrigiert</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>Das hellste erreichbare Licht; schraffiert, wo es zu wenig ist</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>Farbabstand zwischen Soll und Vorhersage</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>Methoden</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>für diesen Inhalt vorhergesagt; zum Wählen anklicken</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>Vergleich der Methoden</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Methode</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>Zeit je Bild</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>Hinweise</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>blind für Reflexionen</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>empfohlen</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>Grenze des Spielorts</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Unkorrigiert</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>Korrigiert, vorhergesagt</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>von Weiß</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>Optionen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Aussehen</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Dunkel</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Hell</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>Farbschema. Das dunkle ist für den dunklen Raum.</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>Bilder dimmen: Der Laptop ist Raumlicht</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>Wie der Computer</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Sprache</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Messung</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>So schnell die Geräte können, nach Zustimmung</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>Höchstens %n Wechsel je Sekunde</numerusform>
+            <numerusform>Höchstens %n Wechsel je Sekunde</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>Lichtblitze des Projektors</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>Mehr als drei Wechsel je Sekunde können Anfälle auslösen. Langsameres Messen braucht keine Zustimmung.</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>Ton am Ende einer Messung</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>Neue Spielorte</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>Ordner für neue Spielorte</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Ordner wählen</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Ordner</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>Eine Show läuft.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>Projektor</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Laufwerk</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>nicht gewählt</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 frei</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>simuliert</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>per Skript</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1, belegt</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>Gespeichert %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>gesperrt</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>fertig</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>veraltet</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>gescheitert</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>misst</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>aktuell</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>offen</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>Schritt %1, %2, %3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>Kein Spielort offen</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>%1 Licht behalten</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Veraltet</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lesen des Lichttransports</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>Unter 95 % des Lichts gehen Reflexionen verloren.</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>Als Nächstes: Pixelgruppen, die sich einzeln lösen lassen</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>Cluster bilden</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>Die Schwelle wurde für eine frühere Messung gewählt</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>Sehen Sie sie noch einmal an, dann gehen Sie weiter.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Das Gemessene ist sicher.</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>Schwelle</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>Wählen Sie das schwächste Licht, das sich zu behalten lohnt. Weniger ist schneller und kleiner; bei zu wenig fehlen die Reflexionen.</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Kamerabild</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>Die Oberfläche im Volllicht</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>Pixel %1, %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>Projektorpixel, die das gewählte Kamerapixel beleuchten</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>Wählen Sie ein Pixel im Kamerabild.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projektor</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>Transport</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>Transportmatrix</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>Eintrag anklicken</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>Lichttransportmatrix, Kamerapixel senkrecht, Projektorpixel waagerecht</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>Transportwert, Kamerasignal je Sekunde</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>Wie viel Licht durch jede Verbindung fließt</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>Schnitt ziehen oder Pfeiltasten nutzen</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>Verbindungen</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Schnitt</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>Schnitt bei %1, behält %2</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>Alles bleibt</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>Licht weglassen unter</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>Ein Wert</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>Zeilenanteil</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>Anteil an der stärksten Verbindung der Zeile, in Zehntelprozent</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>Was bleibt</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>Gespeicherte Blöcke</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Arbeitsspeicher</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>Weggelassenes wird anteilig wieder zugegeben, damit die Oberfläche ihre Helligkeit behält.</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>Gewähltes Pixel</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>Beleuchtet von</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>Stärkstes</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>Aus der Umgebung</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>Licht von anderswo</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>Unter %1 der stärksten Verbindung der Zeile</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>Vorschlag nutzen, %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>Gewähltes Pixel %1, %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>%n Pixel</numerusform>
+            <numerusform>%n Pixel</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>Getrennt. Schließen Sie ihn an oder wählen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>%1, %2 mal %3, gewählt</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>%1, %2 mal %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>Bildschirme</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>Wählen Sie den, der auf die Oberfläche strahlt. Seine Pixel sind die des Projektors.</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>Identifizieren</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>Der Projektor nutzt Ihren Bildschirm mit</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>Reale Geräte</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projektor</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>Die Kamera wird im nächsten Schritt gewählt.</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>Glänzende Ecke</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>Zwei Karten werfen sich Licht zu</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>Büste vor Ziegelwand</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>Textur, Schatten und Licht zwischen Oberflächen</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>Viele Tiefen</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>Einige Oberflächen sind unscharf</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>Kuppel</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>Jeder Teil beleuchtet jeden anderen</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>Weinglas</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>Licht wird auf beiden Wegen gebrochen</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>Bemalte Wand</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>Eben, mit Rauten; am einfachsten</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>%1, erster Blick</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>%1, schnell</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>%1, üblich</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>%1, fein</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>Spielort</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>Am simulierten Spielort proben</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>Neuer Spielort per Skript</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>Neuer Spielort</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>Dieselben Schritte, mit simuliertem Projektor und simulierter Kamera. In den Raum wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>Geben Sie an, welcher Bildschirm strahlt, welche Programme zeigen und fotografieren und wo die Arbeit liegt.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>Geben Sie an, welcher Bildschirm auf die Oberfläche strahlt und wo die Arbeit liegt.</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>Beginnen Sie hier. Jeder Spielort hat seine eigenen Messungen und Einstellungen.</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>Einrichtung</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>simuliert, %1</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>per Skript, %1</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>%1 ist offen</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>Eingabe öffnet die markierte Auswahl</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>Etwa %1 Muster, %2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>Kamera prüfen</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>Probe starten</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>In diesem Ordner wurde nichts geändert.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Geben Sie dem Spielort einen Namen.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Ein Name darf keinen Schrägstrich enthalten.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Einen Ordner dieses Namens gibt es schon. Wählen Sie einen anderen Namen.</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>Wählen Sie den Bildschirm, der auf die Oberfläche strahlt.</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>Geben Sie %1 frei oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>Es wurde noch nichts gemessen.</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>Programme</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>Jeder Projektor und jede Kamera, die ein Befehl steuern kann</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>Zeigt die Datei {image} und endet, sobald sie zu sehen ist</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>Fotografiert {exposure} Sekunden in die Datei {output}: EXR (float), PNG oder TIFF mit 16 Bit</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>Pixel des Projektors</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Breite</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Höhe</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>Probe. Geöffnet: %1</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>Geöffnet: %1</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>%1 öffnen</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>Spielort öffnen</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>Proben</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>Lernen Sie jeden Schritt an einem simulierten Spielort. Keine Geräte nötig.</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>Machen Sie weiter, wo Sie aufgehört haben, oder ändern Sie den Inhalt.</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>Messen Sie eine Oberfläche mit einem Projektor und einer Kamera an diesem Computer.</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>Projektor und Kamera werden von Ihren Programmen gesteuert.</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>Zuletzt</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>Noch keine Spielorte</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>Hier stehen die Spielorte, die Sie messen, die neuesten zuerst.</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>Eine erste Probe dauert einige Minuten.</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>Dieser Spielort</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>Name des Spielorts</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>Ordner, der den Spielort enthält</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Ordner wählen</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>Erwartet</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Muster</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Laufwerk</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>Dort frei</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>etwa %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>Simulierte Geräte</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>Pixel des simulierten Projektors</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>Mehr Pixel zeigen feinere Details und dauern länger. Beim ersten Mal wird das Licht des Spielorts berechnet; danach ist es gespeichert.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>Diese Ansicht braucht OpenGL 3.2, und dieser Computer zeichnet ohne. Alles andere funktioniert: Bilder und Karten werden ohne Tiefe gezeigt.</translation>
+    </message>
+</context>
+</TS>

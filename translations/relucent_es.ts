@@ -1,0 +1,3002 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="es">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>Acerca de Relucent</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>Versión %1, con estas bibliotecas: %2.</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 min</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 h %2 min</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>Al equipo no le queda memoria.</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>Cierre otros programas o elija menos píxeles.</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>Relucent ha cometido un error.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>Lo guardado está a salvo. Copie los detalles para quien se encarga del programa e inténtelo de nuevo.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>Lo guardado está a salvo. Inténtelo de nuevo.</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>La pantalla del proyector está desconectada</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>Todas las fotografías están a salvo. Vuelva a conectarla: la medición sigue por sí sola.</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>%1 fotogramas/s, %2 ms por fotograma, %3 de %4 con retraso</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>compensado, %1 pasos, %2&#xa0;% fuera de alcance</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>sin compensar</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>congelado</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>carta de prueba: %1</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>Sin medir</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>Sigue: Adquisición</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>Listo para reproducir</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>Vista previa desactualizada</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Medido</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>Este equipo</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4 Hz</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>No hay otra pantalla: los patrones cubren esta ventana mientras se muestran. Conecte el proyector y extienda el escritorio a las dos pantallas para separarlos.</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>Esta es la pantalla en la que trabaja. Elija la del proyector.</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algoritmo 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Componiendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>Calibrando</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Comprobando la suma de colores: {}</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Agrupando el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Clústeres de tamaño limitado</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Comparando inversas de clústeres: {}</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Comparando los métodos</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Comparando los métodos: {}</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>Compensando</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>Decodificando</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Estimando respuesta y colores</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Estimando el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>Evaluando</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Determinando el desenfoque</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Determinando la exposición</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Ajustando la dispersión de la luz</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>Formando parches</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitando el tamaño de clústeres</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Invirtiendo los clústeres</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Invirtiendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Invirtiendo: {}</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Uniendo clústeres</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linealizando</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Buscando sombras</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Buscando lo que no se puede corregir</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Midiendo las curvas de brillo: {}</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Midiendo la cámara</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>Evaluando la luz</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Buscando la imagen del proyector</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Midiendo la latencia</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Midiendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Midiendo: {}</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Fotografiando los patrones de prueba</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Fotografiando las proyecciones</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Prediciendo los patrones reservados</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Preparando las pruebas de rendimiento</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Preparando los dispositivos</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Preparando el motor</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Preparando el lugar</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Leyendo la calibración</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Leyendo los patrones</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Leyendo las fotografías</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Leyendo las imágenes</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>Leyendo: {}</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Escalando a la imagen de luz plena</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Separando luz directa e indirecta</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>Aplicando nitidez</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>Resolviendo</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Cronometrando el motor</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Ventanas</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>Escribiendo</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Escribiendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>Escribiendo los resultados</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>negro y luz plena</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>nivel {} de {}: {} patrones</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>transporte de luz</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>midiendo de nuevo {} píxeles marcados</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>proyector {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>patrones de prueba</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>proyector</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>trazando la luz del lugar simulado</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>Mostrar todo</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>Pantalla completa (F11)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Guardar</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>Imagen tal como se ve</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Guardar la imagen</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Imágenes (*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>Valores</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>Guardar los valores</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>El escritorio escala esta pantalla con un factor de %1, lo que emborrona cada píxel. Ponga su escala al 100&#xa0;%.</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>Se está midiendo un lugar</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>En pausa, %1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Midiendo, %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>%n patrón, %1</numerusform>
+            <numerusform>%n patrones, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Medido</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Desactualizado</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Detenido por un fallo</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>%n fotografía guardada</numerusform>
+            <numerusform>%n fotografías guardadas</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>Esperando sus indicaciones. No se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>Terminando con lo medido.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>Cada fotografía se guarda. Umbral se abre al tomar la última.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Los dispositivos están en uso en %1.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Medido en %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirme que la sala está despejada.</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>Deje la sala a oscuras y sin movimiento y empiece.</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>Mostrar umbral</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Reanudar</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>Empezar a medir</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>Detener y guardar</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pausar</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>Esta medición corresponde a ajustes anteriores</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>Sigue sirviendo y se conserva hasta que esté la nueva.</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Medir de nuevo</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>La última sesión terminó antes de tiempo</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n fotografía está a salvo. Al reanudar, el resultado es el mismo que si no hubiera pasado nada.</numerusform>
+            <numerusform>%n fotografías están a salvo. Al reanudar, el resultado es el mismo que si no hubiera pasado nada.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>No se ha cambiado nada.</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>Detalle</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Colores</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Abriendo los dispositivos</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>Leyendo la respuesta</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Midiendo el transporte de luz</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>La fotografía tomada (%n) está en el disco. La que está en curso no se cuenta.</numerusform>
+            <numerusform>Las %n fotografías están en el disco. La que está en curso no se cuenta.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>Adquisición</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>Mida cómo ilumina cada píxel del proyector cada píxel de la cámara. Deje la sala a oscuras y sin movimiento.</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>Enviado al proyector</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Visto por la cámara</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Patrón que muestra el proyector</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Última fotografía</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>Aparece al empezar la medición. Antes no se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>Nivel de detalle</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>Rápido</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>un primer vistazo; omite rebotes débiles</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Habitual</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>sirve para casi todo</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>Fino</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>vidrio, brillo, rincones profundos</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>Rojo, verde, azul</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>Solo blanco</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>Solo blanco es tres veces más rápido, con colores que se desvían un pequeño porcentaje.</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>Fotografías por segundo</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>Tomadas en esta sesión</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>Patrones restantes</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>Disco aún necesario</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>Vigilancia</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>Luz y vista vigiladas</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>Cada 40 fotografías se comparan con el inicio la luz de la sala, la lámpara y la posición de la cámara. Si algo se ha movido, la medición se pone en pausa y pregunta.</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>En pausa</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Quedan aprox. %1</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Medición</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>unos %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>Progreso de la medición</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Atrás</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>%1 × %2 píxeles, %3 bits, exposiciones de %4 a %5</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>No se puede usar: %1</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>Elegir</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>Elegir %1</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Cámaras</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>Elija la que apunta a la superficie.</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Buscar de nuevo</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Buscando cámaras</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Ninguna cámara responde. Revise su cable y su alimentación.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>No se ha cambiado nada.</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>Comprobando</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>Comprobada: %1</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>Elija la cámara que apunta a la superficie.</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>La cámara está en uso en %1.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Abriendo los dispositivos</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>El %1 está demasiado claro en toda exposición.</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>Mire primero por la cámara.</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>Siguiente: patrones de prueba para la respuesta del proyector</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Medir respuesta</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pausar</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>Comprobar de nuevo</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>Elegir otra cámara</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>Área de enfoque</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Comprobando proyector y cámara</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Determinando las exposiciones</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Mirando por la cámara</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>En este paso no se mide nada, así que no se pierde nada.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>Encuadre la superficie, enfoque y deje que las exposiciones cubran sus partes más claras y más oscuras.</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>Enfoque, %1 del mejor</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Vista de cámara</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>Lo que ve la cámara ahora</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>No se está mirando por la cámara.</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>exposición %1. Haga clic donde deba evaluarse el enfoque.</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>Luz en esta exposición: rojo, verde, azul</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Señal</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Enfoque</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>Gire el objetivo hasta que la barra quede en la marca: lo mejor hasta ahora.</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Exposiciones</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Comprobaciones</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>Señal, parte del máximo</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Píxeles</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>Buscando la luz del proyector</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>La cámara ve el proyector</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>Blanco y negro difieren como deben.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>Todo menos el %1 de la vista.</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>Partes claras cubiertas</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>El %1 está demasiado claro en toda exposición</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>Cierre un poco el diafragma o tape las lámparas de la vista.</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>Partes oscuras cubiertas</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>El %1 está demasiado oscuro en toda exposición</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>Quizá el proyector no llega ahí. Donde debería llegar, abra el diafragma.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Lo medido está a salvo.</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>%1 clústeres</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Desactualizado</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>Agrupando de nuevo</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>Agrupando</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Leyendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>%1 clústeres, mediana de %2 píxeles de proyector</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>Previsualizar</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>Los clústeres guardados corresponden a un umbral anterior</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>Lo que ve aquí está agrupado de nuevo. Al continuar se guarda.</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>Clústeres</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>Divida el lugar en pequeños grupos de píxeles que se resuelven por separado, con rapidez suficiente para vídeo.</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>Mapa de clústeres</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>clic en un píxel</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>Mapa de error</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>Plano</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>Relieve</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>Tamaños de clúster</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>Píxeles de proyector en el clúster</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Clústeres</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1, %2: en ningún clúster</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1, %2: %3 píxeles de proyector, error %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>Mapa de clústeres, %1 clústeres, el mayor %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>RMS rel.</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>Mapa de error, mediana %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>mediana %1, 95&#xa0;% bajo %2</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>límite %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>%1 clústeres, mediana %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Distancia</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>pequeños, nítidos</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>grandes, rápidos</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>Parte de lo más brillante</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>más detalle</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>más velocidad</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>Clúster máximo</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>rápido</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>exacto</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Resultado</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>Cortado por límite</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>Luz dentro de clústeres</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>Error mediano</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>Un error del 70 al 80&#xa0;% es normal aquí.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>La agrupación descarta a propósito el desenfoque del objetivo. Busque manchas que destaquen de su entorno.</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>%n incógnita</numerusform>
+            <numerusform>%n incógnitas</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>%1 de la luz</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>Sin el límite, un solo clúster cubriría el %1 de la imagen.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>La superficie está desenfocada entre píxeles vecinos y los grupos se unen. El límite los mantiene separados.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>Esquina superior izquierda, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>Esquina superior derecha, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>Esquina inferior derecha, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>Esquina inferior izquierda, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>Un dispositivo ha dejado de responder</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>El disco no hizo lo que se le pidió</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>La memoria está llena</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>No se puede leer un archivo</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>Esto no se puede hacer tal como está</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>El cálculo ha fallado</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Qué ha pasado</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>Qué está a salvo</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Qué hacer</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>Copiar detalles</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>El proyector muestra patrones que cambian unas %1 veces por segundo.</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>El proyector muestra patrones que cambian tan rápido como permiten los dispositivos, quizá más de 3 veces por segundo.</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>La sala está despejada</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>Luz intermitente</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>La sala está despejada y todos los presentes lo saben</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>La luz intermitente puede causar crisis epilépticas. Despeje la sala y tape la entrada.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>Ayuda</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>Buscar en la guía</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>Páginas de la guía</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>La página</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>Ninguna página contiene esas palabras.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4 Hz</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>¿Líneas nítidas? Entonces esta es la resolución nativa del proyector.</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Pantalla %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>Las fotografías de este paso siguen en la carpeta.</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Midiendo, %1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>Aditividad: %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Medido</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Desactualizado</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Detenido por un fallo</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Los dispositivos están en uso en %1.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>Los colores no suman. Si continúa, constará en el informe.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Medido en %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirme que la sala está despejada.</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>Unos %1 patrones de prueba</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>Preparar adquisición</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Continuar igualmente</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Medir respuesta</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Detener</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Medir de nuevo</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>Estas curvas corresponden a ajustes anteriores</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>Siguen sirviendo y se conservan hasta medir las nuevas.</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>Niveles</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>No se ha cambiado nada.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Abriendo los dispositivos</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Midiendo la respuesta</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Reintentar</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>Todas las fotografías tomadas están en el disco. Al reintentar se sigue desde ahí.</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>Linealización</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>Mida cuánta luz da en realidad cada nivel de los tres colores del proyector.</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>Rojo</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>Verde</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>Azul</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>Enviado al proyector</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Visto por la cámara</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Patrón que muestra el proyector</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Última fotografía</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>Aparece al empezar la medición.</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>%1, fotografía %2</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>Respuesta del proyector</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>Nivel enviado al proyector</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>Luz, % del máximo</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>Luz de cada nivel, tres colores</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>según se mide, en orden aleatorio</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>%n nivel por color, orden aleatorio, sin deriva</numerusform>
+            <numerusform>%n niveles por color, orden aleatorio, sin deriva</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>aún sin medir</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Resultado</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Exposiciones</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>Elegidas para este lugar</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>Medir con</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>Niveles por color</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Medición</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>Aún sin medir</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>Si los colores suman, si la cámara es lineal y si cada nivel es más claro que el anterior se sabrá cuando estén medidos todos los niveles.</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>Los colores suman</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>Rojo, verde y azul juntos dan el blanco con un margen del %1.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>Los colores no suman</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>El blanco difiere de sus colores en un %1. Desactive «brillante» o «dinámico» en el menú del proyector y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>La cámara es lineal</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>La curva de la cámara se conoce</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>Al duplicar la exposición se duplica la señal.</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>Sus fotografías se convierten de nuevo a luz lineal.</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>Las curvas siempre suben</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>Ningún nivel es más oscuro que el anterior.</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Hallado al medir</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>Atenuar imágenes</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>Imágenes atenuadas</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Ajustes</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Ayuda</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>cámara %1
+proyector %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>transporte</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>proyector x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>línea proyector</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>cámara x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>línea cámara</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>%1 (horiz.), %2 (vert.)</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>Pantalla del proyector</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>Esta pantalla</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1: ΔE medida %2, prevista %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>Aún sin fotografiar</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>Una fotografía muestra si la superficie se ve según lo previsto.</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Corregido</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>Original</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>El %1 de la imagen es alcanzable.</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>La superficie se ve según lo previsto</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>La cámara o el proyector pueden haberse movido.</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>Error de los patrones de prueba: %1, al medir %2. Ha cambiado el %3 de la vista.</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>La medición sigue siendo válida</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>Algo ha cambiado. Mida de nuevo el transporte de luz.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>Casi nada coincide. Apunte, enfoque y mida todo de nuevo.</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Verificación</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>Tomar fotografía de verificación</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Ctrl+Mayús+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>Comprobar deriva</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>Fotografía de nuevo los patrones de prueba de la medición, unos diez.</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>Entrega</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>Guardar informe</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>Iniciar el show con este equipo</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>Instalado. El show empieza en el próximo inicio de sesión, sin cámara ni asistente.</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>Instalado. Instálelo de nuevo y ya no se iniciará por sí solo.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>Una vez instalado, el show funciona sin vigilancia, sin cámara ni asistente.</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>El show no se inicia por sí solo.</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>Lista de reproducción</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>Esta pantalla no tiene los mismos píxeles que el proyector medido.</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>La imagen se muestra en su centro, píxel por píxel.</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>Imágenes fijas: %1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>Los vídeos y los fundidos usan ventanas y pasos, que son lo bastante rápidos.</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>Vuelva a crear la lista.</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Negro</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Congelado</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>Reproduciendo</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>Añada una imagen o un vídeo a la lista.</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>Elija la pantalla del proyector.</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>Reproduciendo. Mantenga A para comparar.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>Tome una fotografía de verificación o instale sin prueba.</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>Solo hay una pantalla. La salida la cubrirá; Esc cierra la salida.</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>No se proyecta nada hasta que abra la salida.</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>Instalar show</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>Instalar sin prueba</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Abrir salida</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Reproducir</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>Congelar</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>Quitar negro</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>Cerrar salida</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>Añadir a la lista</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>Quitar de la lista</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>Orden de la lista</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>Repetir</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>Fundido</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>La calibración está como estaba.</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>Salida</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>Reproduzca contenido corregido, demuestre con una fotografía que funciona y entregue el lugar.</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>Reproducción</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>fotogramas/s</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>por fotograma</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>con retraso</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>Segundos</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>Tiempo por fotograma, ms</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>Tiempos por fotograma del último minuto</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>cerrada</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>en %1</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>imagen fija, en %1</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>Por fotograma</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>Ahora en el proyector</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>Lo que muestra el proyector</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>Mantenga A para ver el original, Espacio congela, B pone en negro.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>La salida está cerrada. No se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>Fotografía de la superficie</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>Lo deseado a la izquierda del divisor, la fotografía a la derecha</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>No se ha tomado ninguna fotografía de verificación.</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>Fotografía frente a lo deseado</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>diferencia de color</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>Diferencia de color entre la fotografía y lo deseado</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>Una fotografía de verificación muestra aquí lo que aún se nota.</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>%1 fuera de alcance</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>imagen fija, %1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 fps, %2 ms, %3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>tomada: %1</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>Deseado</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>Fotografía</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>Supr quita un elemento, Ctrl+Arriba y Ctrl+Abajo lo mueven. Se pueden soltar archivos aquí.</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>%1, en reproducción</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Añadir</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>Añadir archivos a la lista</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>Subir</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>Bajar</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>Fundido, décimas de segundo</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>Añadir imágenes o vídeos</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>Omitido: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Preparando el motor</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>Abra la salida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>Relucent está proyectando</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Abriendo los dispositivos</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Tomando la fotografía de verificación</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Comprobando la deriva</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Escribiendo el informe</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>Esc para volver</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>Sin corrección</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>El brillo de cada píxel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Cada píxel por separado</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Cada píxel, con nitidez</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Clústeres</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Ventanas</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Ventanas y pasos</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Lo mejor posible, imágenes fijas</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Imagen de demostración</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>Contenido</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>Cambiar</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>Entera</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>Llenar</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>Estirar</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>Colocar automáticamente</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>En el mayor rectángulo sin girar que sea alcanzable</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luz</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>Puede quedar oscuro</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>Parte del contenido que puede quedar demasiado oscura, en porcentaje</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>Más a la derecha la imagen gana brillo y una parte mayor queda oscura.</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>Elevación de negros</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>Elevación de negros, en porcentaje</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Alcance</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>Alcanzable</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>Demasiado oscuro</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>Nunca bastante negro</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Error de color</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>Parte de la imagen no recibe luz de este proyector.</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>Un segundo proyector podría cubrirla.</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>Elegir una imagen</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>Imágenes (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Ajuste</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Brillo</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Lo medido está a salvo.</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Imagen</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>Se mantiene la imagen anterior.</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Leyendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Invirtiendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Preparando la vista previa</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>Las esquinas se cruzan. Sepárelas arrastrando.</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>Esquinas</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>Posición automática</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>Preparando</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>%1 alcanzable</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Desactualizado</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>La vista previa no está preparada.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Los dispositivos están en uso en %1.</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>Calculando la previsión</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>Previsto a partir de la medición. Aún no se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Abrir salida</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Vista previa</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>Coloque el contenido en la vista de cámara y vea lo que verá el público antes de proyectarlo.</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>Vista del público</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>previsto a partir de la medición</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>Luz alcanzable</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>Diferencia</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>Lo que verá el público, sin corregir a la izquierda del divisor y corregido a la derecha</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>La luz más intensa alcanzable; rayada donde es insuficiente</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>Diferencia de color entre lo deseado y lo previsto</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>Métodos</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>previsto para este contenido; clic en uno para usarlo</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>Comparación de métodos</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Método</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>Tiempo/imagen</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>Notas</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>ignora rebotes</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>recomendado</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>límite de este lugar</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Sin corregir</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>Corregido, previsto</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>del blanco</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>Ajustes</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Aspecto</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Oscuro</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luz</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>Tema. El oscuro es para la sala a oscuras.</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>Atenuar imágenes: el portátil ilumina la sala</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>Idioma del sistema</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Idioma</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Medición</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>Lo más rápido posible, con consentimiento</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>Como máximo %n cambio por segundo</numerusform>
+            <numerusform>Como máximo %n cambios por segundo</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>Luz intermitente del proyector</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>Más de tres cambios por segundo pueden causar crisis epilépticas. Medir más despacio no requiere consentimiento.</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>Sonido al terminar una medición</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>Nuevos lugares</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>Carpeta para nuevos lugares</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Elegir una carpeta</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Carpeta</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>Hay un show en reproducción.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>Proyector</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>sin elegir</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 libres</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>simulado</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>por script</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1, en uso</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>Guardado: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>bloqueado</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>hecho</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>desactualizado</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>fallido</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>midiendo</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>actual</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>pendiente</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>Paso %1, %2, %3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>Ningún lugar abierto</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>%1 de luz conservada</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Desactualizado</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Leyendo el transporte de luz</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>Por debajo del 95&#xa0;% de la luz se pierden rebotes.</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>Siguiente: grupos de píxeles que se resuelven por separado</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>Agrupar en clústeres</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>El umbral se eligió para una medición anterior</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>Revíselo y continúe.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Lo medido está a salvo.</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>Umbral</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>Elija la luz más débil que vale la pena conservar. Menos luz es más rápido y ocupa menos; con demasiado poca se pierden los rebotes.</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Vista de cámara</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>La superficie con luz plena</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>Píxel %1, %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>Píxeles del proyector que iluminan el píxel de cámara elegido</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>Elija un píxel en la vista de cámara.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proyector</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>transporte</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>Matriz de transporte</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>clic en un elemento</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>Matriz de transporte de luz, píxeles de cámara en vertical, de proyector en horizontal</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>Valor de transporte, señal de cámara por segundo</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>Cuánta luz fluye por cada conexión</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>arrastre el corte o use las flechas</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>Conexiones</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Corte</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>Corte en %1, conserva el %2</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>Se conserva todo</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>Descartar luz por debajo de</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>Un valor</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>Parte de la fila</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>Parte de la conexión más intensa de la fila, en décimas de porcentaje</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>Lo que queda</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luz</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>Bloques guardados</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Memoria</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>Lo que se descarta se repone en proporción, para que la superficie conserve su brillo.</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>Píxel elegido</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>Iluminado por</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>El más intenso</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>De su entorno</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>Luz de otros puntos</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>Por debajo del %1 de la conexión más intensa de la fila</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>Usar el sugerido, %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 de %2</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>Píxel elegido %1, %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>%n píxel</numerusform>
+            <numerusform>%n píxeles</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>Desconectada. Conéctela o elija otra.</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>%1, %2 por %3, elegida</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>%1, %2 por %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>Pantallas</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>Elija la que ilumina la superficie. Sus píxeles son los del proyector.</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>Identificar pantallas</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>El proyector comparte su pantalla</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>Dispositivos reales</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proyector</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>La cámara se elige en el paso siguiente.</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>Rincón brillante</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>La luz rebota entre dos cartulinas</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>Busto ante muro de ladrillo</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>Textura, sombra y luz entre superficies</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>Varias profundidades</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>Algunas superficies están desenfocadas</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>Cúpula</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>Cada parte ilumina todas las demás</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>Copa de vino</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>La luz se refracta a la ida y a la vuelta</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>Pared pintada</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>Plana, con rombos; la más fácil</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>%1, primer vistazo</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>%1, rápido</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>%1, habitual</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>%1, fino</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>Lugar</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>Ensayar en un lugar simulado</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>Nuevo lugar por script</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>Nuevo lugar</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>Los mismos pasos, con proyector y cámara simulados. No se proyecta nada en la sala.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>Indique qué pantalla ilumina, qué programas muestran y fotografían, y dónde se guarda el trabajo.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>Indique qué pantalla ilumina la superficie y dónde se guarda el trabajo.</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>Empiece aquí. Cada lugar conserva sus propias mediciones y ajustes.</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>En preparación</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>simulado, %1</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>por script, %1</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>%1 está abierto</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>Intro abre la opción resaltada</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>Unos %1 patrones, %2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>Comprobar cámara</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>Iniciar ensayo</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>No se ha cambiado nada en esa carpeta.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Dé un nombre al lugar.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Un nombre no puede contener una barra (/).</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Ya hay una carpeta con ese nombre. Elija otro.</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>Elija la pantalla que ilumina la superficie.</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>Libere %1 o elija otra carpeta.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirme que la sala está despejada.</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>Aún no se ha medido nada.</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>Programas</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>Cualquier proyector y cámara que se manejen con un comando</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>Muestra el archivo {image} y termina cuando ya está proyectado</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>Fotografía {exposure} segundos en el archivo {output}: EXR flotante, PNG o TIFF de 16 bits</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>Píxeles del proyector</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Ancho</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Alto</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>Ensayo. Abierto: %1</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>Abierto: %1</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Abrir</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>Abrir %1</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>Abrir un lugar</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>Ensayar</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>Aprenda cada paso en un lugar simulado. No hacen falta dispositivos.</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>Continúe donde lo dejó o cambie el contenido.</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>Mida una superficie con un proyector y una cámara en este equipo.</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>Sus propios programas manejan el proyector y la cámara.</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>Recientes</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>Aún no hay lugares</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>Aquí aparecen los lugares que mida, los más nuevos primero.</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>Un primer ensayo dura unos minutos.</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>Este lugar</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nombre</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>Nombre del lugar</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Carpeta</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>Carpeta que contiene el lugar</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Elegir una carpeta</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>Previsto</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Patrones</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>Libre allí</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>unos %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>Dispositivos simulados</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>Píxeles del proyector simulado</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>Más píxeles muestran más detalle y tardan más. La primera vez se traza la luz del lugar; después se reutiliza.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>Esta vista necesita OpenGL 3.2 y este equipo dibuja sin él. Todo lo demás funciona: imágenes y mapas se muestran sin profundidad.</translation>
+    </message>
+</context>
+</TS>

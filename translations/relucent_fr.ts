@@ -1,0 +1,3002 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="fr">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>À propos de Relucent</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>Version %1, avec ces bibliothèques&#x202f;: %2.</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1&#x202f;s</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1&#x202f;min</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1&#x202f;h %2&#x202f;min</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>L’ordinateur n’a plus de mémoire.</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>Fermez d’autres programmes ou choisissez moins de pixels.</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>Relucent a commis une erreur.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>Ce qui est enregistré est en sécurité. Copiez les détails pour la personne qui s’occupe du programme, puis réessayez.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>Ce qui est enregistré est en sécurité. Réessayez.</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>L’écran du projecteur est débranché</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>Toutes les photos sont en sécurité. Rebranchez-le&#x202f;: la mesure reprend d’elle-même.</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>%1 images/s, %2&#x202f;ms par image, %3 sur %4 en retard</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>corrigé, %1 itérations, %2&#x202f;% hors d’atteinte</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>non corrigé</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>figé</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>mire&#x202f;: %1</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>Rien n’est encore mesuré</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>Acquisition à faire</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>Prêt à diffuser</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>Aperçu obsolète</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Mesuré</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>Cet ordinateur</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4&#x202f;Hz</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>Il n’y a pas d’autre écran&#x202f;: les motifs couvrent cette fenêtre pendant leur affichage. Pour séparer les deux, branchez le projecteur et réglez le bureau sur écrans étendus.</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>C’est l’écran sur lequel vous travaillez. Choisissez celui du projecteur.</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algorithme 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Assemblage du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>Calibration</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Vérification de l’additivité des couleurs&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Regroupement du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Groupes de taille limitée</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Comparaison des inverses des groupes&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Comparaison des méthodes</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Comparaison des méthodes&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>Correction</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>Décodage</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Estimation de la réponse et des couleurs</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Estimation du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>Évaluation</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Recherche du flou</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Recherche du temps de pose</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Ajustement de l’étalement de la lumière</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>Formation des zones</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitation de la taille des groupes</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Inversion des groupes</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversion du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Inversion&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Réunion des groupes</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linéarisation</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Recherche d’ombres</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Recherche de ce qui ne peut être corrigé</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Mesure des courbes de luminosité&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Mesure de la caméra</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>Évaluation de la lumière</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Recherche de l’image du projecteur</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Mesure de la latence</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Mesure du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Mesure&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Photographie des motifs d’essai</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Photographie des projections</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Prévision des motifs réservés</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Préparation des tests de vitesse</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Préparation des appareils</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Préparation du moteur</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Préparation du lieu</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Lecture de la calibration</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Lecture des motifs</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Lecture des photos</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Lecture des images</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>Lecture&#x202f;: {}</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Mise à l’échelle sur la pleine lumière</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Séparation des lumières directe et indirecte</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>Accentuation</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>Résolution</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Chronométrage du moteur</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Fenêtres</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>Écriture</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Écriture du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>Écriture des résultats</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>noir et pleine lumière</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>niveau {} sur {}&#x202f;: {} motifs</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>transport lumineux</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>nouvelle mesure de {} pixels signalés</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>projecteur {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>motifs d’essai</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>projecteur</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>tracé de la lumière du lieu simulé</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>Tout afficher</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>Plein écran (F11)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Enregistrer</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>Image telle qu’affichée</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Enregistrer l’image</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Images (*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>Valeurs</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>Enregistrer les valeurs</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>Le bureau affiche cet écran à l’échelle %1, ce qui rend chaque pixel flou. Réglez son échelle à 100&#x202f;%.</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>La mesure d’un lieu est en cours</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>En pause, %1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Mesure, %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>%n motif, %1</numerusform>
+            <numerusform>%n motifs, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Mesuré</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Obsolète</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Arrêt sur erreur</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>%n photo gardée</numerusform>
+            <numerusform>%n photos gardées</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>En attente de votre réponse. Rien n’est projeté.</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>Arrêt en gardant ce qui est mesuré.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>Chaque photo est enregistrée. «&#x202f;Seuil&#x202f;» s’ouvre après la dernière.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Mesuré en %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirmez que la salle est évacuée.</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>Gardez la salle sombre et sans mouvement, puis démarrez.</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>Voir le seuil</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Reprendre</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>Démarrer la mesure</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>Arrêter et garder</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pause</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>Cette mesure date d’anciens réglages</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>Elle reste utilisable jusqu’à ce que la nouvelle soit prête.</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Remesurer</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>La dernière session s’est arrêtée avant la fin</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n photo est en sécurité. La reprise donne le même résultat que si rien ne s’était passé.</numerusform>
+            <numerusform>%n photos sont en sécurité. La reprise donne le même résultat que si rien ne s’était passé.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Rien n’a été modifié.</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>Finesse</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Couleurs</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Ouverture des appareils</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>Lecture de la réponse</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Mesure du transport lumineux</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>%n photo est sur le disque. Celle en cours n’est pas comptée.</numerusform>
+            <numerusform>Les %n photos sont sur le disque. Celle en cours n’est pas comptée.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>Acquisition</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>Mesurez comment chaque pixel du projecteur éclaire chaque pixel de la caméra. Gardez la salle sombre et sans mouvement.</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>Envoyé au projecteur</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Vu par la caméra</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Motif affiché par le projecteur</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Dernière photo</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>Apparaît au début de la mesure. Rien n’est projeté avant que vous démarriez.</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>Finesse</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>Rapide</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>premier essai&#x202f;; manque les rebonds faibles</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Normal</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>pour la plupart des surfaces</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>Fin</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>verre, brillant, angles profonds</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>Rouge, vert, bleu</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>Blanc seul</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>Le blanc seul est trois fois plus rapide, mais fausse les couleurs de quelques pour cent.</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>Photos par seconde</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>Prises dans cette session</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>Motifs restants</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>Disque encore requis</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>Surveillance</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>Lumière et vue sont surveillées</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>Toutes les 40 photos, la lumière de la salle, la lampe et la position de la caméra sont comparées au début. Si quelque chose a bougé, la mesure se met en pause et vous interroge.</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>En pause</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Encore %1 environ</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Mesure</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>environ %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>Progression de la mesure</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Retour</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>%1 × %2 pixels, %3 bits, poses de %4 à %5</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>Inutilisable&#x202f;: %1</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>Choisir</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>Choisir %1</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Caméras</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>Choisissez celle qui vise la surface.</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Rechercher</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Recherche de caméras</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Aucune caméra ne répond. Vérifiez son câble et son alimentation.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Rien n’a été modifié.</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>Vérification</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>Vérifiée à %1</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>Choisissez la caméra qui vise la surface.</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>Caméra utilisée à l’étape «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Ouverture des appareils</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>%1 de la vue est trop claire à toutes les poses.</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>Affichez d’abord la vue caméra.</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>Ensuite&#x202f;: motifs d’essai pour la réponse du projecteur</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Mesurer la réponse</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pause</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>Revérifier</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>Choisir une autre caméra</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>Zone de netteté</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Vérification du projecteur et de la caméra</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Recherche des temps de pose</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Vue caméra en direct</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>Rien n’est mesuré à cette étape, donc rien n’est perdu.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Caméra</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>Cadrez la surface, faites la mise au point et vérifiez que les poses couvrent ses parties les plus claires et les plus sombres.</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>Netteté, %1 du maximum</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Vue caméra</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>Ce que voit la caméra</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>La vue caméra est arrêtée.</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>pose %1. Cliquez où juger la netteté.</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>Lumière à cette pose&#x202f;: rouge, vert, bleu</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Netteté</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>Tournez la bague jusqu’à ce que la barre reste au repère&#x202f;: le maximum atteint.</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Temps de pose</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Vérifications</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>Signal, part du maximum</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixels</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>Recherche de la lumière du projecteur</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>La caméra voit le projecteur</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>Blanc et noir diffèrent comme il se doit.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>Toute la vue, sauf %1.</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>Parties claires couvertes</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>%1 de la vue est trop claire à toutes les poses</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>Fermez un peu le diaphragme ou masquez les lampes dans la vue.</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>Parties sombres couvertes</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>%1 de la vue est trop sombre à toutes les poses</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>Le projecteur n’y arrive peut-être pas. Là où il le devrait, ouvrez le diaphragme.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Ce qui est mesuré est en sécurité.</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>%1 groupes</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Obsolète</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>Nouveau regroupement</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>Regroupement</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lecture du transport lumineux</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>%1 groupes, médiane %2 pixels du projecteur</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>Aperçu du contenu</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>Les groupes gardés datent d’un ancien seuil</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>Ce que vous voyez ici est un nouveau regroupement. Continuer le garde.</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>Groupes</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>Découpez le lieu en petits groupes de pixels résolus séparément, assez vite pour la vidéo.</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>Carte des groupes</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>cliquez un pixel</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>Erreur</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>Plat</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>Relief</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>Taille des groupes</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>Pixels du projecteur dans le groupe</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Groupes</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1, %2&#x202f;: dans aucun groupe</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1, %2&#x202f;: %3 pixels du projecteur, erreur %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>Carte des groupes, %1 groupes, le plus grand&#x202f;: %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>RMS rel.</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>Carte d’erreur, médiane %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>médiane %1, 95&#x202f;% sous %2</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>plafond %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>%1 groupes, médiane %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Distance</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>petits, nets</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>grands, rapides</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>Part du plus lumineux</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>plus de détails</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>plus rapide</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>Plus grand groupe</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>rapide</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>exact</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Résultat</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>Coupé par le plafond</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>Lumière dans les groupes</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>Erreur médiane</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>Une erreur de 70 à 80&#x202f;% est normale ici.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>Le regroupement écarte exprès le flou de l’objectif. Cherchez les zones qui se détachent de leur entourage.</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1&#x202f;px</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>%n inconnue</numerusform>
+            <numerusform>%n inconnues</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>%1 de la lumière</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>Sans le plafond, un seul groupe couvrirait %1 de l’image.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>La surface est floue entre pixels voisins, et les groupes se rejoignent. Le plafond les sépare.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>Coin supérieur gauche, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>Coin supérieur droit, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>Coin inférieur droit, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>Coin inférieur gauche, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>Un appareil ne répond plus</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>Le disque n’a pas fait ce qui était demandé</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>La mémoire est pleine</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>Un fichier est illisible</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>C’est impossible en l’état</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>Le calcul a échoué</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Ce qui s’est passé</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>Ce qui est en sécurité</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Que faire</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>Copier les détails</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>Le projecteur affiche des motifs qui changent environ %1 fois par seconde.</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>Le projecteur affiche des motifs qui changent aussi vite que les appareils le peuvent, peut-être plus de 3 fois par seconde.</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>La salle est évacuée</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>Lumière clignotante</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>La salle est évacuée et chacun ici est prévenu</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>La lumière clignotante peut provoquer des crises d’épilepsie. Évacuez la salle et masquez l’entrée.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>Aide</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>Chercher dans le guide</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>Pages du guide</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>La page</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>Aucune page ne contient ces mots.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4&#x202f;Hz</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>Lignes nettes&#x202f;? Alors c’est la définition native du projecteur.</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Écran %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>Les photos de cette étape sont encore dans le dossier.</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Mesure, %1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>additivité %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Mesuré</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Obsolète</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Arrêt sur erreur</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>Les couleurs ne s’additionnent pas. Si vous continuez, le rapport le mentionne.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Mesuré en %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirmez que la salle est évacuée.</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>Environ %1 motifs d’essai</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>Régler l’acquisition</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Continuer ainsi</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Mesurer la réponse</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Arrêter</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Remesurer</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>Ces courbes datent d’anciens réglages</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>Elles restent utilisables jusqu’à la mesure des nouvelles.</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>Niveaux</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Rien n’a été modifié.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Ouverture des appareils</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Mesure de la réponse</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Réessayer</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>Toutes les photos prises sont sur le disque. Réessayer reprend à partir de là.</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>Linéarisation</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>Mesurez la lumière que donne réellement chaque niveau des trois couleurs du projecteur.</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>Rouge</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>Vert</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>Bleu</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>Envoyé au projecteur</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Vu par la caméra</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Motif affiché par le projecteur</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Dernière photo</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>Apparaît au début de la mesure.</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>%1, photo %2</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>Réponse du projecteur</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>Niveau envoyé au projecteur</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>Lumière, % du maximum</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>Lumière de chaque niveau, trois couleurs</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>pendant la mesure, ordre aléatoire</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>%n niveau par couleur, ordre aléatoire, dérive retirée</numerusform>
+            <numerusform>%n niveaux par couleur, ordre aléatoire, dérive retirée</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>pas encore mesuré</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Résultat</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Temps de pose</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>Choisis pour ce lieu</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>Mesurer avec</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>Niveaux par couleur</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Mesure</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>Pas encore mesuré</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>Quand tous les niveaux sont mesurés, vous saurez si les couleurs s’additionnent, si la caméra est linéaire et si chaque niveau est plus clair que le précédent.</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>Les couleurs s’additionnent</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>Rouge, vert et bleu ensemble donnent le blanc à %1 près.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>Les couleurs ne s’additionnent pas</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>Le blanc s’écarte de %1 de ses couleurs. Désactivez «&#x202f;brillant&#x202f;» ou «&#x202f;dynamique&#x202f;» dans le menu du projecteur, puis remesurez.</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>La caméra est linéaire</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>La courbe de la caméra est connue</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>Doubler la pose double le signal.</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>Ses photos sont ramenées à une lumière linéaire.</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>Courbes partout croissantes</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>Aucun niveau n’est plus sombre que le précédent.</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Constaté pendant la mesure</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>Assombrir les images</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>Images assombries</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Réglages</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Aide</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>caméra %1
+projecteur %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>transport</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>projecteur x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>ligne projecteur</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>caméra x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>ligne caméra</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>%1 (horiz.), %2 (vert.)</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>Écran du projecteur</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>Cet écran</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1&#x202f;: ΔE mesuré %2, prévu %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>Pas encore photographié</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>Une photo montre si la surface a l’aspect prévu.</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Corrigé</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>Original</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>%1 de l’image est atteignable.</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>La surface a l’aspect prévu</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>La caméra ou le projecteur a peut-être bougé.</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>Erreur des motifs d’essai&#x202f;: %1 (à la mesure&#x202f;: %2). %3 de la vue a changé.</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>La mesure reste valable</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>Quelque chose a changé. Remesurez le transport lumineux.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>Presque rien ne correspond. Cadrez, faites la mise au point et remesurez tout.</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Contrôle</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>Prendre une photo de contrôle</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Ctrl+Maj+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>Chercher une dérive</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>Photographie à nouveau une dizaine de motifs d’essai de la mesure.</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>Remise</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>Enregistrer le rapport</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>Lancer la diffusion avec l’ordinateur</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>Installée. La diffusion démarre à la prochaine ouverture de session, sans caméra ni assistant.</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>Installée. Réinstallez pour qu’elle ne démarre plus d’elle-même.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>Une fois installée, la diffusion tourne sans surveillance, sans caméra ni assistant.</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>La diffusion ne démarre pas d’elle-même.</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>Liste de lecture</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>Cet écran n’a pas les mêmes pixels que le projecteur mesuré.</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>L’image est placée en son milieu, pixel pour pixel.</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>Images fixes&#x202f;: %1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>Vidéos et fondus enchaînés utilisent «&#x202f;Fenêtres et itérations&#x202f;», assez rapide.</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>Refaites la liste.</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Noir</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Figé</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>Lecture</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>Ajoutez une image ou une vidéo à la liste de lecture.</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>Choisissez l’écran du projecteur.</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>Lecture en cours. Maintenez A pour comparer.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>Prenez une photo de contrôle, ou installez sans contrôle.</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>Il n’y a qu’un écran. La sortie le couvrira&#x202f;; Échap ferme la sortie.</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>Rien n’est projeté avant que vous ouvriez la sortie.</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>Installer la diffusion</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>Installer sans contrôle</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Ouvrir la sortie</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Lire</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>Figer</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>Réafficher</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>Fermer la sortie</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>Ajouter à la liste de lecture</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>Retirer de la liste de lecture</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>Ordre de la liste de lecture</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>Boucle</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>Fondu enchaîné</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>La calibration est inchangée.</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>Sortie</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>Diffusez le contenu corrigé, prouvez le résultat par une photo et remettez le lieu.</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>Lecture</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>images/seconde</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>temps par image</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>en retard</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>Secondes</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>Temps par image, ms</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>Temps par image de la dernière minute</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1&#x202f;ms</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>fermée</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>sur %1</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>image fixe, sur %1</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>Temps par image</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>Projeté maintenant</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>Ce que le projecteur affiche</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>Maintenez A pour l’original, Espace fige, B passe au noir.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>La sortie est fermée. Rien n’est projeté.</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>Photo de la surface</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>L’image voulue à gauche du séparateur, la photo à droite</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>Aucune photo de contrôle n’a été prise.</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>Photo comparée au voulu</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>écart de couleur</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>Écart de couleur entre la photo et l’image voulue</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>Une photo de contrôle montre ici les écarts qui restent visibles.</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>%1 hors d’atteinte</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>image fixe, %1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 images/s, %2&#x202f;ms, %3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>prise à %1</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>Voulu</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>Photo</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>Suppr retire un élément, Ctrl+Haut et Ctrl+Bas le déplacent. Vous pouvez déposer des fichiers ici.</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>%1, en lecture</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Ajouter</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>Ajouter des fichiers à la liste de lecture</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>Monter</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>Descendre</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>Fondu enchaîné, dixièmes de seconde</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>Ajouter des images ou des vidéos</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1&#x202f;s</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>Ignoré&#x202f;: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Préparation du moteur</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>Rouvrez la sortie.</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>Relucent projette</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Ouverture des appareils</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Prise de la photo de contrôle</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Recherche d’une dérive</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Écriture du rapport</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1&#x202f;px</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>Échap&#x202f;: retour</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>Sans correction</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>Luminosité par pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Pixel par pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Pixel par pixel, accentué</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Groupes</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Fenêtres</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Fenêtres et itérations</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Optimum, images fixes</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Image de démonstration</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>Contenu</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>Changer</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>Entière</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>Remplir</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>Étirer</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>Placer automatiquement</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>Dans le plus grand rectangle d’aplomb atteignable</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Lumière</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>Peut rester trop sombre</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>Part du contenu qui peut rester trop sombre, pour cent</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>Vers la droite, l’image est plus claire, mais une plus grande part reste trop sombre.</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>Décollement des noirs</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>Décollement des noirs, pour cent</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Lumière atteignable</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>Atteignable</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>Trop sombre</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>Jamais assez noir</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Écart de couleur</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>Une partie de l’image ne reçoit aucune lumière de ce projecteur.</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>Un second projecteur pourrait la remplir.</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>Choisir une image</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>Images (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Cadrage</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Luminosité</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Ce qui est mesuré est en sécurité.</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Image</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>L’image précédente reste en place.</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lecture du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversion du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Préparation de l’aperçu</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>Les coins se croisent. Écartez-les.</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>Coins</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>Placement automatique</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>Préparation</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>%1 atteignable</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Obsolète</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>L’aperçu n’est pas préparé.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>Prévision</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>Prévu d’après la mesure. Rien n’est encore projeté.</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Ouvrir la sortie</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Aperçu</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>Placez le contenu dans la vue caméra et voyez ce que verra le public avant de projeter.</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>Vue du public</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>prévue d’après la mesure</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>Lumière atteignable</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>Écart</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>Ce que verra le public, non corrigé à gauche du séparateur et corrigé à droite</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>La lumière la plus forte atteignable&#x202f;; hachurée là où elle ne suffit pas</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>Écart de couleur entre l’image voulue et l’image prévue</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>Méthodes</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>prévu pour ce contenu&#x202f;; cliquez pour choisir</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>Comparaison des méthodes</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Méthode</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>Temps par image</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>Remarques</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>ignore les rebonds</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>recommandée</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>limite de ce lieu</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1&#x202f;dB</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1&#x202f;ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1&#x202f;s</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Non corrigé</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>Corrigé, prévu</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>du blanc</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>Réglages</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Apparence</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Sombre</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Clair</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>Thème. Le thème sombre convient à la salle obscure.</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>Assombrir les images&#x202f;: le portable éclaire la salle</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>Comme l’ordinateur</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Langue</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Mesure</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>Aussi vite que les appareils le peuvent, après accord</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>Au plus %n changement par seconde</numerusform>
+            <numerusform>Au plus %n changements par seconde</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>Lumière clignotante du projecteur</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>Plus de trois changements par seconde peuvent provoquer des crises d’épilepsie. Une mesure plus lente ne demande pas d’accord.</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>Un son à la fin d’une mesure</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>Nouveaux lieux</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>Dossier des nouveaux lieux</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Choisir un dossier</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Dossier</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>Une diffusion est en cours.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Caméra</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disque</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>à choisir</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 libres</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>simulation</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>par script</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1, utilisée</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>Enregistré à %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>verrouillée</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>terminée</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>obsolète</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>en échec</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>mesure en cours</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>actuelle</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>à faire</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>Étape %1, %2, %3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>Aucun lieu ouvert</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>%1 de lumière gardée</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Obsolète</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lecture du transport lumineux</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>Sous 95&#x202f;% de la lumière, des rebonds sont perdus.</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>Ensuite&#x202f;: groupes de pixels à résoudre séparément</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>Former les groupes</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>Le seuil a été choisi pour une mesure antérieure</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>Revoyez-le, puis continuez.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Ce qui est mesuré est en sécurité.</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>Seuil</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>Choisissez la plus faible lumière à garder. En garder moins est plus rapide et plus léger&#x202f;; trop peu fait perdre les rebonds.</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Vue caméra</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>La surface en pleine lumière</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>Pixel %1, %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>Pixels du projecteur qui éclairent le pixel caméra choisi</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>Choisissez un pixel dans la vue caméra.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Caméra</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>transport</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>Matrice de transport</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>cliquez un élément</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>Matrice de transport lumineux, pixels caméra en vertical, pixels projecteur en horizontal</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>Valeur de transport, signal caméra par seconde</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>Lumière passant par chaque liaison</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>faites glisser le seuil, ou flèches du clavier</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>Liaisons</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Seuil</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>Seuil à %1, garde %2</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>Tout est gardé</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>Écarter la lumière sous</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>Une valeur</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>Part de la ligne</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>Part de la liaison la plus forte de la ligne, en dixièmes de pour cent</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>Ce qui reste</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Lumière</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>Blocs stockés</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Mémoire</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>Ce qui est écarté est rendu en proportion, pour que la surface garde sa luminosité.</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>Pixel choisi</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>Éclairé par</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>Le plus fort</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>De ses alentours</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>Lumière d’ailleurs</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>Sous %1 de la liaison la plus forte de la ligne</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>Valeur proposée, %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 sur %2</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>Pixel choisi %1, %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>%n pixel</numerusform>
+            <numerusform>%n pixels</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>Débranché. Branchez-le ou choisissez-en un autre.</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>%1, %2 par %3, choisi</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>%1, %2 par %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>Écrans</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>Choisissez celui qui éclaire la surface. Ses pixels sont ceux du projecteur.</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>Identifier les écrans</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>Le projecteur partage votre écran</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>Appareils réels</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>La caméra se choisit à l’étape suivante.</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>Coin brillant</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>La lumière rebondit entre deux cartons</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>Buste devant un mur de briques</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>Texture, ombre et lumière entre les surfaces</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>Plusieurs profondeurs</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>Certaines surfaces sont floues</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>Dôme</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>Chaque partie éclaire toutes les autres</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>Verre à vin</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>La lumière est réfractée à l’aller et au retour</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>Mur peint</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>Plan, à losanges&#x202f;; le plus facile</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>%1, premier essai</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>%1, rapide</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>%1, normal</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>%1, fin</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>Lieu</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>Répéter dans un lieu simulé</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>Nouveau lieu par script</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>Nouveau lieu</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>Les mêmes étapes, avec un projecteur et une caméra simulés. Rien n’est projeté dans la salle.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>Indiquez l’écran qui éclaire, les programmes qui affichent et photographient, et où garder le travail.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>Indiquez l’écran qui éclaire la surface, et où garder le travail.</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>Commencez ici. Chaque lieu garde ses propres mesures et réglages.</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>Préparation</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>simulation, %1</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>par script, %1</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>%1 est ouvert</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>Entrée ouvre le choix en surbrillance</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>Environ %1 motifs, %2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>Vérifier la caméra</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>Lancer la répétition</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>Rien n’a été modifié dans ce dossier.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Donnez un nom au lieu.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Un nom ne peut pas contenir de barre oblique.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Un dossier porte déjà ce nom. Choisissez un autre nom.</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>Choisissez l’écran qui éclaire la surface.</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>Libérez %1 ou choisissez un autre dossier.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirmez que la salle est évacuée.</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>Rien n’est encore mesuré.</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>Programmes</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>Tout projecteur et toute caméra qu’une commande peut piloter</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>Affiche le fichier {image} et rend la main une fois la lumière émise</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>Prend une photo de {exposure} secondes dans le fichier {output}&#x202f;: EXR flottant, PNG ou TIFF 16 bits</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>Pixels du projecteur</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Largeur</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Hauteur</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>Répétition. Ouvert le %1</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>Ouvert le %1</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Ouvrir</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>Ouvrir %1</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>Ouvrir un lieu</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>Répéter</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>Apprenez chaque étape dans un lieu simulé. Aucun appareil requis.</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>Reprenez où vous en étiez, ou changez le contenu.</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>Mesurez une surface avec un projecteur et une caméra branchés à cet ordinateur.</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>Projecteur et caméra sont pilotés par vos propres programmes.</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>Récents</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>Aucun lieu pour l’instant</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>Les lieux que vous mesurez apparaissent ici, les plus récents d’abord.</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>Une première répétition prend quelques minutes.</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>Ce lieu</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>Nom du lieu</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Dossier</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>Dossier qui contient le lieu</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Choisir un dossier</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>À prévoir</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Motifs</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disque</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>Espace libre</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>environ %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>Appareils simulés</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>Pixels du projecteur simulé</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>Plus de pixels montrent des détails plus fins et prennent plus de temps. La première fois, la lumière du lieu est tracée&#x202f;; ensuite, elle est réutilisée.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>Cette vue demande OpenGL 3.2, et cet ordinateur affiche sans lui. Tout le reste fonctionne&#x202f;: images et cartes sont affichées sans relief.</translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,3002 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="it">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>Informazioni su Relucent</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>Versione %1, con queste librerie: %2.</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 min</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 h %2 min</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>Memoria del computer esaurita.</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>Chiudere altri programmi o scegliere meno pixel.</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>Errore interno di Relucent.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>Quanto salvato è al sicuro. Copiare i dettagli per chi si occupa del programma, poi riprovare.</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>Quanto salvato è al sicuro. Riprovare.</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>Lo schermo del proiettore è scollegato</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>Ogni foto è al sicuro. Ricollegarlo: la misura prosegue da sola.</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>%1 fotogrammi al secondo, %2 ms a fotogramma, %3 di %4 in ritardo</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>compensata, %1 passi, %2 % non raggiungibile</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>non compensata</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>congelata</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>carta di test: %1</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>Ancora nessuna misura</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>Segue Acquisizione</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>Pronto per riprodurre</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>Anteprima da aggiornare</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Misurato</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>Questo computer</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4 Hz</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>Non c’è un altro schermo: i pattern coprono questa finestra mentre sono mostrati. Per tenerli separati, collegare il proiettore ed estendere il desktop a più schermi.</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>È lo schermo su cui si lavora. Scegliere quello del proiettore.</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algoritmo 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Composizione del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>Calibrazione</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Controllo dell’additività dei colori: {}</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Raggruppamento del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Cluster di dimensione limitata</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Confronto delle inverse dei cluster: {}</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Confronto dei metodi</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Confronto dei metodi: {}</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>Compensazione</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>Decodifica</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Stima della risposta e dei colori</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Stima del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>Valutazione</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Ricerca della sfocatura</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Ricerca dell’esposizione</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Modello della diffusione della luce</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>Formazione delle zone</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitazione dei cluster</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Inversione dei cluster</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversione del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Inversione: {}</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Unione dei cluster</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linearizzazione</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Ricerca delle ombre</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Ricerca di ciò che non è correggibile</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Misura delle curve di luminosità: {}</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Misura della fotocamera</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>Valutazione della luce</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Ricerca dell’immagine del proiettore</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Misura della latenza</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Misura del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Misura: {}</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Foto dei pattern di test</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Foto delle proiezioni</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Previsione dei pattern di controllo</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Preparazione dei benchmark</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Preparazione dei dispositivi</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Preparazione del motore</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Preparazione del luogo</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Lettura della calibrazione</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Lettura dei pattern</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Lettura delle foto</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Lettura delle immagini</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>Lettura: {}</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Adeguamento all’immagine a piena luce</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Separazione di luce diretta e indiretta</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>Aumento nitidezza</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>Soluzione</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Misura dei tempi del motore</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Finestre</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>Scrittura</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Scrittura per esteso del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>Scrittura dei risultati</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>nero e piena luce</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>livello {} di {}: {} pattern</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>trasporto della luce</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>nuova misura di {} pixel segnalati</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>proiettore {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>pattern di test</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>proiettore</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>tracciamento del luogo simulato</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>Mostra tutto</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>Schermo intero (F11)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Salva</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>Immagine a schermo</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Salva l’immagine</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Immagini (*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>Valori</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>Salva i valori</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>Il desktop ridimensiona questo schermo di %1 volte e sfoca ogni pixel. Impostare la scala al 100 %.</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>Misura di un luogo in corso</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>In pausa, %1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Misura, %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>%n pattern, %1</numerusform>
+            <numerusform>%n pattern, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Misurato</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Da aggiornare</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Interrotto da errore</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>%n foto conservata</numerusform>
+            <numerusform>%n foto conservate</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>In attesa dell’operatore. Nulla viene proiettato.</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>Si conclude con quanto già misurato.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>Ogni foto è salvata. Soglia si apre dopo l’ultima.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>I dispositivi sono in uso nel passo %1.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Misurato in %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confermare che la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>Tenere la sala buia e immobile, poi avviare.</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>Mostra soglia</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Riprendi</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>Avvia misura</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>Ferma e conserva</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pausa</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>Questa misura si riferisce a impostazioni precedenti</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>È ancora utilizzabile e resta finché la nuova non è pronta.</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Misura di nuovo</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>L’ultima sessione si è chiusa prima della fine</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n foto è al sicuro. Riprendendo, il risultato è lo stesso che senza interruzione.</numerusform>
+            <numerusform>%n foto sono al sicuro. Riprendendo, il risultato è lo stesso che senza interruzione.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nulla è stato modificato.</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>Finezza</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Colori</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Apertura dei dispositivi</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>Lettura della risposta</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Misura del trasporto della luce</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>%n foto è sul disco. Quella in corso non è contata.</numerusform>
+            <numerusform>Tutte le %n foto sono sul disco. Quella in corso non è contata.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>Acquisizione</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>Misurare come ogni pixel del proiettore illumina ogni pixel della fotocamera. Tenere la sala buia e immobile.</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>Inviato al proiettore</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Visto dalla fotocamera</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Pattern mostrato dal proiettore</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Ultima foto</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>Compare all’inizio della misura. Nulla viene proiettato prima dell’avvio.</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>Finezza</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>Veloce</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>un primo sguardo; perde i rimbalzi deboli</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Normale</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>adatta a quasi tutte le superfici</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>Fine</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>vetro, lucido, angoli profondi</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>Rosso, verde, blu</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>Solo bianco</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>Solo bianco è tre volte più veloce, con colori imprecisi di qualche percento.</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>Foto al secondo</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>Foto della sessione</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>Pattern rimanenti</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>Disco ancora necessario</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>Sorveglianza</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>Luce e inquadratura sono sorvegliate</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>Ogni 40 foto la luce della sala, la lampada e la posizione della fotocamera sono confrontate con l’inizio. Se qualcosa si è spostato, la misura va in pausa e chiede cosa fare.</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>In pausa</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Ancora circa %1</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Misura in corso</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>circa %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>Avanzamento della misura</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Indietro</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>%1 × %2 pixel, %3 bit, esposizioni da %4 a %5</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>Non utilizzabile: %1</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>Scegli</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>Scegli %1</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Fotocamere</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>Scegliere quella rivolta alla superficie.</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Cerca di nuovo</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Ricerca delle fotocamere</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Nessuna fotocamera risponde. Controllare il cavo e l’alimentazione.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nulla è stato modificato.</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>Controllo</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>Controllata alle %1</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>Scegliere la fotocamera rivolta alla superficie.</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>La fotocamera è in uso nel passo %1.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Apertura dei dispositivi</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>%1 è troppo chiaro in ogni esposizione.</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>Guardare prima attraverso la fotocamera.</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>Poi: pattern di test per la risposta del proiettore</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Misura risposta</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pausa</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>Controlla di nuovo</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>Cambia fotocamera</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>Area di messa a fuoco</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Controllo di proiettore e fotocamera</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Ricerca delle esposizioni</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Osservazione con la fotocamera</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>In questo passo non si misura nulla, quindi nulla va perso.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Fotocamera</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>Inquadrare la superficie, mettere a fuoco e coprire con le esposizioni le parti più chiare e più scure.</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>Messa a fuoco, %1 del massimo</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Inquadratura</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>Ciò che vede ora la fotocamera</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>Nessuna immagine dalla fotocamera.</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>esposizione %1. Fare clic dove valutare la messa a fuoco.</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>Luce in questa esposizione: rosso, verde, blu</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Segnale</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Messa a fuoco</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>Ruotare la ghiera finché la barra resta sul segno: il massimo finora.</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Esposizioni</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Controlli</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>Segnale, quota del massimo</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>Ricerca della luce del proiettore</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>La fotocamera vede il proiettore</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>Bianco e nero differiscono come devono.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>Tutta l’inquadratura tranne %1.</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>Le parti chiare sono coperte</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>%1 è troppo chiaro in ogni esposizione</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>Chiudere un po’ il diaframma o schermare le lampade nell’inquadratura.</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>Le parti scure sono coperte</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>%1 è troppo scuro in ogni esposizione</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>Forse il proiettore non arriva lì. Dove dovrebbe, aprire il diaframma.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Quanto misurato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>%1 cluster</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Da aggiornare</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>Nuovo raggruppamento</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>Raggruppamento</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lettura del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>%1 cluster, mediana %2 pixel del proiettore</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>Anteprima contenuto</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>I cluster conservati si riferiscono a una soglia precedente</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>Quanto si vede qui è raggruppato di nuovo. Proseguendo viene conservato.</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>Dividere il luogo in piccoli gruppi di pixel risolvibili da soli, abbastanza veloci per il video.</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>Mappa cluster</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>clic su un pixel</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>Mappa errori</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>Piana</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>Rilievo</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>Dimensioni dei cluster</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>Pixel del proiettore nel cluster</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1, %2: in nessun cluster</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1, %2: %3 pixel del proiettore, errore %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>Mappa cluster, %1 cluster, il più grande %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>RMS rel.</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>Mappa errori, mediana %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>mediana %1, 95 % sotto %2</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>limite %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>%1 cluster, mediana %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Distanza</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>piccoli, nitidi</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>grandi, veloci</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>Quota del più luminoso</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>più dettaglio</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>più velocità</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>Cluster più grande</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>veloce</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>esatto</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Risultato</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>Tagliato dal limite</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>Luce conservata nei cluster</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>Errore mediano</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>Un errore dal 70 all’80 % è normale qui.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>Il raggruppamento scarta di proposito la sfocatura dell’obiettivo. Cercare le zone che spiccano sul resto.</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>%n incognita</numerusform>
+            <numerusform>%n incognite</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>%1 della luce</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>Senza limite, un solo cluster coprirebbe %1 dell’immagine.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>La superficie è sfocata tra pixel vicini, perciò i gruppi si uniscono. Il limite li tiene separati.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>Angolo in alto a sinistra, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>Angolo in alto a destra, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>Angolo in basso a destra, %1, %2.</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>Angolo in basso a sinistra, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>Un dispositivo non risponde più</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>Il disco non ha fatto quanto richiesto</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>La memoria è piena</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>Impossibile leggere un file</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>Così com’è non è possibile</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>Il calcolo non è riuscito</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Cosa è successo</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>Cosa è al sicuro</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Cosa fare</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>Copia dettagli</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>Il proiettore mostra pattern che cambiano circa %1 volte al secondo.</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>Il proiettore mostra pattern che cambiano alla massima velocità dei dispositivi, forse più di 3 volte al secondo.</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>La sala è sgombra</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>Luce lampeggiante</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>La sala è sgombra e tutti i presenti sono avvisati</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>La luce lampeggiante può causare crisi epilettiche. Sgombrare la sala e coprire l’ingresso.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>Guida</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>Cerca nella guida</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>Pagine della guida</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>Pagina</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>Nessuna pagina contiene queste parole.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1, %2 × %3, %4 Hz</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>Linee nitide? Allora è la risoluzione nativa del proiettore.</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Schermo %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>Le foto di questo passo sono ancora nella cartella.</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>Misura, %1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>Additività %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Misurato</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Da aggiornare</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>Interrotto da errore</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>I dispositivi sono in uso nel passo %1.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>I colori non si sommano. Proseguendo, viene annotato nel rapporto.</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>Misurato in %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confermare che la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>Circa %1 pattern di test</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>Prepara acquisizione</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Continua comunque</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>Misura risposta</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Ferma</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Misura di nuovo</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>Queste curve si riferiscono a impostazioni precedenti</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>Sono ancora utilizzabili e restano finché le nuove non sono misurate.</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>Livelli</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nulla è stato modificato.</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Apertura dei dispositivi</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Misura della risposta</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Riprova</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>Ogni foto scattata è sul disco. Riprovando si prosegue da lì.</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>Linearità</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>Misurare quanta luce dà davvero ogni livello dei tre colori del proiettore.</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>Rosso</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>Verde</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>Blu</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>Inviato al proiettore</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>Visto dalla fotocamera</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>Pattern mostrato dal proiettore</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>Ultima foto</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>Compare all’inizio della misura.</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>%1, foto %2</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>Risposta del proiettore</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>Livello inviato al proiettore</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>Luce, % del massimo</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>Luce di ogni livello, tre colori</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>durante la misura, in ordine casuale</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>%n livello per colore, ordine casuale, deriva rimossa</numerusform>
+            <numerusform>%n livelli per colore, ordine casuale, deriva rimossa</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>non ancora misurata</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Risultato</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Esposizioni</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>Scelte per questo luogo</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>Misura con</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>Livelli per colore</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Misura</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>Non ancora misurato</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>Solo dopo la misura di tutti i livelli si sa se i colori si sommano, se la fotocamera è lineare e se ogni livello è più chiaro del precedente.</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>I colori si sommano</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>Rosso, verde e blu insieme danno il bianco entro %1.</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>I colori non si sommano</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>Il bianco differisce di %1 dai suoi colori. Disattivare «brillante» o «dinamico» nel menu del proiettore, poi misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>La fotocamera è lineare</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>La curva della fotocamera è nota</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>Raddoppiando l’esposizione raddoppia il segnale.</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>Le sue foto vengono riportate a luce lineare.</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>Le curve salgono ovunque</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>Nessun livello è più scuro del precedente.</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Rilevato durante la misura</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>Attenua immagini</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>Immagini attenuate</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Opzioni</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Guida</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>fotocamera %1
+proiettore %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>trasporto</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>proiettore x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>linea proiettore</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>fotocamera x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>linea fotocamera</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>orizz. %1, vert. %2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>Schermo del proiettore</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>Questo schermo</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1: ΔE misurato %2, previsto %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>Ancora nessuna foto</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>Una foto mostra se la superficie appare come previsto.</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>Corretta</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>Originale</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>%1 dell’immagine è raggiungibile.</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>La superficie appare come previsto</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>Fotocamera o proiettore potrebbero essersi spostati.</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>Errore dei pattern di test: %1, alla misura %2. %3 dell’inquadratura è cambiato.</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>La misura è ancora valida</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>Qualcosa è cambiato. Misurare di nuovo il trasporto della luce.</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>Quasi nulla corrisponde. Puntare, mettere a fuoco e misurare tutto di nuovo.</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Verifica</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>Scatta foto di verifica</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Ctrl+Shift+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>Controlla deriva</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>Fotografa di nuovo una decina di pattern di test della misura.</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>Consegna</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>Salva rapporto</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>Avvia lo show con questo computer</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>Installato. Lo show parte al prossimo accesso, senza fotocamera né procedura guidata.</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>Installato. Installandolo di nuovo, non parte più da solo.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>Una volta installato, lo show gira da solo, senza fotocamera né procedura guidata.</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>Lo show non parte da solo.</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>Playlist</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>I pixel di questo schermo non sono quelli del proiettore misurato.</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>L’immagine sta al centro, pixel per pixel.</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>Immagini fisse: %1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>Video e dissolvenze usano finestre e passi, abbastanza veloci.</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>Ricreare la playlist.</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Nero</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>Congelata</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>In riproduzione</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>Aggiungere un’immagine o un video alla playlist.</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>Scegliere lo schermo del proiettore.</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>In riproduzione. Tenere premuto A per confrontare.</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>Scattare una foto di verifica o installare senza verifica.</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>C’è un solo schermo. L’uscita lo coprirà; Esc chiude l’uscita.</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>Nulla viene proiettato prima di aprire l’uscita.</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>Installa show</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>Installa senza verifica</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Apri uscita</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Riproduci</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>Congela</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>Mostra di nuovo</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>Chiudi uscita</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>Aggiungi alla playlist</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>Rimuovi dalla playlist</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>Ordine della playlist</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>Ripeti</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>Dissolvenza</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>La calibrazione è rimasta com’era.</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>Uscita</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>Riprodurre il contenuto con la correzione, verificarla con una foto e consegnare il luogo.</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>Riproduzione</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>fotogrammi/s</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>per fotogramma</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>in ritardo</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>Secondi</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>Tempo per fotogramma, ms</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>Tempi per fotogramma dell’ultimo minuto</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>chiusa</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>su %1</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>immagine fissa, su %1</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>Tempo per fotogramma</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>Ora sul proiettore</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>Ciò che mostra il proiettore</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>Tenere premuto A per l’originale, Spazio congela, B rende tutto nero.</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>L’uscita è chiusa. Nulla viene proiettato.</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>Foto della superficie</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>A sinistra del divisore il desiderato, a destra la foto</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>Nessuna foto di verifica scattata.</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>Foto e desiderato</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>differenza di colore</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>Differenza di colore tra la foto e il desiderato</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>Una foto di verifica mostra qui l’errore ancora visibile.</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>%1 non raggiungibile</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>immagine fissa, %1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 fps, %2 ms, %3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>scattata alle %1</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>Desiderato</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>Foto</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>Canc rimuove un elemento, Ctrl+Su e Ctrl+Giù lo spostano. I file si possono trascinare qui.</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>%1, in riproduzione</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Aggiungi</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>Aggiungi file alla playlist</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>Sposta su</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>Sposta giù</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>Dissolvenza, decimi di secondo</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>Aggiungi immagini o video</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>Saltato: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Preparazione del motore</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>Aprire di nuovo l’uscita.</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>Relucent sta proiettando</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Apertura dei dispositivi</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Scatto della foto di verifica</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Controllo della deriva</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Scrittura del rapporto</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>Esc torna indietro</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>Nessuna correzione</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>Luminosità di ogni pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Ogni pixel da solo</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Ogni pixel, più nitido</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Finestre</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Finestre e passi</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Ottimale, immagini fisse</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Immagine dimostrativa</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>Contenuto</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>Cambia</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>Adatta</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>Riempi</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>Deforma</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>Posiziona in automatico</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>Nel più grande rettangolo diritto raggiungibile</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luce</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>Può restare troppo scuro</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>Quota del contenuto che può restare troppo scura, in percento</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>Più a destra l’immagine è più luminosa, ma una parte maggiore resta troppo scura.</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>Sollevamento dei neri</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>Sollevamento dei neri, in percento</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Raggiungibilità</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>Raggiungibile</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>Troppo scuro</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>Mai abbastanza nero</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Errore di colore</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>Parte dell’immagine non riceve luce da questo proiettore.</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>Un secondo proiettore potrebbe coprirla.</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>Scegli un’immagine</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>Immagini (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Adattamento</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Luminosità</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Quanto misurato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Immagine</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>Resta l’immagine precedente.</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lettura del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversione del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Preparazione dell’anteprima</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>Gli angoli si incrociano. Trascinarli per separarli.</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>Angoli</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>Posizione automatica</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>Preparazione</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>%1 raggiungibile</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Da aggiornare</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>L’anteprima non è preparata.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>I dispositivi sono in uso nel passo %1.</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>Previsione</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>Previsto dalla misura. Nulla viene ancora proiettato.</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>Apri uscita</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Anteprima</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>Posizionare il contenuto nell’inquadratura e vedere ciò che vedrà il pubblico, prima di proiettarlo.</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>Vista del pubblico</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>prevista dalla misura</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>Luce raggiungibile</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>Differenza</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>Ciò che vedrà il pubblico, a sinistra del divisore senza correzione e a destra con correzione</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>La luce massima raggiungibile; tratteggio dove è insufficiente</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>Differenza di colore tra il desiderato e il previsto</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>Metodi</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>previsti per questo contenuto; clic su uno per usarlo</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>Confronto dei metodi</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Metodo</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>Tempo per immagine</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>Note</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>ignora i rimbalzi</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>consigliato</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>limite di questo luogo</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Senza correzione</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>Con correzione, prevista</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>del bianco</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>Opzioni</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Aspetto</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Scuro</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Chiaro</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>Tema. Quello scuro è per la sala buia.</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>Attenua immagini: il portatile illumina la sala</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>Come il computer</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Lingua</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Misura</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>Alla massima velocità dei dispositivi, previo consenso</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>Al massimo %n cambio al secondo</numerusform>
+            <numerusform>Al massimo %n cambi al secondo</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>Luce lampeggiante del proiettore</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>Più di tre cambi al secondo possono causare crisi epilettiche. Una misura più lenta non richiede consenso.</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>Un suono alla fine di una misura</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>Nuovi luoghi</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>Cartella per i nuovi luoghi</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Scegli una cartella</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Cartella</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>Uno show è in riproduzione.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>Proiettore</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Fotocamera</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>da scegliere</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 liberi</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>simulazione</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>da script</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1, in uso</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>Salvato alle %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>bloccato</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>completato</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>da aggiornare</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>non riuscito</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>in misura</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>attuale</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>aperto</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>Passo %1, %2, %3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>Nessun luogo aperto</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>Luce conservata %1</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>Da aggiornare</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lettura del trasporto della luce</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>Sotto il 95 % della luce si perdono i rimbalzi.</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>Poi: gruppi di pixel risolvibili da soli</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>Raggruppa in cluster</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>La soglia è stata scelta per una misura precedente</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>Ricontrollarla, poi proseguire.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Quanto misurato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>Soglia</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>Scegliere la luce più debole da conservare. Meno luce è più veloce e compatta; troppo poca perde i rimbalzi.</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>Inquadratura</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>La superficie in piena luce</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>Pixel %1, %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>Pixel del proiettore che illuminano il pixel selezionato della fotocamera</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>Selezionare un pixel nell’inquadratura.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Fotocamera</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proiettore</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>trasporto</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>Matrice di trasporto</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>clic su un elemento</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>Matrice di trasporto della luce, pixel della fotocamera in verticale, pixel del proiettore in orizzontale</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>Valore di trasporto, segnale della fotocamera al secondo</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>Quanta luce passa per ogni connessione</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>trascinare il taglio o usare i tasti freccia</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>Connessioni</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Taglio</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>Taglio a %1, conserva %2</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>Si conserva tutto</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>Escludi la luce sotto</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>Un valore</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>Quota della riga</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>Quota della connessione più forte della riga, in decimi di percento</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>Cosa resta</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luce</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>Blocchi memorizzati</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Memoria</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>Quanto escluso viene restituito in proporzione, così la superficie mantiene la sua luminosità.</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>Pixel selezionato</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>Illuminato da</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>Più forte</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>Dai dintorni</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>Luce da altrove</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>Sotto %1 della connessione più forte della riga</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>Usa suggerito, %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 di %2</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>Pixel selezionato %1, %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>%n pixel</numerusform>
+            <numerusform>%n pixel</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>Scollegato. Collegarlo o sceglierne un altro.</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>%1, %2 per %3, scelto</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>%1, %2 per %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>Schermi</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>Scegliere quello che illumina la superficie. I suoi pixel sono quelli del proiettore.</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>Identifica schermi</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>Il proiettore condivide lo schermo di lavoro</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>Dispositivi reali</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proiettore</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>La fotocamera si sceglie nel prossimo passo.</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>Angolo lucido</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>La luce rimbalza tra due cartoncini</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>Busto davanti a un muro di mattoni</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>Trama, ombra e luce tra superfici</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>Molte profondità</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>Alcune superfici sono fuori fuoco</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>Cupola</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>Ogni parte illumina tutte le altre</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>Calice di vetro</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>La luce è rifratta nei due sensi</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>Parete dipinta</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>Piana, con rombi; la più facile</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>%1, un primo sguardo</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>%1, veloce</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>%1, normale</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>%1, fine</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>Luogo</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>Prova in un luogo simulato</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>Nuovo luogo da script</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>Nuovo luogo</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>Gli stessi passi, con proiettore e fotocamera simulati. Nulla viene proiettato nella sala.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>Indicare quale schermo illumina, quali programmi mostrano e fotografano e dove conservare il lavoro.</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>Indicare quale schermo illumina la superficie e dove conservare il lavoro.</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>Iniziare qui. Ogni luogo conserva le proprie misure e impostazioni.</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>Configurazione</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>simulazione, %1</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>da script, %1</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>%1 è aperto</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>Invio apre la scelta evidenziata</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>Circa %1 pattern, %2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>Controlla fotocamera</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>Inizia prova</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>In quella cartella nulla è cambiato.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Dare un nome al luogo.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Un nome non può contenere barre.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Esiste già una cartella con quel nome. Scegliere un altro nome.</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>Scegliere lo schermo che illumina la superficie.</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>Liberare %1 o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confermare che la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>Non è stato ancora misurato nulla.</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>Programmi</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>Qualsiasi proiettore e fotocamera pilotabili da un comando</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>Mostra il file {image} e termina quando la luce è emessa</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>Fotografa per {exposure} secondi nel file {output}: EXR float, PNG o TIFF a 16 bit</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>Pixel del proiettore</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Larghezza</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Altezza</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>Prova. Aperto il %1</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>Aperto il %1</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Apri</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>Apri %1</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>Apri un luogo</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>Prova</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>Imparare ogni passo in un luogo simulato. Senza dispositivi.</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>Riprendere da dove ci si era fermati o cambiare il contenuto.</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>Misurare una superficie con proiettore e fotocamera collegati a questo computer.</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>Proiettore e fotocamera sono pilotati da programmi propri.</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>Recenti</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>Ancora nessun luogo</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>I luoghi misurati sono elencati qui, i più recenti per primi.</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>Una prima prova dura pochi minuti.</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>Questo luogo</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>Nome del luogo</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Cartella</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>Cartella che contiene il luogo</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Scegli una cartella</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>Stima</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Pattern</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>Spazio libero</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>circa %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>Dispositivi simulati</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>Pixel del proiettore simulato</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>Più pixel mostrano dettagli più fini e richiedono più tempo. La prima volta si traccia la luce del luogo; poi resta memorizzata.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>Questa vista richiede OpenGL 3.2 e questo computer disegna senza. Tutto il resto funziona: immagini e mappe sono mostrate senza profondità.</translation>
+    </message>
+</context>
+</TS>

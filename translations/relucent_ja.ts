@@ -1,0 +1,2994 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="ja">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>Relucent について</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>バージョン %1。使用ライブラリ：%2。</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 秒</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 分</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 時間 %2 分</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>コンピューターのメモリが不足しています。</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>ほかのプログラムを終了するか、画素数を減らしてください。</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>Relucent の内部エラーです。</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>保存済みのデータは無事です。詳細をコピーしてプログラムの管理担当者に渡し、もう一度試してください。</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>保存済みのデータは無事です。再試行してください。</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>プロジェクターの画面が外れています</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>写真はすべて無事です。接続し直すと、測定は自動的に再開します。</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>毎秒 %1 フレーム、%2 ms/フレーム、遅延 %3/%4</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>補正あり、反復 %1 回、再現不可 %2 %</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>補正なし</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>静止中</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>テストチャート：%1</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>未測定</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>次は光輸送測定</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>再生できます</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>プレビューは要更新</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>測定済み</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>このコンピューター</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1、%2 × %3、%4 Hz</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>ほかの画面がないため、パターンの表示中はこのウィンドウが隠れます。別々に表示するには、プロジェクターを接続し、デスクトップを拡張表示に切り替えてください。</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>これは作業に使っている画面です。プロジェクターの画面を選んでください。</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>アルゴリズム 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>光輸送の組み立て</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>校正</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>{} の色の加法性の確認</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>光輸送のクラスター分け</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>サイズ制限付きクラスター</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>{} のクラスター逆変換の比較</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>方式の比較</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>{} の方式の比較</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>補正</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>復号</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>応答と色の推定</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>光輸送の推定</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>評価</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>ボケの検出</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>露出の決定</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>光の広がりの当てはめ</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>パッチの形成</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>クラスターのサイズ制限</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>クラスターの逆変換</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>光輸送の逆変換</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>{} の逆変換</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>クラスターの統合</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>線形化</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>影の検出</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>補正できない部分の検出</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>{} の明るさカーブの測定</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>カメラの測定</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>光の評価</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>プロジェクターの画像の検出</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>遅延時間の測定</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>光輸送の測定</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>{} の測定</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>テストパターンの撮影</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>投影の撮影</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>検証用パターンの予測</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>ベンチマークの準備</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>機器の準備</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>エンジンの準備</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>会場の準備</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>校正データの読み込み</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>パターンの読み込み</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>写真の読み込み</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>画像の読み込み</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>{} の読み込み</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>全点灯画像に合わせた調整</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>直接光と間接光の分離</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>鮮鋭化</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>求解</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>エンジンの速度測定</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>局所窓</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>書き込み</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>光輸送の書き出し</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>結果の書き込み</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>黒と全点灯</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>階層 {}/{}：パターン {} 枚</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>光輸送</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>要確認の {} 画素の再測定</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>プロジェクター {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>テストパターン</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>模擬会場の光線追跡</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>全体を表示</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>全画面（F11）</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>表示どおりの画像</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>画像を保存</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>画像 (*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>数値</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>数値を保存</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>デスクトップがこの画面を %1 に拡大縮小しているため、全画素がぼやけます。倍率を 100 % にしてください。</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>会場を測定中です</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>一時停止中、%1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>測定中、%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>パターン %n 枚、%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>測定済み</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>要更新</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>エラーで停止</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>写真 %n 枚を保持</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>操作を待っています。何も投影していません。</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>測定済みの分で終了しています。</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>写真はすべて保存されます。最後の撮影が済むと「しきい値」が開きます。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>機器は「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>測定時間 %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>退避が完了したことを確認してください。</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>室内を暗くし、何も動かさずに開始してください。</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>しきい値を表示</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>再開</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>測定を開始</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>終了して保持</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>一時停止</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>この測定は以前の設定によるものです</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>引き続き使えます。新しい測定ができるまで残ります。</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>再測定</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>前回の作業は途中で終わりました</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>写真 %n 枚は無事です。再開すれば、中断がなかった場合と同じ結果になります。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>何も変更していません。</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>細かさ</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>色</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>機器への接続</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>応答の読み込み</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>光輸送の測定</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>写真 %n 枚はすべてディスクにあります。撮影中の 1 枚は含みません。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>光輸送測定</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>プロジェクターの各画素がカメラの各画素をどう照らすかを測定します。室内を暗くし、何も動かさないでください。</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>プロジェクターへ送信</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>カメラの撮影</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>プロジェクターが表示するパターン</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>最新の写真</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>測定が始まると表示されます。開始するまで何も投影しません。</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>測定の細かさ</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>高速</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>お試し用。弱い相互反射は対象外</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>標準</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>ほとんどの投影面向け</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>精密</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>ガラス、光沢、奥まった角</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>赤・緑・青</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>白のみ</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>白のみは 3 倍速く、色に数パーセントのずれが出ます。</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>毎秒の撮影枚数</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>今回の撮影枚数</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>残りのパターン</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>今後必要な容量</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>監視</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>光と視野を監視しています</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>40 枚撮影するごとに、室内光、ランプ、カメラの位置を開始時と比較します。何かが動いた場合は、測定を一時停止して確認します。</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>一時停止中</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>残り約 %1</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>測定中</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>約 %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>測定の進行状況</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>戻る</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>%1 × %2 画素、%3 ビット、露出 %4～%5</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>使用できません：%1</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>選択</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>%1 を選択</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>投影面に向いているカメラを選んでください。</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>再検索</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>カメラを検索中</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>応答するカメラがありません。ケーブルと電源を確認してください。</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>何も変更していません。</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>確認中</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>%1 に確認</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>投影面に向いているカメラを選んでください。</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>カメラは「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>機器への接続</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>%1 がどの露出でも明るすぎます。</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>先にライブビューで確認してください。</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>次：プロジェクターの応答を測るテストパターン</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>応答を測定</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>一時停止</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>再確認</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>別のカメラを選択</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>ピント領域</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>プロジェクターとカメラの確認</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>露出の決定</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>ライブビュー</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>このステップでは何も測定しないため、失われるものはありません。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>投影面を構図に収め、ピントを合わせ、最も明るい部分と暗い部分まで露出でカバーします。</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>ピント、最良値の %1</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>カメラ視野</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>カメラに今映っているもの</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>ライブビューは停止しています。</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>露出 %1。ピントを評価する場所をクリックしてください。</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>この露出での光：赤、緑、青</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>ピント</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>バーが印（これまでの最良値）で止まるまでレンズを回してください。</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>露出</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>確認項目</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>信号（最大値に対する割合）</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>画素</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>プロジェクターの光を検出中</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>プロジェクターの光を検出済み</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>白と黒の差は正常です。</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>視野の %1 を除くすべて。</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>明るい部分はカバー済み</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>%1 がどの露出でも明るすぎます</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>レンズを少し絞るか、視野内の照明を遮ってください。</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>暗い部分はカバー済み</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>%1 がどの露出でも暗すぎます</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>プロジェクターの光が届かない場所かもしれません。届くはずなら、レンズの絞りを開けてください。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>測定済みのデータは無事です。</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>クラスター %1 個</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>要更新</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>クラスター分けをやり直し中</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>クラスター分け中</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>光輸送の読み込み</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>クラスター %1 個、中央値 %2 プロジェクター画素</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>プレビューへ</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>保持しているクラスターは以前のしきい値によるものです</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>ここに見えるのは新しいクラスター分けです。先へ進むと保持されます。</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>クラスター</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>会場を、個別に解ける小さな画素グループに分け、動画に十分な速度にします。</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>クラスターマップ</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>画素をクリック</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>誤差マップ</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>平面</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>立体</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>クラスターサイズ</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>クラスター内のプロジェクター画素数</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>クラスター</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1, %2：クラスターなし</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1, %2：プロジェクター画素 %3、誤差 %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>クラスターマップ、クラスター %1 個、最大 %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>相対 RMS</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>誤差マップ、中央値 %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>中央値 %1、95 % が %2 未満</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>上限 %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>クラスター %1 個、中央値 %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距離</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>小さく、精細</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>大きく、高速</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>最大値に対する割合</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>精細さ重視</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>速度重視</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>最大クラスター</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>高速</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>正確</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>結果</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>上限でカット</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>クラスター内に残る光</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>誤差の中央値</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>ここでは 70～80 % の誤差は正常です。</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>クラスター分けでは、レンズのボケを意図的に除きます。周囲から目立つ部分がないか確認してください。</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>未知数 %n 個</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>光の %1</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>上限がないと、1 つのクラスターが画像の %1 を占めます。</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>投影面では隣り合う画素にボケが広がり、グループがつながります。上限がそれを分けます。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>左上の角、%1, %2。</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>右上の角、%1, %2。</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>右下の角、%1, %2。</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>左下の角、%1, %2。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>機器が応答しなくなりました</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>ディスクの操作に失敗しました</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>メモリがいっぱいです</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>ファイルを読み込めません</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>このままでは実行できません</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>計算に失敗しました</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>発生した問題</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>無事なもの</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>対処方法</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>詳細をコピー</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>プロジェクターが毎秒約 %1 回切り替わるパターンを表示します。</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>プロジェクターが、機器の最高速で切り替わるパターンを表示します。毎秒 3 回を超えることがあります。</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>退避完了</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>点滅光</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>退避完了、ここにいる全員に周知済み</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>点滅光は発作を引き起こすことがあります。室内から人を退避させ、入口を覆ってください。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>ヘルプ</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>ガイドを検索</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>ガイドのページ</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>ページ</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>この語句を含むページはありません。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1、%2 × %3、%4 Hz</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>線がくっきり見えれば、プロジェクター本来の解像度です。</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>画面 %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>このステップの写真はフォルダーに残っています。</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>測定中、%1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>加法性誤差 %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>測定済み</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>要更新</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>エラーで停止</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>機器は「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>色の加法性が成り立ちません。続行すると、レポートに記録されます。</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>測定時間 %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>退避が完了したことを確認してください。</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>テストパターン約 %1 枚</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>光輸送測定へ</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>このまま続行</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>応答を測定</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>中止</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>再測定</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>このカーブは以前の設定によるものです</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>引き続き使えます。新しいカーブを測定するまで残ります。</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>レベル数</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>何も変更していません。</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>機器への接続</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>応答の測定</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>再試行</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>撮影した写真はすべてディスクにあります。再試行するとその続きから進みます。</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>線形化</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>プロジェクターの 3 色について、各段階で実際に出る光の量を測定します。</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>赤</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>緑</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>青</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>プロジェクターへ送信</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>カメラの撮影</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>プロジェクターが表示するパターン</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>最新の写真</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>測定が始まると表示されます。</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>%1、写真 %2</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>プロジェクターの応答</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>プロジェクターへ送るレベル</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>光（全点灯比 %）</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>各レベルの光、3 色</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>測定順（ランダム）</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>各色 %n レベル、ランダム順、ドリフト除去済み</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>未測定</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>結果</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>露出</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>この会場用に選択</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>測定条件</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>各色のレベル数</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>測定中</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>まだ測定していません</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>色の加法性、カメラの線形性、各レベルが一つ下より明るいかどうかは、全レベルの測定後に表示されます。</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>色の加法性が成り立ちます</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>赤、緑、青の合計は、誤差 %1 以内で白と一致します。</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>色の加法性が成り立ちません</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>白が各色の合計と %1 異なります。プロジェクターのメニューで「ブリリアント」や「ダイナミック」をオフにして、再測定してください。</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>カメラは線形です</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>カメラのカーブは既知です</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>露出を 2 倍にすると信号も 2 倍になります。</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>写真は線形の光に戻されます。</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>カーブは全域で上昇</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>一つ下より暗いレベルはありません。</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>測定中の検出事項</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>画像を減光</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>画像を減光中</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>設定</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>ヘルプ</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>カメラ %1
+プロジェクター %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>輸送値</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>プロジェクター x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>プロジェクターのライン</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>カメラ x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>カメラのライン</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>横：%1、縦：%2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>プロジェクターの画面</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>この画面</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1：測定 ΔE %2、予測 %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>未撮影</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>写真 1 枚で、投影面が予測どおりに見えるか確認できます。</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>補正後</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>元画像</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>画像の %1 を再現できます。</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>投影面は予測どおりに見えます</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>カメラかプロジェクターが動いた可能性があります。</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>テストパターンの誤差：%1、測定時は %2。視野の %3 が変化しました。</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>測定結果は今も有効です</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>何かが変化しています。光輸送を再測定してください。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>ほとんど一致しません。向きとピントを合わせ、すべて再測定してください。</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>検証</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>検証写真を撮影</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Ctrl+Shift+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>ドリフトを確認</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>測定時のテストパターンを 10 枚ほど撮影し直します。</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>引き渡し</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>レポートを保存</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>このコンピューターの起動時にショーを開始</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>登録済み。次回のログイン時から、カメラもウィザードもなしでショーが始まります。</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>登録済み。もう一度登録すると、自動では始まらなくなります。</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>登録すると、カメラもウィザードもなしで、ショーを無人で実行します。</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>ショーは自動では始まりません。</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>プレイリスト</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>この画面の画素数は、測定したプロジェクターと異なります。</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>画像は中央に等倍で表示されます。</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>静止画：%1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>動画とクロスフェードには、十分に高速な「局所窓＋反復」を使います。</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>リストを作り直してください。</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黒表示</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>静止中</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>再生中</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>プレイリストに画像か動画を追加してください。</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>プロジェクターの画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>再生中。A キー長押しで比較。</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>検証写真を撮影するか、検証なしで登録してください。</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>画面が 1 つしかないため、出力で隠れます。Esc で出力を閉じます。</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>出力を開くまで何も投影しません。</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>ショーを登録</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>検証なしで登録</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>出力を開く</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>再生</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>静止</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>再表示</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>出力を閉じる</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>プレイリストに追加</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>プレイリストから削除</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>プレイリストの順序</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>繰り返し</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>クロスフェード</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>校正データは元のままです。</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>出力</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>補正したコンテンツを再生し、写真 1 枚で効果を検証して、会場を引き渡します。</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>再生状況</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>フレーム/秒</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>フレーム時間</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>遅延フレーム</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>秒</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>フレーム時間（ms）</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>直近 1 分間のフレーム時間</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>停止中</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>%1 で実行</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>静止画、%1 で実行</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>フレーム時間</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>現在の投影</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>プロジェクターの表示内容</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>A キー長押しで元画像、Space で静止、B で黒表示。</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>出力は閉じています。何も投影していません。</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>投影面の写真</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>境界線の左が目標、右が写真</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>検証写真はまだありません。</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>写真と目標の比較</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>色差</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>写真と目標との色差</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>検証写真を撮影すると、残っている差がここに表示されます。</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>再現不可 %1</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>静止画、%1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 fps、%2 ms、%3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>%1 に撮影</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>目標</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>写真</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>Delete で項目を削除、Ctrl+Up と Ctrl+Down で移動。ファイルをここにドロップできます。</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>%1、再生中</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>追加</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>プレイリストにファイルを追加</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>上へ移動</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>下へ移動</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>クロスフェード（0.1 秒単位）</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>画像か動画を追加</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 秒</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>スキップ：%1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>エンジンの準備</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>出力をもう一度開いてください。</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>Relucent が投影しています</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>機器への接続</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>検証写真の撮影</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>ドリフトの確認</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>レポートの書き込み</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>Esc で戻る</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>補正なし</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>画素ごとの明るさ</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>画素ごとに独立</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>画素ごと＋鮮鋭化</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>クラスター</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>局所窓</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>局所窓＋反復</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>最高画質、静止画</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>デモ画像</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>コンテンツ</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>変更</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>全体</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>余白なし</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>伸縮</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>自動配置</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>再現できる範囲で最大の、傾きのない長方形に配置</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>暗いままでよい割合</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>コンテンツのうち暗いままでよい割合（パーセント）</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>右へ動かすほど画像は明るくなり、明るさの足りない部分が増えます。</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>黒の持ち上げ</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>黒の持ち上げ（パーセント）</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>再現範囲</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>再現可能</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>明るさ不足</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>黒の沈み不足</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>色差</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>画像の一部に、このプロジェクターの光が届きません。</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>2 台目で補えるかもしれません。</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>画像を選択</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>画像 (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>収め方</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>明るさ</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>測定済みのデータは無事です。</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>画像</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>以前の画像のままです。</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>光輸送の読み込み</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>光輸送の逆変換</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>プレビューの準備</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>四隅が交差しています。ドラッグして離してください。</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>四隅</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>自動配置</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>準備中</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>再現可能 %1</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>要更新</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>プレビューは準備されていません。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>機器は「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>予測中</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>測定からの予測です。まだ何も投影していません。</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>出力を開く</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>プレビュー</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>コンテンツをカメラ視野に配置し、投影する前に観客からの見え方を確認します。</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>観客からの見え方</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>測定からの予測</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>再現可能な光</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>差</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>観客からの見え方。境界線の左が補正前、右が補正後</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>再現できる最大の明るさ。不足する部分は斜線で表示</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>目標と予測との色差</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>方式</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>このコンテンツでの予測。クリックして選択</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>方式の比較</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>方式</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>1 枚の時間</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>備考</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>相互反射を無視</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>推奨</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>この会場の限界</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>補正前</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>補正後（予測）</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>白に対する比</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>設定</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>外観</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>ダーク</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>ライト</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>テーマ。ダークは暗い室内用です。</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>画像を減光：ノート PC の光も室内光になります</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>コンピューターと同じ</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>言語</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>測定</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>機器の最高速（同意が必要）</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>毎秒 %n 回まで</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>プロジェクターの点滅光</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>毎秒 3 回を超える切り替わりは発作を引き起こすことがあります。それより遅い測定に同意は不要です。</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>測定終了時に音を鳴らす</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>新しい会場</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>新しい会場のフォルダー</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>フォルダーを選択</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>フォルダー</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>ショーを再生中です。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>ディスク</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>未選択</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>空き %1</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>模擬</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>スクリプト</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1、使用中</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>%1 に保存</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>ロック中</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>完了</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>要更新</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失敗</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>測定中</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>現在のステップ</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>実行可能</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>ステップ %1、%2、%3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>開いている会場なし</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>光の %1 を保持</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>要更新</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>光輸送の読み込み</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>保持する光が 95 % を下回ると、相互反射が失われます。</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>次：個別に解ける画素グループ</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>クラスターに分ける</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>このしきい値は以前の測定で選んだものです</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>もう一度確認してから進んでください。</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>測定済みのデータは無事です。</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>しきい値</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>残す価値のある最も弱い光を選びます。減らすほど高速で小さくなり、減らしすぎると相互反射が失われます。</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>カメラ視野</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>全点灯時の投影面</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>画素 %1, %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>選択したカメラ画素を照らすプロジェクター画素</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>カメラ視野で画素を選んでください。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>輸送値</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>光輸送行列</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>要素をクリック</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>光輸送行列、縦がカメラ画素、横がプロジェクター画素</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>輸送値（1 秒あたりのカメラ信号）</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>各結合を通る光の量</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>カット位置をドラッグ、または矢印キー</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>結合</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>カット位置</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>%1 でカット、%2 を保持</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>すべて保持</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>除外する光の下限</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>単一の値</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>行に対する割合</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>行で最も強い結合に対する割合（0.1 パーセント単位）</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>残るもの</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>保存ブロック</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>メモリ</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>除外した分は比例配分で戻すため、投影面の明るさは保たれます。</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>選択した画素</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>照射元</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>最も強い照射元</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>周辺からの光</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>離れた場所からの光</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>行で最も強い結合の %1 未満</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>推奨値 %1 を使用</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1（全 %2）</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>選択した画素 %1, %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>%n 画素</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>接続が外れています。接続するか、別の画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>%1、%2 × %3、選択中</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>%1、%2 × %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>画面</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>投影面に映している画面を選んでください。その画素がプロジェクターの画素になります。</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>画面を識別</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>プロジェクターと作業画面が同じです</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>実際の機器</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>カメラは次のステップで選びます。</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>光沢のある角</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>2 枚のカードの間で相互反射</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>れんが壁の前の胸像</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>模様、影、面どうしの相互反射</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>さまざまな奥行き</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>一部の面にピントが合わない</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>ドーム</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>すべての部分が互いを照らす</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>ワイングラス</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>光が往復とも屈折</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>塗装した壁</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>平面、ひし形模様。最も簡単</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>%1、お試し</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>%1、高速</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>%1、標準</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>%1、精密</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>会場</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>模擬会場でリハーサル</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>スクリプトで新しい会場</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>新しい会場</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>同じ手順を、模擬のプロジェクターとカメラで行います。室内には何も投影しません。</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>投影する画面、表示と撮影を行うプログラム、作業の保存先を指定します。</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>投影面に映している画面と、作業の保存先を指定します。</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>ここから始めます。測定結果と設定は会場ごとに保存されます。</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>設定中</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1、%2</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>模擬、%1</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>スクリプト、%1</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>%1 を開いています</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>Enter で選択中の項目を開きます</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>パターン約 %1 枚、%2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>カメラを確認</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>リハーサルを開始</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>そのフォルダーでは何も変更していません。</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>会場の名前を入力してください。</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>名前にスラッシュは使えません。</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>同じ名前のフォルダーがあります。別の名前にしてください。</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>投影面に映している画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>%1 空けるか、別のフォルダーを選んでください。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>退避が完了したことを確認してください。</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>まだ何も測定していません。</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>プログラム</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>コマンドで操作できる任意のプロジェクターとカメラ</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>ファイル {image} を表示し、光が出たら終了</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>{exposure} 秒の露出で撮影し、ファイル {output} に保存：浮動小数点 EXR、16 ビット PNG または TIFF</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>プロジェクターの画素数</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>幅</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>高さ</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>リハーサル。%1 に使用</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>%1 に使用</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>開く</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>%1 を開く</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>会場を開く</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>リハーサル</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>模擬会場で全ステップを学べます。機器は不要です。</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>中断したところから続けるか、コンテンツを変更します。</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>このコンピューターのプロジェクターとカメラで投影面を測定します。</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>お手持ちのプログラムでプロジェクターとカメラを動かします。</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>最近の会場</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>会場はまだありません</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>測定した会場が新しい順に表示されます。</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>最初のリハーサルは数分で終わります。</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>この会場</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>会場の名前</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>フォルダー</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>会場を保存するフォルダー</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>フォルダーを選択</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>見込み</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>パターン</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>ディスク</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>保存先の空き</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>約 %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>模擬機器</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>模擬プロジェクターの画素数</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>画素が多いほど細部まで見えますが、時間がかかります。初回は会場の光を追跡し、以後はその結果を使います。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>この表示には OpenGL 3.2 が必要ですが、このコンピューターでは利用できません。ほかはすべて動作し、画像とマップは奥行きなしで表示されます。</translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,2994 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="zh_CN">
+<context>
+    <name>About</name>
+    <message>
+        <source>About Relucent</source>
+        <translation>关于 Relucent</translation>
+    </message>
+    <message>
+        <source>Version %1, with these libraries: %2.</source>
+        <translation>版本 %1，使用以下库：%2。</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 秒</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 分钟</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 小时 %2 分钟</translation>
+    </message>
+</context>
+<context>
+    <name>Failure</name>
+    <message>
+        <source>The computer has no memory left.</source>
+        <translation>计算机内存不足。</translation>
+    </message>
+    <message>
+        <source>Close other programs, or choose fewer pixels.</source>
+        <translation>请关闭其他程序，或选择较少的像素。</translation>
+    </message>
+    <message>
+        <source>Relucent made a mistake.</source>
+        <translation>Relucent 出错了。</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Copy the details for whoever looks after the program, then try again.</source>
+        <translation>已保存的内容是安全的。请复制详细信息交给程序维护人员，然后重试。</translation>
+    </message>
+    <message>
+        <source>What is saved is safe. Try again.</source>
+        <translation>已保存的内容是安全的。请重试。</translation>
+    </message>
+</context>
+<context>
+    <name>MissingScreen</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>投影机的屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
+        <translation>所有照片均已保存。重新接上后，测量会自动继续。</translation>
+    </message>
+</context>
+<context>
+    <name>Overlay</name>
+    <message>
+        <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
+        <translation>%1 帧/秒，每帧 %2 ms，%4 帧中 %3 帧超时</translation>
+    </message>
+    <message>
+        <source>compensated, %1 steps, %2 % out of reach</source>
+        <translation>已补偿，迭代 %1 步，不可达 %2 %</translation>
+    </message>
+    <message>
+        <source>not compensated</source>
+        <translation>未补偿</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>已定格</translation>
+    </message>
+    <message>
+        <source>test chart: %1</source>
+        <translation>测试图卡：%1</translation>
+    </message>
+</context>
+<context>
+    <name>RecentVenues</name>
+    <message>
+        <source>Nothing measured yet</source>
+        <translation>尚未测量</translation>
+    </message>
+    <message>
+        <source>Acquire is next</source>
+        <translation>下一步：采集</translation>
+    </message>
+    <message>
+        <source>Ready to play</source>
+        <translation>可以播放</translation>
+    </message>
+    <message>
+        <source>Preview out of date</source>
+        <translation>预览已过期</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>已测量</translation>
+    </message>
+</context>
+<context>
+    <name>ScreenChoice</name>
+    <message>
+        <source>This computer</source>
+        <translation>本机</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1，%2 × %3，%4 Hz</translation>
+    </message>
+    <message>
+        <source>There is no other screen: the patterns cover this window while they are shown. Plug the projector in, and switch the desktop to extended screens, to keep both apart.</source>
+        <translation>没有其他屏幕：显示图案时会盖住此窗口。若要分开，请接上投影机，并将桌面切换为扩展模式。</translation>
+    </message>
+    <message>
+        <source>This is the screen that you work on. Choose the projector&apos;s.</source>
+        <translation>这是您正在使用的屏幕。请选择投影机的屏幕。</translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>算法 1</translation>
+    </message>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>正在组装光传输</translation>
+    </message>
+    <message>
+        <source>Calibrating</source>
+        <translation>正在校准</translation>
+    </message>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>正在检查三色之和：{}</translation>
+    </message>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>正在对光传输聚类</translation>
+    </message>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>限定大小的簇</translation>
+    </message>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>正在比较簇的逆矩阵：{}</translation>
+    </message>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>正在比较各方法</translation>
+    </message>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>正在比较各方法：{}</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>正在补偿</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>正在解码</translation>
+    </message>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>正在估计响应和颜色</translation>
+    </message>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>正在估计光传输</translation>
+    </message>
+    <message>
+        <source>Evaluating</source>
+        <translation>正在评估</translation>
+    </message>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>正在测定离焦</translation>
+    </message>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>正在确定曝光</translation>
+    </message>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>正在拟合光的扩散</translation>
+    </message>
+    <message>
+        <source>Forming patches</source>
+        <translation>正在划分图块</translation>
+    </message>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>正在限制簇的大小</translation>
+    </message>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>正在对各簇求逆</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>正在对光传输求逆</translation>
+    </message>
+    <message>
+        <source>Inverting {}</source>
+        <translation>正在求逆：{}</translation>
+    </message>
+    <message>
+        <source>Joining clusters</source>
+        <translation>正在合并簇</translation>
+    </message>
+    <message>
+        <source>Linearizing</source>
+        <translation>正在线性化</translation>
+    </message>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>正在查找阴影</translation>
+    </message>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>正在查找无法补偿之处</translation>
+    </message>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>正在测量亮度曲线：{}</translation>
+    </message>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>正在测量相机</translation>
+    </message>
+    <message>
+        <source>Judging the light</source>
+        <translation>正在评估光线</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>正在查找投影机的画面</translation>
+    </message>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>正在测量延迟</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>正在测量光传输</translation>
+    </message>
+    <message>
+        <source>Measuring {}</source>
+        <translation>正在测量：{}</translation>
+    </message>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>正在拍摄测试图案</translation>
+    </message>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>正在拍摄投影</translation>
+    </message>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>正在预测预留图案</translation>
+    </message>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>正在准备基准测试</translation>
+    </message>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>正在准备设备</translation>
+    </message>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>正在准备引擎</translation>
+    </message>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>正在准备场地</translation>
+    </message>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>正在读取校准数据</translation>
+    </message>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>正在读取图案</translation>
+    </message>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>正在读取照片</translation>
+    </message>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>正在读取图片</translation>
+    </message>
+    <message>
+        <source>Reading {}</source>
+        <translation>正在读取：{}</translation>
+    </message>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>正在按全亮图像缩放</translation>
+    </message>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>正在分离直接光与间接光</translation>
+    </message>
+    <message>
+        <source>Sharpening</source>
+        <translation>正在锐化</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>正在求解</translation>
+    </message>
+    <message>
+        <source>Timing the engine</source>
+        <translation>正在测试引擎耗时</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>窗口</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>正在写入</translation>
+    </message>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>正在展开光传输</translation>
+    </message>
+    <message>
+        <source>Writing the results</source>
+        <translation>正在写入结果</translation>
+    </message>
+    <message>
+        <source>black and full light</source>
+        <translation>黑场和全亮</translation>
+    </message>
+    <message>
+        <source>level {} of {}: {} patterns</source>
+        <translation>第 {} 层，共 {} 层：{} 个图案</translation>
+    </message>
+    <message>
+        <source>light transport</source>
+        <translation>光传输</translation>
+    </message>
+    <message>
+        <source>measuring {} flagged pixels again</source>
+        <translation>正在重新测量 {} 个存疑像素</translation>
+    </message>
+    <message>
+        <source>projector {}</source>
+        <translation>投影机 {}</translation>
+    </message>
+    <message>
+        <source>test patterns</source>
+        <translation>测试图案</translation>
+    </message>
+    <message>
+        <source>the projector</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>正在追踪模拟场地的光线</translation>
+    </message>
+</context>
+<context>
+    <name>ViewActions</name>
+    <message>
+        <source>Show everything</source>
+        <translation>显示全部</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11)</source>
+        <translation>全屏 (F11)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Picture as seen</source>
+        <translation>所见图像</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>保存图像</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>图像 (*.png)</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>数值</translation>
+    </message>
+    <message>
+        <source>Save the values</source>
+        <translation>保存数值</translation>
+    </message>
+    <message>
+        <source>OpenEXR (*.exr)</source>
+        <translation>OpenEXR (*.exr)</translation>
+    </message>
+</context>
+<context>
+    <name>WindowProjector</name>
+    <message>
+        <source>The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.</source>
+        <translation>桌面将此屏幕缩放为 %1 倍，每个像素都会模糊。请将缩放设为 100 %。</translation>
+    </message>
+    <message>
+        <source>A venue is being measured</source>
+        <translation>正在测量一个场地</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquirePage</name>
+    <message>
+        <source>Paused, %1</source>
+        <translation>已暂停，%1</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>正在测量，%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1</source>
+        <translation>
+            <numerusform>%n 个图案，%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>已测量</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>已过期</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>因故障停止</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) kept</source>
+        <translation>
+            <numerusform>已保留 %n 张照片</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Waiting for you. Nothing is being projected.</source>
+        <translation>正在等待您的操作。当前没有投影。</translation>
+    </message>
+    <message>
+        <source>Ending with what is measured.</source>
+        <translation>正在以已测得的数据收尾。</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. Threshold opens when the last is taken.</source>
+        <translation>每张照片都会保存。拍完最后一张后打开“阈值”。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>设备正由“%1”使用。</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>测量用时 %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>请确认已清场。</translation>
+    </message>
+    <message>
+        <source>Leave the room dark and still, then start.</source>
+        <translation>保持场内黑暗、静止，然后开始。</translation>
+    </message>
+    <message>
+        <source>Show threshold</source>
+        <translation>查看阈值</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>开始测量</translation>
+    </message>
+    <message>
+        <source>Stop and keep</source>
+        <translation>停止并保留</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>暂停</translation>
+    </message>
+    <message>
+        <source>This measurement belongs to earlier settings</source>
+        <translation>此测量属于以前的设置</translation>
+    </message>
+    <message>
+        <source>It still works and stays until the new one is ready.</source>
+        <translation>它仍可使用，并会保留到新的测量完成。</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>重新测量</translation>
+    </message>
+    <message>
+        <source>The last session ended before it was finished</source>
+        <translation>上次测量未完成就已结束</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.</source>
+        <translation>
+            <numerusform>%n 张照片已保存。继续测量，结果与未中断时相同。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>没有任何更改。</translation>
+    </message>
+    <message>
+        <source>Fineness</source>
+        <translation>精细度</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>颜色</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>正在打开设备</translation>
+    </message>
+    <message>
+        <source>Reading the response</source>
+        <translation>正在读取响应</translation>
+    </message>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>正在测量光传输</translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
+        <translation>
+            <numerusform>全部 %n 张照片已写入磁盘。正在拍摄的一张不计在内。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Acquire</source>
+        <translation>采集</translation>
+    </message>
+    <message>
+        <source>Measure how every projector pixel lights every camera pixel. Leave the room dark and still.</source>
+        <translation>测量投影机的每个像素如何照亮相机的每个像素。请保持场内黑暗、静止。</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>发送到投影机</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>相机所见</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>投影机显示的图案</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>最近一张照片</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins. Nothing is projected before you start.</source>
+        <translation>测量开始后显示。开始之前不会投影。</translation>
+    </message>
+    <message>
+        <source>How finely</source>
+        <translation>精细程度</translation>
+    </message>
+    <message>
+        <source>Fast</source>
+        <translation>快速</translation>
+    </message>
+    <message>
+        <source>a first look; misses weak bounces</source>
+        <translation>初步了解，会漏掉弱间接反射</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>常规</translation>
+    </message>
+    <message>
+        <source>suits most surfaces</source>
+        <translation>适合多数表面</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>精细</translation>
+    </message>
+    <message>
+        <source>glass, gloss, deep corners</source>
+        <translation>玻璃、光泽面、深角落</translation>
+    </message>
+    <message>
+        <source>Red, green, blue</source>
+        <translation>红、绿、蓝</translation>
+    </message>
+    <message>
+        <source>White only</source>
+        <translation>仅白色</translation>
+    </message>
+    <message>
+        <source>White only is three times faster, with colours a few percent off.</source>
+        <translation>仅用白色快三倍，颜色有百分之几的偏差。</translation>
+    </message>
+    <message>
+        <source>Photographs a second</source>
+        <translation>每秒照片数</translation>
+    </message>
+    <message>
+        <source>Taken in this session</source>
+        <translation>本次已拍</translation>
+    </message>
+    <message>
+        <source>Patterns ahead</source>
+        <translation>剩余图案</translation>
+    </message>
+    <message>
+        <source>Disk still needed</source>
+        <translation>还需磁盘空间</translation>
+    </message>
+    <message>
+        <source>Watching</source>
+        <translation>监测</translation>
+    </message>
+    <message>
+        <source>Light and view are watched</source>
+        <translation>正在监测光线和视野</translation>
+    </message>
+    <message>
+        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
+        <translation>每拍 40 张照片，就将环境光、灯和相机位置与开始时比较。如有变动，测量会暂停并询问。</translation>
+    </message>
+    <message>
+        <source>Paused</source>
+        <translation>已暂停</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>剩余约 %1</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>正在测量</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>约 %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ActionBar</name>
+    <message>
+        <source>Progress of the measurement</source>
+        <translation>测量进度</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>返回</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CameraPage</name>
+    <message>
+        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
+        <translation>%1 × %2 像素，%3 位，曝光 %4 至 %5</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>无法使用：%1</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>选择</translation>
+    </message>
+    <message>
+        <source>Choose %1</source>
+        <translation>选择 %1</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Choose the one that looks at the surface.</source>
+        <translation>请选择对准表面的那台。</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>重新查找</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>正在查找相机</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>没有相机响应。请检查线缆和电源。</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>没有任何更改。</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>正在检查</translation>
+    </message>
+    <message>
+        <source>Checked %1</source>
+        <translation>检查于 %1</translation>
+    </message>
+    <message>
+        <source>Choose the camera that looks at the surface.</source>
+        <translation>请选择对准表面的相机。</translation>
+    </message>
+    <message>
+        <source>The camera is in use at %1.</source>
+        <translation>相机正由“%1”使用。</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>正在打开设备</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure.</source>
+        <translation>视野的 %1 在各档曝光下都过亮。</translation>
+    </message>
+    <message>
+        <source>Look through the camera first.</source>
+        <translation>请先查看相机画面。</translation>
+    </message>
+    <message>
+        <source>Next: test patterns for the projector&apos;s response</source>
+        <translation>下一步：用测试图案测量投影机的响应</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>测量响应</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>暂停</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>重新检查</translation>
+    </message>
+    <message>
+        <source>Choose another camera</source>
+        <translation>选择其他相机</translation>
+    </message>
+    <message>
+        <source>Focus area</source>
+        <translation>对焦区域</translation>
+    </message>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>正在检查投影机和相机</translation>
+    </message>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>正在确定曝光</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>正在查看相机画面</translation>
+    </message>
+    <message>
+        <source>Nothing is measured at this step, so nothing is lost.</source>
+        <translation>此步骤不做测量，因此不会丢失数据。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Frame the surface, focus, and let the exposures cover its brightest and darkest parts.</source>
+        <translation>取景、对焦，并让各档曝光覆盖表面的最亮和最暗部分。</translation>
+    </message>
+    <message>
+        <source>Focus, %1 of best</source>
+        <translation>对焦，为最佳值的 %1</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>相机视图</translation>
+    </message>
+    <message>
+        <source>What the camera sees now</source>
+        <translation>相机当前所见</translation>
+    </message>
+    <message>
+        <source>The camera is not being looked through.</source>
+        <translation>当前未查看相机画面。</translation>
+    </message>
+    <message>
+        <source>exposure %1. Click where the focus is to be judged.</source>
+        <translation>曝光 %1。单击要判断对焦的位置。</translation>
+    </message>
+    <message>
+        <source>Light in this exposure: red, green, blue</source>
+        <translation>此曝光的光量：红、绿、蓝</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>对焦</translation>
+    </message>
+    <message>
+        <source>Turn the lens until the bar stays at the mark: the best so far.</source>
+        <translation>转动对焦环，直到指示条停在标记处，即目前最佳。</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>曝光</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>检查</translation>
+    </message>
+    <message>
+        <source>Signal, share of full</source>
+        <translation>信号，占满量程的比例</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>像素</translation>
+    </message>
+    <message>
+        <source>Looking for the projector&apos;s light</source>
+        <translation>正在查找投影机的光</translation>
+    </message>
+    <message>
+        <source>The camera sees the projector</source>
+        <translation>相机能看到投影机</translation>
+    </message>
+    <message>
+        <source>White and black differ as they should.</source>
+        <translation>白与黑的差别正常。</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view.</source>
+        <translation>视野中仅 %1 除外。</translation>
+    </message>
+    <message>
+        <source>Bright parts are covered</source>
+        <translation>亮部已覆盖</translation>
+    </message>
+    <message>
+        <source>%1 is too bright in every exposure</source>
+        <translation>视野的 %1 在各档曝光下都过亮</translation>
+    </message>
+    <message>
+        <source>Close the lens a little, or shade lamps in the view.</source>
+        <translation>请略收光圈，或遮挡视野中的灯。</translation>
+    </message>
+    <message>
+        <source>Dark parts are covered</source>
+        <translation>暗部已覆盖</translation>
+    </message>
+    <message>
+        <source>%1 is too dark in every exposure</source>
+        <translation>视野的 %1 在各档曝光下都过暗</translation>
+    </message>
+    <message>
+        <source>The projector may not reach there. Where it should, open the lens.</source>
+        <translation>投影机可能照不到那里。若应照到，请开大光圈。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ClusterPage</name>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>已测得的数据是安全的。</translation>
+    </message>
+    <message>
+        <source>%1 clusters</source>
+        <translation>%1 个簇</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>已过期</translation>
+    </message>
+    <message>
+        <source>Grouping again</source>
+        <translation>正在重新聚类</translation>
+    </message>
+    <message>
+        <source>Grouping</source>
+        <translation>正在聚类</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>正在读取光传输</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2 projector pixels</source>
+        <translation>%1 个簇，中位数 %2 个投影机像素</translation>
+    </message>
+    <message>
+        <source>Preview content</source>
+        <translation>预览内容</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier threshold</source>
+        <translation>已保存的簇属于以前的阈值</translation>
+    </message>
+    <message>
+        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <translation>此处显示的是重新聚类的结果。继续即保存。</translation>
+    </message>
+    <message>
+        <source>Cluster</source>
+        <translation>聚类</translation>
+    </message>
+    <message>
+        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
+        <translation>将场地划分为可独立求解的小像素组，快得足以用于视频。</translation>
+    </message>
+    <message>
+        <source>Cluster map</source>
+        <translation>簇图</translation>
+    </message>
+    <message>
+        <source>click a pixel</source>
+        <translation>单击一个像素</translation>
+    </message>
+    <message>
+        <source>Error map</source>
+        <translation>误差图</translation>
+    </message>
+    <message>
+        <source>Flat</source>
+        <translation>平面</translation>
+    </message>
+    <message>
+        <source>Relief</source>
+        <translation>立体</translation>
+    </message>
+    <message>
+        <source>Cluster sizes</source>
+        <translation>簇的大小</translation>
+    </message>
+    <message>
+        <source>Projector pixels in the cluster</source>
+        <translation>簇内的投影机像素数</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>簇</translation>
+    </message>
+    <message>
+        <source>%1, %2: in no cluster</source>
+        <translation>%1, %2：不属于任何簇</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3 projector pixels, error %4</source>
+        <translation>%1, %2：%3 个投影机像素，误差 %4</translation>
+    </message>
+    <message>
+        <source>Cluster map, %1 clusters, largest %2</source>
+        <translation>簇图，%1 个簇，最大 %2</translation>
+    </message>
+    <message>
+        <source>rel. RMS</source>
+        <translation>相对 RMS</translation>
+    </message>
+    <message>
+        <source>Error map, median %1</source>
+        <translation>误差图，中位数 %1</translation>
+    </message>
+    <message>
+        <source>median %1, 95 % below %2</source>
+        <translation>中位数 %1，95 % 低于 %2</translation>
+    </message>
+    <message>
+        <source>cap %1</source>
+        <translation>上限 %1</translation>
+    </message>
+    <message>
+        <source>%1 clusters, median %2</source>
+        <translation>%1 个簇，中位数 %2</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>small, sharp</source>
+        <translation>小，清晰</translation>
+    </message>
+    <message>
+        <source>large, fast</source>
+        <translation>大，快速</translation>
+    </message>
+    <message>
+        <source>Share of the brightest</source>
+        <translation>占最亮值的比例</translation>
+    </message>
+    <message>
+        <source>more detail</source>
+        <translation>更多细节</translation>
+    </message>
+    <message>
+        <source>more speed</source>
+        <translation>更快</translation>
+    </message>
+    <message>
+        <source>Largest cluster</source>
+        <translation>最大簇</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>快速</translation>
+    </message>
+    <message>
+        <source>exact</source>
+        <translation>精确</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Cut by the cap</source>
+        <translation>被上限截断</translation>
+    </message>
+    <message>
+        <source>Light kept in clusters</source>
+        <translation>簇内保留的光量</translation>
+    </message>
+    <message>
+        <source>Median error</source>
+        <translation>误差中位数</translation>
+    </message>
+    <message>
+        <source>An error of 70 to 80 % is normal here.</source>
+        <translation>此处误差 70 至 80 % 属正常。</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
+        <translation>聚类会有意舍弃镜头的模糊。请查看与周围明显不同的斑块。</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n unknown(s)</source>
+        <translation>
+            <numerusform>%n 个未知数</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 of light</source>
+        <translation>光量的 %1</translation>
+    </message>
+    <message>
+        <source>Without the cap, one cluster would cover %1 of the picture.</source>
+        <translation>若不设上限，一个簇将覆盖画面的 %1。</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
+        <translation>表面的模糊跨越相邻像素，使簇连成一片。上限将它们分开。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::CornerView</name>
+    <message>
+        <source>Top left corner, %1, %2.</source>
+        <translation>左上角，%1, %2。</translation>
+    </message>
+    <message>
+        <source>Top right corner, %1, %2.</source>
+        <translation>右上角，%1, %2。</translation>
+    </message>
+    <message>
+        <source>Bottom right corner, %1, %2.</source>
+        <translation>右下角，%1, %2。</translation>
+    </message>
+    <message>
+        <source>Bottom left corner, %1, %2.</source>
+        <translation>左下角，%1, %2。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FailureDialog</name>
+    <message>
+        <source>A device stopped answering</source>
+        <translation>一台设备停止响应</translation>
+    </message>
+    <message>
+        <source>The disk did not do what was asked</source>
+        <translation>磁盘未完成所要求的操作</translation>
+    </message>
+    <message>
+        <source>The memory is full</source>
+        <translation>内存已满</translation>
+    </message>
+    <message>
+        <source>A file cannot be read</source>
+        <translation>文件无法读取</translation>
+    </message>
+    <message>
+        <source>This cannot be done as it is</source>
+        <translation>在当前情况下无法执行</translation>
+    </message>
+    <message>
+        <source>The computation failed</source>
+        <translation>计算失败</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>发生了什么</translation>
+    </message>
+    <message>
+        <source>What is safe</source>
+        <translation>哪些是安全的</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>怎么办</translation>
+    </message>
+    <message>
+        <source>Copy details</source>
+        <translation>复制详细信息</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message>
+        <source>The projector shows patterns that change about %1 times a second.</source>
+        <translation>投影机显示的图案每秒变化约 %1 次。</translation>
+    </message>
+    <message>
+        <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
+        <translation>投影机以设备允许的最快速度切换图案，可能每秒超过 3 次。</translation>
+    </message>
+    <message>
+        <source>The room is clear</source>
+        <translation>已清场</translation>
+    </message>
+    <message>
+        <source>Flashing light</source>
+        <translation>闪光</translation>
+    </message>
+    <message>
+        <source>The room is clear and everyone here knows</source>
+        <translation>已清场，且在场人员均已知悉</translation>
+    </message>
+    <message>
+        <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
+        <translation>闪光可能诱发癫痫。请清场，并遮挡入口。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::HelpWindow</name>
+    <message>
+        <source>Help</source>
+        <translation>帮助</translation>
+    </message>
+    <message>
+        <source>Search the guide</source>
+        <translation>搜索指南</translation>
+    </message>
+    <message>
+        <source>Pages of the guide</source>
+        <translation>指南页面</translation>
+    </message>
+    <message>
+        <source>The page</source>
+        <translation>页面内容</translation>
+    </message>
+    <message>
+        <source>No page holds these words.</source>
+        <translation>没有页面包含这些词。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::IdentifyOverlay</name>
+    <message>
+        <source>%1, %2 × %3, %4 Hz</source>
+        <translation>%1，%2 × %3，%4 Hz</translation>
+    </message>
+    <message>
+        <source>Lines sharp? Then this is the projector&apos;s own resolution.</source>
+        <translation>线条清晰吗？清晰则说明这是投影机的原生分辨率。</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>屏幕 %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::LinearizePage</name>
+    <message>
+        <source>The photographs of this step are still in the folder.</source>
+        <translation>此步骤的照片仍在文件夹中。</translation>
+    </message>
+    <message>
+        <source>Measuring, %1</source>
+        <translation>正在测量，%1</translation>
+    </message>
+    <message>
+        <source>%1 additivity</source>
+        <translation>可加性误差 %1</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>已测量</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>已过期</translation>
+    </message>
+    <message>
+        <source>Stopped by a failure</source>
+        <translation>因故障停止</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>设备正由“%1”使用。</translation>
+    </message>
+    <message>
+        <source>The colours do not add up. Continuing is recorded in the report.</source>
+        <translation>三色之和与白色不符。若继续，将记入报告。</translation>
+    </message>
+    <message>
+        <source>Measured in %1</source>
+        <translation>测量用时 %1</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>请确认已清场。</translation>
+    </message>
+    <message>
+        <source>About %1 test patterns</source>
+        <translation>约 %1 个测试图案</translation>
+    </message>
+    <message>
+        <source>Plan acquisition</source>
+        <translation>规划采集</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>仍然继续</translation>
+    </message>
+    <message>
+        <source>Measure response</source>
+        <translation>测量响应</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>重新测量</translation>
+    </message>
+    <message>
+        <source>These curves belong to earlier settings</source>
+        <translation>这些曲线属于以前的设置</translation>
+    </message>
+    <message>
+        <source>They still work and stay until the new ones are measured.</source>
+        <translation>它们仍可使用，并会保留到新曲线测完。</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>色阶数</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>没有任何更改。</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>正在打开设备</translation>
+    </message>
+    <message>
+        <source>Measuring the response</source>
+        <translation>正在测量响应</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>重试</translation>
+    </message>
+    <message>
+        <source>Every photograph that was taken is on the disk. Trying again goes on from there.</source>
+        <translation>已拍摄的照片都在磁盘上。重试会从中断处继续。</translation>
+    </message>
+    <message>
+        <source>Linearize</source>
+        <translation>线性化</translation>
+    </message>
+    <message>
+        <source>Measure how much light each step of the projector&apos;s three colours really gives.</source>
+        <translation>测量投影机三种颜色的每个色阶实际发出多少光。</translation>
+    </message>
+    <message>
+        <source>Red</source>
+        <translation>红</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>绿</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>蓝</translation>
+    </message>
+    <message>
+        <source>Sent to the projector</source>
+        <translation>发送到投影机</translation>
+    </message>
+    <message>
+        <source>Seen by the camera</source>
+        <translation>相机所见</translation>
+    </message>
+    <message>
+        <source>Pattern that the projector shows</source>
+        <translation>投影机显示的图案</translation>
+    </message>
+    <message>
+        <source>Last photograph</source>
+        <translation>最近一张照片</translation>
+    </message>
+    <message>
+        <source>Appears when measuring begins.</source>
+        <translation>测量开始后显示。</translation>
+    </message>
+    <message>
+        <source>%1, photograph %2</source>
+        <translation>%1，第 %2 张照片</translation>
+    </message>
+    <message>
+        <source>Response of the projector</source>
+        <translation>投影机的响应</translation>
+    </message>
+    <message>
+        <source>Level sent to the projector</source>
+        <translation>发送到投影机的色阶</translation>
+    </message>
+    <message>
+        <source>Light, % of full</source>
+        <translation>光量，占全亮的 %</translation>
+    </message>
+    <message>
+        <source>Light of every level, three colours</source>
+        <translation>三种颜色各色阶的光量</translation>
+    </message>
+    <message>
+        <source>as it is measured, in random order</source>
+        <translation>按测量时的随机顺序</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n level(s) a colour, random order, drift removed</source>
+        <translation>
+            <numerusform>每色 %n 个色阶，随机顺序，已去除漂移</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>尚未测量</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>曝光</translation>
+    </message>
+    <message>
+        <source>Chosen for this venue</source>
+        <translation>为此场地选定</translation>
+    </message>
+    <message>
+        <source>Measure with</source>
+        <translation>测量方式</translation>
+    </message>
+    <message>
+        <source>Levels a colour</source>
+        <translation>每色色阶数</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>正在测量</translation>
+    </message>
+    <message>
+        <source>Not measured yet</source>
+        <translation>尚未测量</translation>
+    </message>
+    <message>
+        <source>Whether the colours add up, the camera is linear and every level is brighter than the one below is told when all levels are measured.</source>
+        <translation>所有色阶测完后，将说明三色之和是否与白色相符、相机是否线性、每个色阶是否都比低一级的亮。</translation>
+    </message>
+    <message>
+        <source>The colours add up</source>
+        <translation>三色之和与白色相符</translation>
+    </message>
+    <message>
+        <source>Red, green and blue together give white within %1.</source>
+        <translation>红、绿、蓝之和与白色相差不超过 %1。</translation>
+    </message>
+    <message>
+        <source>The colours do not add up</source>
+        <translation>三色之和与白色不符</translation>
+    </message>
+    <message>
+        <source>White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the projector&apos;s menu, then measure again.</source>
+        <translation>白色与三色之和相差 %1。请在投影机菜单中关闭“亮彩”或“动态”模式，然后重新测量。</translation>
+    </message>
+    <message>
+        <source>The camera is linear</source>
+        <translation>相机是线性的</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s curve is known</source>
+        <translation>相机的曲线已知</translation>
+    </message>
+    <message>
+        <source>Doubling the exposure doubles the signal.</source>
+        <translation>曝光加倍，信号也加倍。</translation>
+    </message>
+    <message>
+        <source>Its photographs are brought back to linear light.</source>
+        <translation>它的照片会还原为线性光。</translation>
+    </message>
+    <message>
+        <source>Curves rise everywhere</source>
+        <translation>曲线处处上升</translation>
+    </message>
+    <message>
+        <source>No level is darker than the one below it.</source>
+        <translation>没有色阶比低一级的更暗。</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>测量中的发现</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MainWindow</name>
+    <message>
+        <source>Dim pictures</source>
+        <translation>调暗图像</translation>
+    </message>
+    <message>
+        <source>Pictures dimmed</source>
+        <translation>图像已调暗</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>设置</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>帮助</translation>
+    </message>
+    <message>
+        <source>F1</source>
+        <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::MatrixView</name>
+    <message>
+        <source>camera %1
+projector %2</source>
+        <translation>相机 %1
+投影机 %2</translation>
+    </message>
+    <message>
+        <source>%1
+%2</source>
+        <translation>%1
+%2</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>传输值</translation>
+    </message>
+    <message>
+        <source>projector x, y</source>
+        <translation>投影机 x, y</translation>
+    </message>
+    <message>
+        <source>projector line</source>
+        <translation>投影机像素行</translation>
+    </message>
+    <message>
+        <source>camera x, y</source>
+        <translation>相机 x, y</translation>
+    </message>
+    <message>
+        <source>camera line</source>
+        <translation>相机像素行</translation>
+    </message>
+    <message>
+        <source>%1 across, %2 down</source>
+        <translation>横向：%1，纵向：%2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputPage</name>
+    <message>
+        <source>Projector&apos;s screen</source>
+        <translation>投影机的屏幕</translation>
+    </message>
+    <message>
+        <source>This screen</source>
+        <translation>此屏幕</translation>
+    </message>
+    <message>
+        <source>%1: measured ΔE %2, predicted %3</source>
+        <translation>%1：实测 ΔE %2，预测 %3</translation>
+    </message>
+    <message>
+        <source>Not photographed yet</source>
+        <translation>尚未拍摄</translation>
+    </message>
+    <message>
+        <source>One photograph shows whether the surface looks as predicted.</source>
+        <translation>一张照片即可显示表面是否与预测相符。</translation>
+    </message>
+    <message>
+        <source>Corrected</source>
+        <translation>补偿后</translation>
+    </message>
+    <message>
+        <source>Original</source>
+        <translation>原图</translation>
+    </message>
+    <message>
+        <source>%1 of the picture can be reached.</source>
+        <translation>画面的 %1 可达。</translation>
+    </message>
+    <message>
+        <source>The surface looks as predicted</source>
+        <translation>表面与预测相符</translation>
+    </message>
+    <message>
+        <source>The camera or projector may have moved.</source>
+        <translation>相机或投影机可能移动过。</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns: %1, when measured %2. %3 of the view changed.</source>
+        <translation>测试图案的误差：%1，测量时为 %2。视野的 %3 有变化。</translation>
+    </message>
+    <message>
+        <source>The measurement still holds</source>
+        <translation>测量仍然有效</translation>
+    </message>
+    <message>
+        <source>Something has changed. Measure the light transport again.</source>
+        <translation>有变化。请重新测量光传输。</translation>
+    </message>
+    <message>
+        <source>Hardly anything fits. Aim, focus and measure everything again.</source>
+        <translation>几乎全不吻合。请重新对准、对焦并测量全部内容。</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>验证</translation>
+    </message>
+    <message>
+        <source>Take verification photograph</source>
+        <translation>拍摄验证照片</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+V</source>
+        <translation>Ctrl+Shift+V</translation>
+    </message>
+    <message>
+        <source>Check for drift</source>
+        <translation>检查漂移</translation>
+    </message>
+    <message>
+        <source>Photographs the test patterns of the measurement again, ten or so.</source>
+        <translation>重新拍摄测量时的测试图案，十张左右。</translation>
+    </message>
+    <message>
+        <source>Hand over</source>
+        <translation>交付</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>保存报告</translation>
+    </message>
+    <message>
+        <source>Start the show with this computer</source>
+        <translation>开机时启动节目</translation>
+    </message>
+    <message>
+        <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
+        <translation>已安装。下次登录时节目自动开始，无需相机或向导。</translation>
+    </message>
+    <message>
+        <source>Installed. Install again, and it starts no more by itself.</source>
+        <translation>已安装。再次安装后将不再自动启动。</translation>
+    </message>
+    <message>
+        <source>Once installed, the show runs unattended, without camera or wizard.</source>
+        <translation>安装后，节目可无人值守运行，无需相机或向导。</translation>
+    </message>
+    <message>
+        <source>The show does not start by itself.</source>
+        <translation>节目不会自动启动。</translation>
+    </message>
+    <message>
+        <source>Playlist</source>
+        <translation>播放列表</translation>
+    </message>
+    <message>
+        <source>This screen has other pixels than the projector that was measured.</source>
+        <translation>此屏幕的像素数与测量时的投影机不同。</translation>
+    </message>
+    <message>
+        <source>The picture stands in its middle, pixel for pixel.</source>
+        <translation>画面按原始像素居中显示。</translation>
+    </message>
+    <message>
+        <source>Still pictures: %1</source>
+        <translation>静态图片：%1</translation>
+    </message>
+    <message>
+        <source>Films and cross-fades use windows and steps, which are quick enough.</source>
+        <translation>视频和交叉淡化使用“窗口与迭代”，其速度足够快。</translation>
+    </message>
+    <message>
+        <source>Make the list again.</source>
+        <translation>请重新创建列表。</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黑场</translation>
+    </message>
+    <message>
+        <source>Frozen</source>
+        <translation>已定格</translation>
+    </message>
+    <message>
+        <source>Playing</source>
+        <translation>正在播放</translation>
+    </message>
+    <message>
+        <source>Add a picture or a film to the playlist.</source>
+        <translation>请将图片或视频添加到播放列表。</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen.</source>
+        <translation>请选择投影机的屏幕。</translation>
+    </message>
+    <message>
+        <source>Playing. Hold A to compare.</source>
+        <translation>正在播放。按住 A 可对比。</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph, or install without proof.</source>
+        <translation>请拍摄验证照片，或不经验证直接安装。</translation>
+    </message>
+    <message>
+        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
+        <translation>只有一个屏幕，输出会将它盖住；按 Esc 关闭输出。</translation>
+    </message>
+    <message>
+        <source>Nothing is projected before you open the output.</source>
+        <translation>打开输出之前不会投影。</translation>
+    </message>
+    <message>
+        <source>Install show</source>
+        <translation>安装节目</translation>
+    </message>
+    <message>
+        <source>Install without proof</source>
+        <translation>不验证直接安装</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>打开输出</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>播放</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>定格</translation>
+    </message>
+    <message>
+        <source>Show again</source>
+        <translation>恢复显示</translation>
+    </message>
+    <message>
+        <source>Close output</source>
+        <translation>关闭输出</translation>
+    </message>
+    <message>
+        <source>Add to the playlist</source>
+        <translation>添加到播放列表</translation>
+    </message>
+    <message>
+        <source>Remove from the playlist</source>
+        <translation>从播放列表移除</translation>
+    </message>
+    <message>
+        <source>Order of the playlist</source>
+        <translation>播放列表顺序</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>循环</translation>
+    </message>
+    <message>
+        <source>Cross-fade</source>
+        <translation>交叉淡化</translation>
+    </message>
+    <message>
+        <source>The calibration is as it was.</source>
+        <translation>校准数据保持不变。</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>输出</translation>
+    </message>
+    <message>
+        <source>Play corrected content, prove that it works with one photograph, and hand the venue over.</source>
+        <translation>播放补偿后的内容，用一张照片验证效果，然后交付场地。</translation>
+    </message>
+    <message>
+        <source>Playback</source>
+        <translation>播放</translation>
+    </message>
+    <message>
+        <source>frames a second</source>
+        <translation>帧/秒</translation>
+    </message>
+    <message>
+        <source>frame time</source>
+        <translation>帧时间</translation>
+    </message>
+    <message>
+        <source>frames late</source>
+        <translation>超时帧</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>秒</translation>
+    </message>
+    <message>
+        <source>Frame time, ms</source>
+        <translation>帧时间，ms</translation>
+    </message>
+    <message>
+        <source>Frame times of the last minute</source>
+        <translation>最近一分钟的帧时间</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>已关闭</translation>
+    </message>
+    <message>
+        <source>on %1</source>
+        <translation>运行于 %1</translation>
+    </message>
+    <message>
+        <source>still picture, on %1</source>
+        <translation>静态图片，运行于 %1</translation>
+    </message>
+    <message>
+        <source>Frame time</source>
+        <translation>帧时间</translation>
+    </message>
+    <message>
+        <source>On the projector now</source>
+        <translation>投影机当前画面</translation>
+    </message>
+    <message>
+        <source>What the projector shows</source>
+        <translation>投影机显示的内容</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black.</source>
+        <translation>按住 A 看原图，空格键定格，B 为黑场。</translation>
+    </message>
+    <message>
+        <source>The output is closed. Nothing is projected.</source>
+        <translation>输出已关闭。当前没有投影。</translation>
+    </message>
+    <message>
+        <source>Photograph of the surface</source>
+        <translation>表面的照片</translation>
+    </message>
+    <message>
+        <source>What was wanted at the left of the divider, the photograph at the right</source>
+        <translation>分隔线左侧为目标，右侧为照片</translation>
+    </message>
+    <message>
+        <source>No verification photograph has been taken.</source>
+        <translation>尚未拍摄验证照片。</translation>
+    </message>
+    <message>
+        <source>Photograph against wanted</source>
+        <translation>照片与目标对比</translation>
+    </message>
+    <message>
+        <source>colour difference</source>
+        <translation>色差</translation>
+    </message>
+    <message>
+        <source>Colour difference between the photograph and what was wanted</source>
+        <translation>照片与目标之间的色差</translation>
+    </message>
+    <message>
+        <source>A verification photograph shows here what is left to see.</source>
+        <translation>拍摄验证照片后，此处显示剩余的差异。</translation>
+    </message>
+    <message>
+        <source>%1 out of reach</source>
+        <translation>不可达 %1</translation>
+    </message>
+    <message>
+        <source>still picture, %1</source>
+        <translation>静态图片，%1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3</source>
+        <translation>%1 fps，%2 ms，%3</translation>
+    </message>
+    <message>
+        <source>taken %1</source>
+        <translation>拍摄于 %1</translation>
+    </message>
+    <message>
+        <source>Wanted</source>
+        <translation>目标</translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation>照片</translation>
+    </message>
+    <message>
+        <source>Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here.</source>
+        <translation>Delete 移除条目，Ctrl+Up 和 Ctrl+Down 移动条目。可将文件拖放到此处。</translation>
+    </message>
+    <message>
+        <source>%1, playing</source>
+        <translation>%1，正在播放</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
+    </message>
+    <message>
+        <source>Add files to the playlist</source>
+        <translation>将文件添加到播放列表</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>上移</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>下移</translation>
+    </message>
+    <message>
+        <source>Cross-fade, tenths of a second</source>
+        <translation>交叉淡化，单位为十分之一秒</translation>
+    </message>
+    <message>
+        <source>Add pictures or films</source>
+        <translation>添加图片或视频</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Skipped: %1</source>
+        <translation>已跳过：%1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProjection</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>正在准备引擎</translation>
+    </message>
+    <message>
+        <source>Open the output again.</source>
+        <translation>请重新打开输出。</translation>
+    </message>
+    <message>
+        <source>Relucent is projecting</source>
+        <translation>Relucent 正在投影</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::OutputProof</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>正在打开设备</translation>
+    </message>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>正在拍摄验证照片</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>正在检查漂移</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>正在写入报告</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PlaneView</name>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>Esc goes back</source>
+        <translation>按 Esc 返回</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::PreviewPage</name>
+    <message>
+        <source>No correction</source>
+        <translation>不补偿</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>逐像素亮度</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>逐像素独立</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>逐像素锐化</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>簇</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>窗口</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>窗口与迭代</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>最佳效果，静态图片</translation>
+    </message>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>演示图片</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>内容</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>更换</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>完整</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>填充</translation>
+    </message>
+    <message>
+        <source>Stretch</source>
+        <translation>拉伸</translation>
+    </message>
+    <message>
+        <source>Place automatically</source>
+        <translation>自动放置</translation>
+    </message>
+    <message>
+        <source>In the largest upright rectangle that can be reached</source>
+        <translation>放入可达范围内最大的正立矩形</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光量</translation>
+    </message>
+    <message>
+        <source>May stay too dark</source>
+        <translation>允许过暗</translation>
+    </message>
+    <message>
+        <source>Share of the content that may stay too dark, percent</source>
+        <translation>内容中允许过暗的比例，百分比</translation>
+    </message>
+    <message>
+        <source>Further right the picture gets brighter, and more of it falls behind.</source>
+        <translation>越向右画面越亮，亮度不足的部分也越多。</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks</source>
+        <translation>黑位提升</translation>
+    </message>
+    <message>
+        <source>Lift of the blacks, percent</source>
+        <translation>黑位提升，百分比</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>可达范围</translation>
+    </message>
+    <message>
+        <source>Can be reached</source>
+        <translation>可达</translation>
+    </message>
+    <message>
+        <source>Too dark to reach</source>
+        <translation>过暗，达不到</translation>
+    </message>
+    <message>
+        <source>Never black enough</source>
+        <translation>始终不够黑</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>色差</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from this projector.</source>
+        <translation>画面的一部分得不到此投影机的光。</translation>
+    </message>
+    <message>
+        <source>A second could fill it.</source>
+        <translation>再加一台即可补上。</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>选择图片</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</source>
+        <translation>图片 (*.png *.jpg *.jpeg *.tif *.tiff *.exr)</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>适配</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>亮度</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>已测得的数据是安全的。</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>图片</translation>
+    </message>
+    <message>
+        <source>The picture of before stays.</source>
+        <translation>保留之前的图片。</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>正在读取光传输</translation>
+    </message>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>正在对光传输求逆</translation>
+    </message>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>正在准备预览</translation>
+    </message>
+    <message>
+        <source>The corners cross over. Drag them apart.</source>
+        <translation>四角交叉了。请将它们拖开。</translation>
+    </message>
+    <message>
+        <source>Corners</source>
+        <translation>四角</translation>
+    </message>
+    <message>
+        <source>Automatic place</source>
+        <translation>自动放置</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>正在准备</translation>
+    </message>
+    <message>
+        <source>%1 in reach</source>
+        <translation>可达 %1</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>已过期</translation>
+    </message>
+    <message>
+        <source>The preview is not prepared.</source>
+        <translation>预览尚未准备好。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>设备正由“%1”使用。</translation>
+    </message>
+    <message>
+        <source>Predicting</source>
+        <translation>正在预测</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. Nothing is projected yet.</source>
+        <translation>根据测量预测。尚未投影。</translation>
+    </message>
+    <message>
+        <source>Open output</source>
+        <translation>打开输出</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>预览</translation>
+    </message>
+    <message>
+        <source>Place the content in the camera&apos;s view and see what the audience will see before you project it.</source>
+        <translation>将内容放入相机视图，在投影前查看观众将看到的效果。</translation>
+    </message>
+    <message>
+        <source>Audience view</source>
+        <translation>观众视图</translation>
+    </message>
+    <message>
+        <source>predicted from the measurement</source>
+        <translation>根据测量预测</translation>
+    </message>
+    <message>
+        <source>Reachable light</source>
+        <translation>可达光量</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>差异</translation>
+    </message>
+    <message>
+        <source>What the audience will see, uncorrected at the left of the divider and corrected at the right</source>
+        <translation>观众将看到的画面：分隔线左侧未补偿，右侧已补偿</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where it is too little</source>
+        <translation>可达的最高亮度；斜线处亮度不足</translation>
+    </message>
+    <message>
+        <source>Colour difference between what is wanted and what is predicted</source>
+        <translation>目标与预测之间的色差</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>方法</translation>
+    </message>
+    <message>
+        <source>predicted for this content; click one to use it</source>
+        <translation>针对此内容的预测；单击即可选用</translation>
+    </message>
+    <message>
+        <source>Comparison of methods</source>
+        <translation>方法比较</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>方法</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>SSIM</source>
+        <translation>SSIM</translation>
+    </message>
+    <message>
+        <source>Time a picture</source>
+        <translation>每张耗时</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>备注</translation>
+    </message>
+    <message>
+        <source>blind to bounces</source>
+        <translation>不计间接反射</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>推荐</translation>
+    </message>
+    <message>
+        <source>limit of this venue</source>
+        <translation>此场地的极限</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>未补偿</translation>
+    </message>
+    <message>
+        <source>Corrected, predicted</source>
+        <translation>补偿后，预测</translation>
+    </message>
+    <message>
+        <source>of white</source>
+        <translation>相对白色</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message>
+        <source>Settings</source>
+        <translation>设置</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>外观</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>深色</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>浅色</translation>
+    </message>
+    <message>
+        <source>Theme. The dark one is for the dark room.</source>
+        <translation>主题。深色适合在暗处使用。</translation>
+    </message>
+    <message>
+        <source>Dim pictures: the laptop is room light</source>
+        <translation>调暗图像：笔记本屏幕也是环境光</translation>
+    </message>
+    <message>
+        <source>As the computer</source>
+        <translation>跟随系统</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>语言</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>测量</translation>
+    </message>
+    <message>
+        <source>As quickly as the devices can, after a consent</source>
+        <translation>设备允许的最快速度，须经同意</translation>
+    </message>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>每秒最多变化 %n 次</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Flashing light of the projector</source>
+        <translation>投影机的闪光</translation>
+    </message>
+    <message>
+        <source>More than three changes a second can cause seizures. Slower measuring needs no consent.</source>
+        <translation>每秒变化超过三次可能诱发癫痫。放慢测量则无需同意。</translation>
+    </message>
+    <message>
+        <source>A sound when a measurement ends</source>
+        <translation>测量结束时播放提示音</translation>
+    </message>
+    <message>
+        <source>New venues</source>
+        <translation>新场地</translation>
+    </message>
+    <message>
+        <source>Folder for new venues</source>
+        <translation>新场地的文件夹</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>选择文件夹</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::Show</name>
+    <message>
+        <source>A show is playing.</source>
+        <translation>正在播放节目。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StatusStrip</name>
+    <message>
+        <source>Projector</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>磁盘</translation>
+    </message>
+    <message>
+        <source>none chosen</source>
+        <translation>未选择</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>可用 %1</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>模拟</translation>
+    </message>
+    <message>
+        <source>by script</source>
+        <translation>脚本</translation>
+    </message>
+    <message>
+        <source>%1, in use</source>
+        <translation>%1，使用中</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>保存于 %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::StepRail</name>
+    <message>
+        <source>locked</source>
+        <translation>已锁定</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>已完成</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>已过期</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>正在测量</translation>
+    </message>
+    <message>
+        <source>current</source>
+        <translation>当前</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>待完成</translation>
+    </message>
+    <message>
+        <source>Step %1, %2, %3</source>
+        <translation>步骤 %1，%2，%3</translation>
+    </message>
+    <message>
+        <source>No venue open</source>
+        <translation>未打开场地</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::ThresholdPage</name>
+    <message>
+        <source>%1 of light kept</source>
+        <translation>保留光量 %1</translation>
+    </message>
+    <message>
+        <source>Out of date</source>
+        <translation>已过期</translation>
+    </message>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>正在读取光传输</translation>
+    </message>
+    <message>
+        <source>Below 95 % of the light, bounces are lost.</source>
+        <translation>光量低于 95 % 时会丢失间接反射。</translation>
+    </message>
+    <message>
+        <source>Next: groups of pixels that can be solved on their own</source>
+        <translation>下一步：可独立求解的像素组</translation>
+    </message>
+    <message>
+        <source>Group into clusters</source>
+        <translation>开始聚类</translation>
+    </message>
+    <message>
+        <source>The threshold was chosen for an earlier measurement</source>
+        <translation>阈值是为以前的测量选定的</translation>
+    </message>
+    <message>
+        <source>Look at it again, then go on.</source>
+        <translation>请重新查看，然后继续。</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>已测得的数据是安全的。</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>阈值</translation>
+    </message>
+    <message>
+        <source>Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.</source>
+        <translation>选择值得保留的最弱的光。保留越少，越快越小；太少会丢失间接反射。</translation>
+    </message>
+    <message>
+        <source>Camera view</source>
+        <translation>相机视图</translation>
+    </message>
+    <message>
+        <source>The surface in full light</source>
+        <translation>全亮时的表面</translation>
+    </message>
+    <message>
+        <source>Pixel %1, %2</source>
+        <translation>像素 %1, %2</translation>
+    </message>
+    <message>
+        <source>Projector pixels that light the picked camera pixel</source>
+        <translation>照亮所选相机像素的投影机像素</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in the camera view.</source>
+        <translation>请在相机视图中选取一个像素。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>传输值</translation>
+    </message>
+    <message>
+        <source>Transport matrix</source>
+        <translation>传输矩阵</translation>
+    </message>
+    <message>
+        <source>click an entry</source>
+        <translation>单击一个元素</translation>
+    </message>
+    <message>
+        <source>Light transport matrix, camera pixels down, projector pixels across</source>
+        <translation>光传输矩阵，纵向为相机像素，横向为投影机像素</translation>
+    </message>
+    <message>
+        <source>Transport value, camera signal a second</source>
+        <translation>传输值，每秒相机信号</translation>
+    </message>
+    <message>
+        <source>How much light flows through each connection</source>
+        <translation>各连接传输的光量</translation>
+    </message>
+    <message>
+        <source>drag the cut, or use the arrow keys</source>
+        <translation>拖动阈值线，或用方向键</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>连接数</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>阈值</translation>
+    </message>
+    <message>
+        <source>Cut at %1, keeps %2</source>
+        <translation>阈值 %1，保留 %2</translation>
+    </message>
+    <message>
+        <source>Everything is kept</source>
+        <translation>全部保留</translation>
+    </message>
+    <message>
+        <source>Leave out light below</source>
+        <translation>舍弃低于此值的光</translation>
+    </message>
+    <message>
+        <source>One value</source>
+        <translation>统一值</translation>
+    </message>
+    <message>
+        <source>Share of the row</source>
+        <translation>占行内比例</translation>
+    </message>
+    <message>
+        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
+        <translation>占该行最强连接的比例，单位为千分之一</translation>
+    </message>
+    <message>
+        <source>What stays</source>
+        <translation>保留部分</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光量</translation>
+    </message>
+    <message>
+        <source>Stored blocks</source>
+        <translation>存储块</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>内存</translation>
+    </message>
+    <message>
+        <source>What is left out is put back in proportion, so that the surface keeps its brightness.</source>
+        <translation>舍弃的光会按比例补回，使表面亮度保持不变。</translation>
+    </message>
+    <message>
+        <source>Picked pixel</source>
+        <translation>所选像素</translation>
+    </message>
+    <message>
+        <source>Lit by</source>
+        <translation>照亮它的</translation>
+    </message>
+    <message>
+        <source>Strongest</source>
+        <translation>最强</translation>
+    </message>
+    <message>
+        <source>From around it</source>
+        <translation>来自其周围</translation>
+    </message>
+    <message>
+        <source>Light from elsewhere</source>
+        <translation>来自别处的光</translation>
+    </message>
+    <message>
+        <source>Below %1 of the row&apos;s strongest connection</source>
+        <translation>低于该行最强连接的 %1</translation>
+    </message>
+    <message>
+        <source>Use suggested, %1</source>
+        <translation>使用建议值 %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 / %2</translation>
+    </message>
+    <message>
+        <source>Picked pixel %1, %2</source>
+        <translation>所选像素 %1, %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pixel(s)</source>
+        <translation>
+            <numerusform>%n 个像素</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VenuePage</name>
+    <message>
+        <source>Unplugged. Plug it in or choose another.</source>
+        <translation>已断开。请重新接上或另选一个。</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3, chosen</source>
+        <translation>%1，%2 × %3，已选择</translation>
+    </message>
+    <message>
+        <source>%1, %2 by %3</source>
+        <translation>%1，%2 × %3</translation>
+    </message>
+    <message>
+        <source>Screens</source>
+        <translation>屏幕</translation>
+    </message>
+    <message>
+        <source>Choose the one that shines on the surface. Its pixels are the projector&apos;s.</source>
+        <translation>请选择照射表面的那个。其像素就是投影机的像素。</translation>
+    </message>
+    <message>
+        <source>Identify screens</source>
+        <translation>识别屏幕</translation>
+    </message>
+    <message>
+        <source>I</source>
+        <translation>I</translation>
+    </message>
+    <message>
+        <source>The projector shares your screen</source>
+        <translation>投影机与您共用屏幕</translation>
+    </message>
+    <message>
+        <source>Real devices</source>
+        <translation>真实设备</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>The camera is chosen at the next step.</source>
+        <translation>相机在下一步选择。</translation>
+    </message>
+    <message>
+        <source>Glossy corner</source>
+        <translation>光泽转角</translation>
+    </message>
+    <message>
+        <source>Light bounces between two cards</source>
+        <translation>光在两张卡片之间反射</translation>
+    </message>
+    <message>
+        <source>Bust before a brick wall</source>
+        <translation>砖墙前的胸像</translation>
+    </message>
+    <message>
+        <source>Texture, shadow and light between surfaces</source>
+        <translation>纹理、阴影和表面之间的光</translation>
+    </message>
+    <message>
+        <source>Many depths</source>
+        <translation>多种深度</translation>
+    </message>
+    <message>
+        <source>Some surfaces are out of focus</source>
+        <translation>部分表面离焦</translation>
+    </message>
+    <message>
+        <source>Dome</source>
+        <translation>穹顶</translation>
+    </message>
+    <message>
+        <source>Every part lights every other part</source>
+        <translation>每一部分都照亮其他各部分</translation>
+    </message>
+    <message>
+        <source>Wine glass</source>
+        <translation>葡萄酒杯</translation>
+    </message>
+    <message>
+        <source>Light is refracted both ways</source>
+        <translation>光沿两个方向折射</translation>
+    </message>
+    <message>
+        <source>Painted wall</source>
+        <translation>彩绘墙面</translation>
+    </message>
+    <message>
+        <source>Flat, with diamonds; the easiest</source>
+        <translation>平面，有菱形图案；最容易</translation>
+    </message>
+    <message>
+        <source>%1, a first look</source>
+        <translation>%1，初步了解</translation>
+    </message>
+    <message>
+        <source>%1, quick</source>
+        <translation>%1，快速</translation>
+    </message>
+    <message>
+        <source>%1, usual</source>
+        <translation>%1，常规</translation>
+    </message>
+    <message>
+        <source>%1, fine</source>
+        <translation>%1，精细</translation>
+    </message>
+    <message>
+        <source>Venue</source>
+        <translation>场地</translation>
+    </message>
+    <message>
+        <source>Rehearse in a simulated venue</source>
+        <translation>在模拟场地中演练</translation>
+    </message>
+    <message>
+        <source>New venue by script</source>
+        <translation>用脚本新建场地</translation>
+    </message>
+    <message>
+        <source>New venue</source>
+        <translation>新建场地</translation>
+    </message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
+        <translation>步骤相同，使用模拟的投影机和相机。不会向场内投影。</translation>
+    </message>
+    <message>
+        <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
+        <translation>指定照射的屏幕、显示和拍摄的程序，以及数据的保存位置。</translation>
+    </message>
+    <message>
+        <source>Say which screen shines on the surface, and where the work is kept.</source>
+        <translation>指定照射表面的屏幕，以及数据的保存位置。</translation>
+    </message>
+    <message>
+        <source>Start here. Every venue keeps its own measurements and settings.</source>
+        <translation>从这里开始。每个场地有各自的测量和设置。</translation>
+    </message>
+    <message>
+        <source>Setting up</source>
+        <translation>正在设置</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1，%2</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>模拟，%1</translation>
+    </message>
+    <message>
+        <source>by script, %1</source>
+        <translation>脚本，%1</translation>
+    </message>
+    <message>
+        <source>%1 is open</source>
+        <translation>“%1”已打开</translation>
+    </message>
+    <message>
+        <source>Enter opens the highlighted choice</source>
+        <translation>按 Enter 打开突出显示的选项</translation>
+    </message>
+    <message>
+        <source>About %1 patterns, %2</source>
+        <translation>约 %1 个图案，%2</translation>
+    </message>
+    <message>
+        <source>Check camera</source>
+        <translation>检查相机</translation>
+    </message>
+    <message>
+        <source>Start rehearsal</source>
+        <translation>开始演练</translation>
+    </message>
+    <message>
+        <source>Nothing was changed in that folder.</source>
+        <translation>该文件夹中没有任何更改。</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>请为场地命名。</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>名称不能包含斜杠。</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>已有同名文件夹。请换一个名称。</translation>
+    </message>
+    <message>
+        <source>Choose the screen that shines on the surface.</source>
+        <translation>请选择照射表面的屏幕。</translation>
+    </message>
+    <message>
+        <source>Free %1 or choose another folder.</source>
+        <translation>请腾出 %1，或选择其他文件夹。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>请确认已清场。</translation>
+    </message>
+    <message>
+        <source>Nothing was measured yet.</source>
+        <translation>尚未做任何测量。</translation>
+    </message>
+    <message>
+        <source>Programs</source>
+        <translation>程序</translation>
+    </message>
+    <message>
+        <source>Any projector and any camera that a command can drive</source>
+        <translation>可用命令驱动的任何投影机和相机</translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and returns when the light is out</source>
+        <translation>显示文件 {image}，画面完全投出后返回</translation>
+    </message>
+    <message>
+        <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
+        <translation>曝光 {exposure} 秒，拍摄到文件 {output}：浮点 EXR、16 位 PNG 或 TIFF</translation>
+    </message>
+    <message>
+        <source>Projector&apos;s pixels</source>
+        <translation>投影机的像素</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>宽度</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>高度</translation>
+    </message>
+    <message>
+        <source>Rehearsal. Opened %1</source>
+        <translation>演练。打开于 %1</translation>
+    </message>
+    <message>
+        <source>Opened %1</source>
+        <translation>打开于 %1</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>打开</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>打开 %1</translation>
+    </message>
+    <message>
+        <source>Open a venue</source>
+        <translation>打开场地</translation>
+    </message>
+    <message>
+        <source>Rehearse</source>
+        <translation>演练</translation>
+    </message>
+    <message>
+        <source>Learn every step in a simulated venue. No devices needed.</source>
+        <translation>在模拟场地中学习每个步骤。无需设备。</translation>
+    </message>
+    <message>
+        <source>Continue where you stopped, or change the content.</source>
+        <translation>从上次停止处继续，或更换内容。</translation>
+    </message>
+    <message>
+        <source>Measure a surface with a projector and a camera at this computer.</source>
+        <translation>用连接到本机的投影机和相机测量表面。</translation>
+    </message>
+    <message>
+        <source>Projector and camera are driven by programs of yours.</source>
+        <translation>投影机和相机由您自己的程序驱动。</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>最近打开</translation>
+    </message>
+    <message>
+        <source>No venues yet</source>
+        <translation>尚无场地</translation>
+    </message>
+    <message>
+        <source>The venues that you measure are listed here, newest first.</source>
+        <translation>您测量的场地会列在这里，最新的在前。</translation>
+    </message>
+    <message>
+        <source>A first rehearsal takes a few minutes.</source>
+        <translation>首次演练需要几分钟。</translation>
+    </message>
+    <message>
+        <source>This venue</source>
+        <translation>此场地</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Name of the venue</source>
+        <translation>场地名称</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>文件夹</translation>
+    </message>
+    <message>
+        <source>Folder that holds the venue</source>
+        <translation>存放场地的文件夹</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>选择文件夹</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>预计</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>图案</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>磁盘</translation>
+    </message>
+    <message>
+        <source>Free there</source>
+        <translation>该处可用空间</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>约 %1</translation>
+    </message>
+    <message>
+        <source>Simulated devices</source>
+        <translation>模拟设备</translation>
+    </message>
+    <message>
+        <source>Pixels of the simulated projector</source>
+        <translation>模拟投影机的像素</translation>
+    </message>
+    <message>
+        <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
+        <translation>像素越多，细节越精细，耗时越长。首次会追踪场地的光线，之后直接沿用。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::VtkView</name>
+    <message>
+        <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
+        <translation>此视图需要 OpenGL 3.2，但这台计算机的绘图不支持。其他功能均正常：图像和分布图以平面方式显示。</translation>
+    </message>
+</context>
+</TS>

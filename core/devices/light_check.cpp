@@ -180,9 +180,7 @@ class LightMeasurement {
     LightCheck check;
     const ExposureRange range = camera_.exposures();
     const double frame = settings_.frame;
-    const bool canWhole =
-        std::floor(range.longest / frame + 1e-6) >= std::ceil(range.shortest / frame - 1e-6);
-    const double whole = canWhole ? wholeFrames(exposure, frame, range) : exposure;
+    const double whole = hasWholeFrames(range, frame) ? wholeFrames(exposure, frame, range) : exposure;
     if (range.shortest <= 0.5 * frame) check.brief = std::max(range.shortest, briefShare * frame);
 
     look(whole, 1.0f);

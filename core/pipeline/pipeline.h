@@ -9,8 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "pipeline/versions.h"
-
 #include "acquisition/acquisition.h"
 #include "acquisition/import.h"
 #include "acquisition/pattern_plan.h"
@@ -24,6 +22,7 @@
 #include "engine/fallback_backend.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
+#include "pipeline/versions.h"
 #include "rig/rig.h"
 #include "venue/venue.h"
 

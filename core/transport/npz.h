@@ -8,16 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "transport/npy.h"
+
 namespace relucent {
-
-/// What an array of a NumPy file holds: `type` as NumPy writes it ("<f4", "<i8", "|S3"), C order.
-struct NpyHeader {
-  std::string type;
-  std::vector<std::uint64_t> shape;
-
-  std::uint64_t count() const;
-  std::size_t itemBytes() const;
-};
 
 /// Writes a NumPy .npz archive (an uncompressed zip of .npy files) whose arrays are made piece by piece
 /// while they are written: no array need ever be whole in memory.
@@ -75,6 +68,9 @@ class NpzReader {
 
  private:
   struct Archive;
+  class Member;
+  NpyHeader headerOf(Member& member, const std::string& name) const;
+
   std::filesystem::path path_;
   std::unique_ptr<Archive> archive_;
 };

@@ -170,4 +170,11 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   };
 }
 
+std::function<Command()> addResumeOptions(CLI::App* sub) {
+  auto command = std::make_shared<Resume>();
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  addCache(sub, command->cache);
+  return [command] { return Command(*command); };
+}
+
 }  // namespace relucent

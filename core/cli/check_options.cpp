@@ -5,6 +5,16 @@
 
 namespace relucent {
 
+std::function<Command()> addDevicesOptions(CLI::App* sub) {
+  sub->footer(
+      "A camera's address, KIND:PLACE, is what `calibrate --camera` takes:\n"
+      "  genicam:SERIAL   GigE Vision or USB3 Vision; also its network address\n"
+      "  gphoto2:MODEL    DSLR or mirrorless camera; also the port it is plugged in at\n"
+      "  v4l2:PATH        a webcam with manual exposure, /dev/v4l/by-id/...\n"
+      "  command:CMD      a program that photographs {exposure} seconds into {output}");
+  return [] { return Command(ListDevices{}); };
+}
+
 std::function<Command()> addCheckOptions(CLI::App* sub) {
   struct Places {
     CommandRigSettings commands;
@@ -54,6 +64,16 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
     command->settings.rig = places->commands;
     return Command(*command);
   };
+}
+
+std::function<Command()> addVerifyOptions(CLI::App* sub) {
+  auto command = std::make_shared<Verify>();
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  sub->add_option("--out", command->settings.out, "Folder for maps of what has changed, OpenEXR; created")
+      ->type_name("DIR");
+  addCache(sub, command->cache);
+  sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as ever.");
+  return [command] { return Command(*command); };
 }
 
 }  // namespace relucent

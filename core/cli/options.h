@@ -31,9 +31,6 @@ inline CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const c
       ->type_name("WxH");
 }
 
-/// Defines the options of `check`. Returns what makes the command once they are read.
-std::function<Command()> addCheckOptions(CLI::App* sub);
-
 /// What --camera says: a camera's address or a size. Throws: WrongUsage.
 inline void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
   if (deviceAddressFrom(text))
@@ -44,10 +41,23 @@ inline void readCamera(const std::string& text, CommandRigSettings& commands, Si
     size = parseSize(text);
 }
 
-/// Defines the options of `calibrate`. Returns what makes the command once they are read.
+/// Each defines the options of one subcommand and returns what makes its command once they are read.
+std::function<Command()> addDevicesOptions(CLI::App* sub);
+std::function<Command()> addCheckOptions(CLI::App* sub);
 std::function<Command()> addCalibrateOptions(CLI::App* sub);
-
-/// Defines the options of `bench`. Returns what makes the command once they are read.
+std::function<Command()> addResumeOptions(CLI::App* sub);
+std::function<Command()> addVerifyOptions(CLI::App* sub);
+std::function<Command()> addProveOptions(CLI::App* sub);
+std::function<Command()> addImportOptions(CLI::App* sub);
+std::function<Command()> addPlanOptions(CLI::App* sub);
+std::function<Command()> addCompensateOptions(CLI::App* sub);
+std::function<Command()> addEvaluateOptions(CLI::App* sub);
+std::function<Command()> addExportOptions(CLI::App* sub);
+std::function<Command()> addRelightOptions(CLI::App* sub);
+std::function<Command()> addDualOptions(CLI::App* sub);
+std::function<Command()> addSeparateOptions(CLI::App* sub);
+std::function<Command()> addDifferenceOptions(CLI::App* sub);
+std::function<Command()> addReportOptions(CLI::App* sub);
 std::function<Command()> addBenchOptions(CLI::App* sub);
 
 }  // namespace relucent

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "cli/options.h"
+
+namespace relucent {
+namespace {
+
+void addPicture(CLI::App* sub, std::filesystem::path& out) {
+  sub->add_option("--out", out, "Result: .exr (linear) or .png")->type_name("FILE")->required();
+}
+
+/// "auto" is nothing.
+std::optional<double> parseGain(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  char* end = nullptr;
+  double gain = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0')
+    throw WrongUsage(fmt::format("'{}' is no gain: write auto or a number, like 1.75", text));
+  return gain;
+}
+
+}  // namespace
+
+std::function<Command()> addExportOptions(CLI::App* sub) {
+  auto command = std::make_shared<Export>();
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  sub->add_option("--transport", command->settings.transport,
+                  "T for scipy.sparse.load_npz: BSR, 3x3 blocks, rows = camera pixels")
+      ->type_name("FILE.npz");
+  sub->add_option("--leaves", command->settings.leaves,
+                  "T as it is kept: a column for every node of the projector's mean pyramid")
+      ->type_name("FILE.npz");
+  sub->add_option("--inverse", command->settings.inverse, "Its inverse, in the same form")
+      ->type_name("FILE.npz");
+  sub->add_option("--maps", command->settings.maps, "Black level, flood image and masks as OpenEXR")
+      ->type_name("DIR");
+  return [command] {
+    for (const std::string& problem : problems(command->settings))
+      throw WrongUsage(problem + ": give --transport, --leaves, --inverse or --maps");
+    return Command(*command);
+  };
+}
+
+std::function<Command()> addRelightOptions(CLI::App* sub) {
+  auto command = std::make_shared<Relight>();
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  sub->add_option("--image", command->settings.image, "The pattern")->type_name("FILE")->required();
+  addPicture(sub, command->settings.out);
+  return [command] { return Command(*command); };
+}
+
+std::function<Command()> addDualOptions(CLI::App* sub) {
+  auto command = std::make_shared<Relight>();
+  command->dual = true;
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  sub->add_option("--image", command->settings.image, "Light from the camera; all white if it is left out")
+      ->type_name("FILE");
+  addPicture(sub, command->settings.out);
+  return [command] { return Command(*command); };
+}
+
+std::function<Command()> addSeparateOptions(CLI::App* sub) {
+  auto command = std::make_shared<Separate>();
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  sub->add_option("--image", command->settings.image, "The pattern; all white if it is left out")
+      ->type_name("FILE");
+  sub->add_option("--reach", command->settings.direct.reach,
+                  "How far direct light spreads, as a share of the projector's larger side")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  sub->add_option("--out", command->settings.out, "Folder for direct and indirect, .exr and .png")
+      ->type_name("DIR")
+      ->required();
+  return [command] { return Command(*command); };
+}
+
+std::function<Command()> addDifferenceOptions(CLI::App* sub) {
+  auto command = std::make_shared<Difference>();
+  DifferenceSettings& settings = command->settings;
+  sub->add_option("A", settings.first, "A picture: PNG, JPEG or TIFF (sRGB), or EXR (linear)")->required();
+  sub->add_option("B", settings.second, "What is subtracted from it; of the same size")->required();
+  sub->add_option_function<std::string>(
+         "--gain", [&settings](const std::string& text) { settings.gain = parseGain(text); },
+         "Factor of the difference; auto uses the whole contrast of a .png")
+      ->type_name("auto|N")
+      ->default_str("auto");
+  sub->add_option("--out", settings.out, "Result: .exr (gain * (A - B)) or .png (that around grey)")
+      ->type_name("FILE")
+      ->required();
+  return [command] { return Command(*command); };
+}
+
+}  // namespace relucent

@@ -3,8 +3,6 @@
 // nowhere that is not there; a page that a language lacks is English.
 #include <QCollator>
 #include <QDir>
-#include <QFont>
-#include <QGuiApplication>
 #include <QTemporaryDir>
 #include <QTextDocument>
 #include <QtTest>
@@ -89,13 +87,6 @@ class TestGuide : public QObject {
   }
 
  private slots:
-  void initTestCase() {
-    // Qt makes code as large as text in pixels, and warns where text is so in points.
-    QFont font;
-    font.setPixelSize(14);
-    QGuiApplication::setFont(font);
-  }
-
   void everyLanguageHasEveryPage_data() { everyLanguage(); }
   void everyLanguageHasEveryPage() {
     QFETCH(QString, language);

@@ -2,8 +2,6 @@
 #include "app/help_window.h"
 
 #include <QDesktopServices>
-#include <QDir>
-#include <QFile>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QScrollBar>
@@ -19,32 +17,26 @@
 namespace relucent {
 
 QList<HelpPage> helpPages(const QString& language) {
-  QDir folder(":/help/" + language);
-  if (!folder.exists()) folder.setPath(":/help/en");
-  QList<HelpPage> pages;
-  for (const QString& name : folder.entryList({"*.md"}, QDir::Files, QDir::Name)) {
-    QFile file(folder.filePath(name));
-    if (!file.open(QIODevice::ReadOnly)) continue;
-    QString text = QString::fromUtf8(file.readAll());
-    QString title = text.section('\n', 0, 0);
-    pages.append({name.section('.', 0, 0), title.remove('#').trimmed(), text});
-  }
-  pages.append({"about", aboutText().section('\n', 0, 0).remove('#').trimmed(), aboutText()});
+  QList<HelpPage> pages = guidePages(":/help", language);
+  // In the program's language, with licences in English.
+  pages.append({"about", aboutText().section('\n', 0, 0).remove('#').trimmed(), aboutText(), {}});
   return pages;
 }
 
-void HelpText::show(const QString& markdown) {
-  markdown_ = markdown;
+void HelpText::show(const HelpPage& page) {
+  page_ = page;
   width_ = viewport()->width();
-  setMarkdown(markdown);
+  setMarkdown(page.text);
   spread();
 }
 
-/// Room between paragraphs, which Markdown comes without.
+/// The side to read from, and room between paragraphs, which Markdown comes without. A paragraph's first word
+/// does not tell the side: it may be a name or a key.
 void HelpText::spread() {
   QTextCursor cursor(document());
   for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
     QTextBlockFormat format = block.blockFormat();
+    format.setLayoutDirection(page_.direction());
     format.setBottomMargin(block.textList() != nullptr ? space::tight : space::small);
     // A picture's line is as high as the picture.
     if (!block.text().contains(QChar::ObjectReplacementCharacter))
@@ -67,9 +59,9 @@ QVariant HelpText::loadResource(int type, const QUrl& name) {
 
 void HelpText::resizeEvent(QResizeEvent* event) {
   QTextBrowser::resizeEvent(event);
-  if (width_ == viewport()->width() || markdown_.isEmpty()) return;
+  if (width_ == viewport()->width() || page_.text.isEmpty()) return;
   int place = verticalScrollBar()->value();
-  show(markdown_);
+  show(page_);
   verticalScrollBar()->setValue(place);
 }
 
@@ -110,6 +102,13 @@ void HelpWindow::showPage(int index) {
   if (index >= 0 && index < list_->count()) list_->setCurrentRow(index);
 }
 
+void HelpWindow::replace(const HelpWindow& before) {
+  setGeometry(before.geometry());
+  const QListWidgetItem* shown = before.list_->currentItem();
+  for (int i = 0; shown != nullptr && i < pages_.size(); ++i)
+    if (pages_[i].id == shown->data(Qt::UserRole).toString()) showPage(i);
+}
+
 /// Pages that hold all the words, in any order.
 void HelpWindow::search(const QString& words) {
   QStringList wanted = words.split(' ', Qt::SkipEmptyParts);
@@ -131,7 +130,7 @@ void HelpWindow::fill() {
   if (list_->currentItem() == nullptr) return;
   QString id = list_->currentItem()->data(Qt::UserRole).toString();
   for (const HelpPage& page : pages_)
-    if (page.id == id) text_->show(page.text);
+    if (page.id == id) text_->show(page);
   QStringList wanted = search_->text().split(' ', Qt::SkipEmptyParts);
   // The place that was looked for, marked and in sight.
   text_->moveCursor(QTextCursor::Start);

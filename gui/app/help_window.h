@@ -6,26 +6,22 @@
 #include <QListWidget>
 #include <QTextBrowser>
 
+#include "app/guide.h"
+
 namespace relucent {
 
-/// A page of the user's guide.
-struct HelpPage {
-  QString id;     // of the file: "03-linearize"
-  QString title;  // its heading
-  QString text;   // Markdown
-};
-
-/// The guide in a language ("de"), else in English, in the order of the steps; then what belongs to no step,
-/// last about the program and whose work it is made with.
+/// The guide in a language ("de"), each page that it lacks in English, in the order of the steps; then what
+/// belongs to no step, last about the program and whose work it is made with.
 QList<HelpPage> helpPages(const QString& language);
 
-/// A page as it is read: room between paragraphs, pictures no wider than there is room for.
+/// A page as it is read: from the side of its language, room between paragraphs, pictures no wider than there
+/// is room for.
 class HelpText : public QTextBrowser {
   Q_OBJECT
 
  public:
   explicit HelpText(QWidget* parent = nullptr) : QTextBrowser(parent) {}
-  void show(const QString& markdown);
+  void show(const HelpPage& page);
 
  protected:
   QVariant loadResource(int type, const QUrl& name) override;
@@ -33,7 +29,7 @@ class HelpText : public QTextBrowser {
 
  private:
   void spread();
-  QString markdown_;
+  HelpPage page_;
   int width_ = 0;  // that pictures were made for
 };
 
@@ -47,6 +43,8 @@ class HelpWindow : public QDialog {
   explicit HelpWindow(const QString& language, QWidget* parent = nullptr);
   /// Of a step, from 0.
   void showPage(int index);
+  /// In the place of a guide in another language, at the page that it showed.
+  void replace(const HelpWindow& before);
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

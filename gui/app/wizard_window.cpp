@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <utility>
 
+#include "app/help_window.h"
 #include "app/settings_dialog.h"
 #include "theme/theme.h"
 
@@ -52,6 +53,11 @@ void WizardWindow::speakAnew() {
   if (before->isVisible()) {
     window_->setWindowState(before->windowState());
     window_->show();
+    const auto* help = before->findChild<HelpWindow*>();
+    if (help != nullptr && help->isVisible()) {
+      window_->showHelp();
+      window_->findChild<HelpWindow*>()->replace(*help);
+    }
     const auto* settings = before->findChild<SettingsDialog*>();
     if (settings != nullptr && settings->isVisible()) window_->showSettings();
   }

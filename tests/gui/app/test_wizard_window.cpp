@@ -435,6 +435,25 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
   }
 
+  void theGuideFollowsTheLanguage() {
+    press(QKeySequence("F1"));
+    auto* help = find<HelpWindow>("help");
+    QTRY_VERIFY(help->isVisible());
+    const int shown = 8;  // a page of no step: where one reads, one stays
+    help->showPage(shown);
+    QString english = find<QTextBrowser>("help-text")->toPlainText();
+    wizard_->preferences().setLanguage("de");
+    help = find<HelpWindow>("help");
+    QVERIFY(help != nullptr && help->isVisible());
+    QCOMPARE(find<QListWidget>("help-pages")->currentRow(), shown);
+    QString title = guidePages(":/help", "de")[shown].title;
+    QVERIFY(!english.startsWith(title));
+    QVERIFY(find<QTextBrowser>("help-text")->toPlainText().startsWith(title));
+    help->close();
+    wizard_->preferences().setLanguage({});
+    QTRY_VERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
+  }
+
   void aChangedThresholdMakesLaterStepsOutOfDate() {
     press(QKeySequence("Alt+5"));
     QTRY_COMPARE(page(), std::size_t{4});

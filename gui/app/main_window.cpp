@@ -90,12 +90,8 @@ void MainWindow::buildHeader() {
   row->setContentsMargins(space::page, 8, space::page, 8);
   auto* titles = new QVBoxLayout;
   titles->setSpacing(2);
-  titles->addWidget(title_ = labelOf({}, "title"));
-  titles->addWidget(subtitle_ = labelOf({}, "secondary"));
-  for (QLabel* label : {title_, subtitle_}) {
-    label->setWordWrap(false);
-    label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  }
+  titles->addWidget(title_ = elidedLabel("title"));
+  titles->addWidget(subtitle_ = elidedLabel("secondary"));
   row->addLayout(titles, 1);
   dim_ = buttonOf(tr("Dim pictures"), "flat");
   dim_->setCheckable(true);
@@ -185,9 +181,8 @@ void MainWindow::moveToNextRegion() {
 
 void MainWindow::refresh() {
   const PageModel& page = wizard_.currentPage();
-  title_->setText(page.title());
-  subtitle_->setText(page.subtitle());
-  subtitle_->setToolTip(page.subtitle());
+  title_->setWhole(page.title());
+  subtitle_->setWhole(page.subtitle());
   int index = static_cast<int>(wizard_.current());
   if (stages_->currentIndex() != index) {
     stages_->setCurrentIndex(index);

@@ -60,7 +60,7 @@ class MainWindow : public QMainWindow {
   BannerBar* banner_;
   ActionBar* actions_;
   QWidget* header_;
-  QLabel *title_, *subtitle_;
+  ElidedLabel *title_, *subtitle_;
   QPushButton* dim_;
   HelpWindow* help_ = nullptr;  // once it has been asked for
   QStackedWidget *stages_, *inspectors_;

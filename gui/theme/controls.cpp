@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "theme/controls.h"
 
+#include <QEvent>
 #include <QPainter>
 
 #include "theme/theme.h"
@@ -59,30 +60,33 @@ QFrame* lineOf() {
   return line;
 }
 
-namespace {
+void ElidedLabel::setWhole(const QString& text) {
+  whole_ = text;
+  setToolTip(text);
+  setAccessibleName(text);
+  elide();
+}
 
-/// One line; what has no room for it ends in an ellipsis and is read whole where the pointer rests.
-class ElidedLabel : public QLabel {
- public:
-  void setWhole(const QString& text) {
-    whole_ = text;
-    setToolTip(text);
-    setAccessibleName(text);
-    elide();
-  }
+void ElidedLabel::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  elide();
+}
 
- protected:
-  void resizeEvent(QResizeEvent* event) override {
-    QLabel::resizeEvent(event);
-    elide();
-  }
+void ElidedLabel::changeEvent(QEvent* event) {
+  QLabel::changeEvent(event);
+  if (event->type() == QEvent::FontChange) elide();
+}
 
- private:
-  void elide() { setText(fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width())); }
-  QString whole_;
-};
+void ElidedLabel::elide() {
+  setText(fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width()));
+}
 
-}  // namespace
+ElidedLabel* elidedLabel(const char* role) {
+  auto* label = new ElidedLabel;
+  setRole(label, role);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  return label;
+}
 
 Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
   setRole(this, "card");
@@ -95,10 +99,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
     title_ = labelOf(title, "section");
     title_->setWordWrap(false);
     header_->addWidget(title_);
-    subtitle_ = new ElidedLabel;
-    setRole(subtitle_, "note");
-    subtitle_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    header_->addWidget(subtitle_, 1);
+    header_->addWidget(subtitle_ = elidedLabel("note"), 1);
     all->addLayout(header_);
   }
   body_ = new QVBoxLayout;
@@ -107,7 +108,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
 }
 
 void Card::setSubtitle(const QString& text) {
-  static_cast<ElidedLabel*>(subtitle_)->setWhole(text);
+  subtitle_->setWhole(text);
 }
 
 void Card::addAction(QWidget* action) {

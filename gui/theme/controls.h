@@ -39,6 +39,25 @@ const QColor& accentColour();
 
 /// A label with a role of the style sheet; wraps.
 QLabel* labelOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
+/// One line; what has no room for it ends in an ellipsis and is read whole where the pointer rests.
+class ElidedLabel : public QLabel {
+  Q_OBJECT
+
+ public:
+  using QLabel::QLabel;
+  void setWhole(const QString& text);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void elide();
+  QString whole_;
+};
+/// Takes what room there is.
+ElidedLabel* elidedLabel(const char* role);
+
 /// A thin line between groups.
 QFrame* lineOf();
 
@@ -53,7 +72,8 @@ class Card : public QFrame {
   QVBoxLayout* body() { return body_; }
 
  private:
-  QLabel *title_ = nullptr, *subtitle_ = nullptr;
+  QLabel* title_ = nullptr;
+  ElidedLabel* subtitle_ = nullptr;
   QHBoxLayout* header_ = nullptr;
   QVBoxLayout* body_ = nullptr;
 };

@@ -43,8 +43,8 @@ QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis
 
   painter.setPen(colours().secondary);
   if (!y.title.isEmpty())
-    painter.drawText(QRectF(area.left(), area.top(), area.width(), metrics.height() + 2.0), Qt::AlignLeft,
-                     y.title);
+    painter.drawText(QRectF(area.left(), area.top(), area.width(), metrics.height() + 2.0),
+                     Qt::AlignAbsolute | Qt::AlignLeft, y.title);
   if (!x.title.isEmpty())
     painter.drawText(
         QRectF(plot.left(), plot.bottom() + metrics.height() + 8.0, plot.width(), metrics.height() + 2.0),
@@ -55,7 +55,7 @@ QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis
     painter.drawLine(QPointF(plot.left(), at), QPointF(plot.right(), at));
     painter.setPen(colours().secondary);
     painter.drawText(QRectF(area.left(), at - metrics.height() / 2.0, left - 8.0, metrics.height()),
-                     Qt::AlignRight | Qt::AlignVCenter, tick.text);
+                     Qt::AlignAbsolute | Qt::AlignRight | Qt::AlignVCenter, tick.text);
   }
   painter.setPen(colours().border);
   painter.drawLine(plot.bottomLeft(), plot.bottomRight());

@@ -11,8 +11,8 @@ namespace relucent {
 namespace {
 
 QString rateSentence(std::optional<double> changes) {
-  return changes ? FlashConsent::tr("The projector shows patterns that change about %1 times a second.")
-                       .arg(numberText(*changes))
+  return changes ? FlashConsent::tr("The projector shows patterns that change about %n time(s) a second.",
+                                    nullptr, static_cast<int>(std::ceil(*changes)))
                  : FlashConsent::tr(
                        "The projector shows patterns that change as quickly as the devices can, "
                        "perhaps more than 3 times a second.");

@@ -15,7 +15,7 @@ namespace {
 constexpr Size usualScreen{1920, 1080};
 
 QString sizeText(Size size) {
-  return QString::fromUtf8("%1 × %2").arg(size.width).arg(size.height);
+  return relucent::sizeText(size.width, size.height);
 }
 
 }  // namespace
@@ -90,8 +90,9 @@ QString VenuePage::hint() const {
                              : tr("Enter opens the highlighted choice");
   if (QString wrong = problem(); !wrong.isEmpty()) return wrong;
   WorkLeft work = expected();
-  return tr("About %1 patterns, %2")
-      .arg(countText(static_cast<std::uint64_t>(work.shots)), bytesText(work.diskBytes));
+  const auto patterns = static_cast<int>(work.shots);
+  return groupedText(tr("About %n pattern(s), %1", nullptr, patterns), patterns)
+      .arg(bytesText(work.diskBytes));
 }
 
 Command VenuePage::primary() const {

@@ -112,10 +112,13 @@ void MainWindow::buildRailFooter() {
   QPushButton* help = buttonOf(tr("Help"), "flat");
   settings->setObjectName("open-settings");
   help->setObjectName("open-help");
-  help->setToolTip(tr("F1"));
+  settings->setToolTip(settings->text());
+  help->setToolTip(QString("%1 (%2)").arg(help->text(), tr("F1")));
   for (QPushButton* button : {settings, help}) {
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    button->setAccessibleName(button->text());
     rail_->footer()->addWidget(button);
+    footer_.push_back(button);
   }
   connect(settings, &QPushButton::clicked, this, &MainWindow::showSettings);
   connect(help, &QPushButton::clicked, this, &MainWindow::showHelp);
@@ -125,6 +128,21 @@ void MainWindow::buildRailFooter() {
   };
   connect(&Theme::instance(), &Theme::changed, settings, look);
   look();
+}
+
+/// Words where all of them have room, else icons alone.
+void MainWindow::fitRailFooter() {
+  int needed = 0;
+  for (QPushButton* button : footer_) {
+    button->ensurePolished();
+    button->setText(button->accessibleName());
+    needed = std::max(needed, button->sizeHint().width());
+  }
+  QMargins besides = rail_->layout()->contentsMargins();
+  int spaces = static_cast<int>(footer_.size()) - 1;
+  int room = rail_->width() - besides.left() - besides.right() - spaces * rail_->footer()->spacing();
+  if (needed * static_cast<int>(footer_.size()) <= room) return;
+  for (QPushButton* button : footer_) button->setText({});
 }
 
 void MainWindow::showSettings() {
@@ -194,6 +212,7 @@ void MainWindow::refresh() {
 void MainWindow::resizeEvent(QResizeEvent* event) {
   bool wide = width() >= space::wideFrom;
   rail_->setFixedWidth(wide ? space::wideRail : space::rail);
+  fitRailFooter();
   inspectors_->setFixedWidth(wide ? space::wideInspector : space::inspector);
   QMainWindow::resizeEvent(event);
 }

@@ -45,6 +45,7 @@ class MainWindow : public QMainWindow {
  private:
   void buildHeader();
   void buildRailFooter();
+  void fitRailFooter();
   void bindKeys();
   void refresh();
   void moveToNextRegion();
@@ -62,7 +63,8 @@ class MainWindow : public QMainWindow {
   QWidget* header_;
   ElidedLabel *title_, *subtitle_;
   QPushButton* dim_;
-  HelpWindow* help_ = nullptr;  // once it has been asked for
+  std::vector<QPushButton*> footer_;  // of the rail
+  HelpWindow* help_ = nullptr;        // once it has been asked for
   QStackedWidget *stages_, *inspectors_;
 };
 

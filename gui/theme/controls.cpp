@@ -3,6 +3,7 @@
 
 #include <QEvent>
 #include <QPainter>
+#include <algorithm>
 
 #include "theme/theme.h"
 
@@ -193,18 +194,44 @@ void Note::setText(const QString& sentence, const QString& more) {
   more_->setVisible(!more.isEmpty());
 }
 
-Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(space::tight);
+Segmented::Segmented(const QStringList& texts, QWidget* parent)
+    : QWidget(parent), buttons_(new QHBoxLayout(this)) {
+  buttons_->setContentsMargins(0, 0, 0, 0);
+  buttons_->setSpacing(space::tight);
   for (qsizetype i = 0; i < texts.size(); ++i) {
     QPushButton* button = buttonOf(texts[i], "segment", this);
     button->setCheckable(true);
     group_.addButton(button, static_cast<int>(i));
-    row->addWidget(button, 1);
+    buttons_->addWidget(button, 1);
   }
   group_.button(0)->setChecked(true);
   connect(&group_, &QButtonGroup::idClicked, this, &Segmented::chosen);
+}
+
+QSize Segmented::sizeHint() const {
+  QSize all(-space::tight, 0);
+  for (const QAbstractButton* button : group_.buttons()) {
+    QSize one = button->sizeHint();
+    all = {all.width() + space::tight + one.width(), std::max(all.height(), one.height())};
+  }
+  return all;
+}
+
+QSize Segmented::minimumSizeHint() const {
+  QSize least;
+  for (const QAbstractButton* button : group_.buttons()) least = least.expandedTo(button->sizeHint());
+  return least;
+}
+
+int Segmented::heightForWidth(int width) const {
+  int one = sizeHint().height(), count = static_cast<int>(group_.buttons().size());
+  return width >= sizeHint().width() ? one : count * one + (count - 1) * space::tight;
+}
+
+void Segmented::resizeEvent(QResizeEvent* event) {
+  bool fits = width() >= sizeHint().width();
+  buttons_->setDirection(fits ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  QWidget::resizeEvent(event);
 }
 
 void Segmented::setCurrent(int index) {

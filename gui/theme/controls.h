@@ -118,7 +118,7 @@ class Note : public QFrame {
   QLabel *sentence_, *more_;
 };
 
-/// One of a few, side by side.
+/// One of a few, side by side; below each other where that has no room.
 class Segmented : public QWidget {
   Q_OBJECT
 
@@ -127,11 +127,19 @@ class Segmented : public QWidget {
   int current() const { return group_.checkedId(); }
   /// Silent.
   void setCurrent(int index);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+  bool hasHeightForWidth() const override { return true; }
+  int heightForWidth(int width) const override;
 
  Q_SIGNALS:
   void chosen(int index);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  QBoxLayout* buttons_;
   QButtonGroup group_;
 };
 

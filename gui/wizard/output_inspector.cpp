@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output_inspector.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "theme/tick.h"
 #include "views/number_text.h"
 #include "wizard/flash_consent.h"
 #include "wizard/output_page.h"
@@ -125,14 +125,14 @@ QWidget* handOverPart(OutputPage& page) {
   QPushButton* report = buttonOf(OutputPage::tr("Save report"));
   report->setObjectName("report");
   column->addWidget(report);
-  auto* starts = new QCheckBox(OutputPage::tr("Start the show with this computer"));
+  auto* starts = new Tick(OutputPage::tr("Start the show with this computer"));
   starts->setObjectName("start-with-computer");
   column->addWidget(starts);
   QLabel* state = labelOf({}, "note");
   state->setObjectName("install-state");
   column->addWidget(state);
   QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
-  QObject::connect(starts, &QCheckBox::toggled, &page, &OutputPage::setStartsWithComputer);
+  QObject::connect(starts, &Tick::toggled, &page, &OutputPage::setStartsWithComputer);
   auto refresh = [=, &page] {
     report->setEnabled(page.proof().isPossible());
     report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));

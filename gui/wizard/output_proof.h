@@ -3,6 +3,7 @@
 
 #include <QDateTime>
 #include <QImage>
+#include <functional>
 
 #include "jobs/job.h"
 #include "pipeline/prove.h"

@@ -23,8 +23,8 @@ QSize Tick::sizeOf(const QString& text) const {
 }
 
 QString Tick::inLines(int width) const {
-  int beside = sizeOf({}).width();
   QTextLayout layout(whole_, font());
+  int beside = sizeOf({}).width();
   QStringList lines;
   layout.beginLayout();
   for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
@@ -40,9 +40,8 @@ QSize Tick::sizeHint() const {
 }
 
 QSize Tick::minimumSizeHint() const {
-  QSize least(0, sizeHint().height());
-  for (const QString& word : whole_.split(' ')) least = least.expandedTo({sizeOf(word).width(), 0});
-  return least;
+  // A word, or a sign where words are not apart.
+  return {sizeOf(inLines(0)).width(), sizeHint().height()};
 }
 
 int Tick::heightForWidth(int width) const {

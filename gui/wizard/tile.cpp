@@ -67,9 +67,10 @@ QSize Tile::sizeHint() const {
 }
 
 QSize Tile::minimumSizeHint() const {
-  int widest = QFontMetrics(nameFont()).horizontalAdvance(text());
-  QFontMetrics metrics(typeOf(type::note));
-  for (const QString& word : sentence_.split(' ')) widest = std::max(widest, metrics.horizontalAdvance(word));
+  // The name in one line; of the sentence a word, or a sign where words are not apart.
+  QRect narrow(0, 0, 1, std::numeric_limits<short>::max());
+  int word = QFontMetrics(typeOf(type::note)).boundingRect(narrow, Qt::TextWordWrap, sentence_).width();
+  int widest = std::max(word, QFontMetrics(nameFont()).horizontalAdvance(text()));
   return {std::max(140, widest + besides() + 1), icon_ ? 120 : 160};
 }
 

@@ -2723,7 +2723,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Bust before a brick wall</source>
-        <translation>Buste devant un mur de briques</translation>
+        <translation>Buste et mur de briques</translation>
     </message>
     <message>
         <source>Texture, shadow and light between surfaces</source>

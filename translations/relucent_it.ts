@@ -2723,7 +2723,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Bust before a brick wall</source>
-        <translation>Busto davanti a un muro di mattoni</translation>
+        <translation>Busto e muro di mattoni</translation>
     </message>
     <message>
         <source>Texture, shadow and light between surfaces</source>

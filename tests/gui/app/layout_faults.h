@@ -8,7 +8,6 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QScrollBar>
 #include <QStringList>
 #include <QTableWidget>
 #include <QToolButton>
@@ -109,8 +108,6 @@ class LayoutFaults {
                  .arg(end)
                  .arg(table.viewport()->width()));
     }
-    if (!table.verticalScrollBar()->isHidden() && table.verticalScrollBar()->maximum() > 0)
-      tell(table, table.objectName(), "has rows that are scrolled out of sight");
   }
 
   /// Nothing round it may cut it off; what scrolls may hide it below.

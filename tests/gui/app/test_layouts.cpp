@@ -187,7 +187,7 @@ class TestLayouts : public QObject {
   void acquisition() {
     page("before");
     wizard_->acquire().primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().secondsLeft().has_value(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().photographs() > 5, patience);
     wizard_->acquire().pause();
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().isPaused(), patience);
     page("paused");

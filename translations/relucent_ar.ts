@@ -68,10 +68,6 @@
         <translation>%1 إطار/ث، ⁨%2 ms⁩ للإطار، تأخّر %3 من %4</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>مع تعويض، الخطوات: %1، خارج المدى: %2 %</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>دون تعويض</translation>
     </message>
@@ -82,6 +78,17 @@
     <message>
         <source>test chart: %1</source>
         <translation>لوحة اختبار: ⁨%1⁩</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>مع تعويض، دون خطوات، خارج المدى: ⁨%1 %⁩</numerusform>
+            <numerusform>مع تعويض، خطوة واحدة، خارج المدى: ⁨%1 %⁩</numerusform>
+            <numerusform>مع تعويض، خطوتان، خارج المدى: ⁨%1 %⁩</numerusform>
+            <numerusform>مع تعويض، %n خطوات، خارج المدى: ⁨%1 %⁩</numerusform>
+            <numerusform>مع تعويض، %n خطوة، خارج المدى: ⁨%1 %⁩</numerusform>
+            <numerusform>مع تعويض، %n خطوة، خارج المدى: ⁨%1 %⁩</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +356,8 @@
         <translation>الأسود والإضاءة الكاملة</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>المستوى {} من {}، الأنماط: {}</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>نقل الضوء</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>إعادة قياس البكسلات المعلّمة: {}</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +374,28 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>تتبّع ضوء الموقع المحاكى</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>المستوى {} من {}: لا أنماط</numerusform>
+            <numerusform>المستوى {} من {}: نمط واحد</numerusform>
+            <numerusform>المستوى {} من {}: نمطان</numerusform>
+            <numerusform>المستوى {} من {}: %n أنماط</numerusform>
+            <numerusform>المستوى {} من {}: %n نمطًا</numerusform>
+            <numerusform>المستوى {} من {}: %n نمط</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>إعادة قياس: لا بكسلات معلّمة</numerusform>
+            <numerusform>إعادة قياس بكسل معلّم واحد</numerusform>
+            <numerusform>إعادة قياس بكسلين معلّمين</numerusform>
+            <numerusform>إعادة قياس %n بكسلات معلّمة</numerusform>
+            <numerusform>إعادة قياس %n بكسلًا معلّمًا</numerusform>
+            <numerusform>إعادة قياس %n بكسل معلّم</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -708,10 +729,6 @@
 <context>
     <name>relucent::CameraPage</name>
     <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>⁨%1 × %2⁩ بكسل، %3 بت، التعريضات من ⁨%4⁩ إلى ⁨%5⁩</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>لا يمكن استخدامها: ⁨%1⁩</translation>
     </message>
@@ -915,16 +932,23 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>قد لا يصل جهاز العرض إلى هناك. افتح العدسة حيث ينبغي أن يصل.</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، بت واحد، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، بتّان، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، %n بتات، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، %n بتًا، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>كل ما تم قياسه آمن.</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>التجمّعات: %1</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -941,10 +965,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>قراءة نقل الضوء</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>التجمّعات: %1، الوسيط: %2 من بكسلات جهاز العرض</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -1000,15 +1020,7 @@
     </message>
     <message>
         <source>%1, %2: in no cluster</source>
-        <translation>%1، %2: ليس في أي تجمّع</translation>
-    </message>
-    <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1، %2: بكسلات جهاز العرض %3، الخطأ %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>خريطة التجمّعات، العدد %1، الأكبر %2</translation>
+        <translation>⁨%1, %2⁩: خارج التجمّعات</translation>
     </message>
     <message>
         <source>rel. RMS</source>
@@ -1025,10 +1037,6 @@
     <message>
         <source>cap %1</source>
         <translation>الحد الأقصى %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>التجمّعات: %1، الوسيط: %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1117,6 +1125,50 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>السطح مموّه عبر البكسلات المتجاورة، فتتصل المجموعات. الحد الأقصى يفصل بينها.</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>لا تجمّعات</numerusform>
+            <numerusform>تجمّع واحد</numerusform>
+            <numerusform>تجمّعان</numerusform>
+            <numerusform>%n تجمّعات</numerusform>
+            <numerusform>%n تجمّعًا</numerusform>
+            <numerusform>%n تجمّع</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>لا تجمّعات، الوسيط: ⁨%1 px⁩</numerusform>
+            <numerusform>تجمّع واحد، الوسيط: ⁨%1 px⁩</numerusform>
+            <numerusform>تجمّعان، الوسيط: ⁨%1 px⁩</numerusform>
+            <numerusform>%n تجمّعات، الوسيط: ⁨%1 px⁩</numerusform>
+            <numerusform>%n تجمّعًا، الوسيط: ⁨%1 px⁩</numerusform>
+            <numerusform>%n تجمّع، الوسيط: ⁨%1 px⁩</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>⁨%1, %2⁩: لا بكسلات لجهاز العرض، الخطأ %3</numerusform>
+            <numerusform>⁨%1, %2⁩: بكسل واحد لجهاز العرض، الخطأ %3</numerusform>
+            <numerusform>⁨%1, %2⁩: بكسلان لجهاز العرض، الخطأ %3</numerusform>
+            <numerusform>⁨%1, %2⁩: %n بكسلات لجهاز العرض، الخطأ %3</numerusform>
+            <numerusform>⁨%1, %2⁩: %n بكسلًا لجهاز العرض، الخطأ %3</numerusform>
+            <numerusform>⁨%1, %2⁩: %n بكسل لجهاز العرض، الخطأ %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>خريطة التجمّعات، لا تجمّعات، الأكبر %1</numerusform>
+            <numerusform>خريطة التجمّعات، تجمّع واحد، الأكبر %1</numerusform>
+            <numerusform>خريطة التجمّعات، تجمّعان، الأكبر %1</numerusform>
+            <numerusform>خريطة التجمّعات، %n تجمّعات، الأكبر %1</numerusform>
+            <numerusform>خريطة التجمّعات، %n تجمّعًا، الأكبر %1</numerusform>
+            <numerusform>خريطة التجمّعات، %n تجمّع، الأكبر %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1187,10 +1239,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>يعرض جهاز العرض أنماطًا تتغيّر بمعدل نحو %1 في الثانية.</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>يعرض جهاز العرض أنماطًا تتغيّر بأسرع ما تستطيعه الأجهزة، وربما أكثر من 3 مرات في الثانية.</translation>
     </message>
@@ -1209,6 +1257,17 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>قد يسبب الضوء الوامض نوبات صرع. أخلِ القاعة وغطِّ المدخل.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر أقل من مرة في الثانية.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو مرة واحدة في الثانية.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو مرتين في الثانية.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرات في الثانية.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرة في الثانية.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرة في الثانية.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1260,10 +1319,6 @@
         <translation>جارٍ القياس، %1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>خطأ الجمعية %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>تم القياس</translation>
     </message>
@@ -1290,10 +1345,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>أكّد أن القاعة خالية.</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>أنماط الاختبار: نحو %1</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1502,6 +1553,21 @@
         <source>Found while measuring</source>
         <translation>ما وُجد أثناء القياس</translation>
     </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>خطأ الجمعية %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>لا أنماط اختبار</numerusform>
+            <numerusform>نحو نمط اختبار واحد</numerusform>
+            <numerusform>نحو نمطَي اختبار</numerusform>
+            <numerusform>نحو %n أنماط اختبار</numerusform>
+            <numerusform>نحو %n نمط اختبار</numerusform>
+            <numerusform>نحو %n نمط اختبار</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::MainWindow</name>
@@ -1660,10 +1726,6 @@ projector %2</source>
         <translation>تم التثبيت. يبدأ العرض عند تسجيل الدخول التالي، دون كاميرا أو معالج.</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>العرض مثبّت. ثبّته مجددًا، فلا يعود يبدأ تلقائيًا.</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>بعد التثبيت يعمل العرض دون إشراف، ودون كاميرا أو معالج.</translation>
     </message>
@@ -1674,10 +1736,6 @@ projector %2</source>
     <message>
         <source>Playlist</source>
         <translation>قائمة التشغيل</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>بكسلات هذه الشاشة غير بكسلات جهاز العرض الذي تم قياسه.</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1947,6 +2005,14 @@ projector %2</source>
         <source>Skipped: %1</source>
         <translation>تم تخطي: ⁨%1⁩</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>ما زال العرض يبدأ مع هذا الحاسوب. ثبّته مجددًا لإيقاف ذلك.</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>دقّة هذه الشاشة ليست دقّة جهاز العرض الذي تم قياسه.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2070,10 +2136,6 @@ projector %2</source>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>نسبة المحتوى الذي قد يبقى شديد العتمة، بالمئة</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>كلما زادت القيمة ازدادت الصورة سطوعًا، واتسع الجزء الذي يبقى شديد العتمة منها.</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2298,6 +2360,10 @@ projector %2</source>
     <message>
         <source>of white</source>
         <translation>من الأبيض</translation>
+    </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>كلما زادت هذه النسبة ازدادت الصورة سطوعًا، واتسع الجزء الذي يبقى شديد العتمة منها.</translation>
     </message>
 </context>
 <context>
@@ -2840,10 +2906,6 @@ projector %2</source>
         <translation>يفتح Enter الخيار المميّز</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>الأنماط: نحو %1، %2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>فحص الكاميرا</translation>
     </message>
@@ -2890,10 +2952,6 @@ projector %2</source>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>أي جهاز عرض وأي كاميرا يمكن تشغيلهما بأمر</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>يعرض الملف {image} وينتهي حين يخرج الضوء</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -3022,6 +3080,21 @@ projector %2</source>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>المزيد من البكسلات يُظهر تفاصيل أدق ويستغرق وقتًا أطول. في المرة الأولى يُتتبّع ضوء الموقع؛ ثم يُحفظ لما بعد.</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>لا أنماط، ⁨%1⁩</numerusform>
+            <numerusform>نحو نمط واحد، ⁨%1⁩</numerusform>
+            <numerusform>نحو نمطين، ⁨%1⁩</numerusform>
+            <numerusform>نحو %n أنماط، ⁨%1⁩</numerusform>
+            <numerusform>نحو %n نمطًا، ⁨%1⁩</numerusform>
+            <numerusform>نحو %n نمط، ⁨%1⁩</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>يعرض الملف {image} وينتهي فور أن يبثّه جهاز العرض</translation>
     </message>
 </context>
 <context>

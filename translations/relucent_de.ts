@@ -68,10 +68,6 @@
         <translation>%1 Bilder je Sekunde, %2 ms je Bild, %3 von %4 verspätet</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>kompensiert, %1 Schritte, %2 % unerreichbar</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>nicht kompensiert</translation>
     </message>
@@ -82,6 +78,13 @@
     <message>
         <source>test chart: %1</source>
         <translation>Testbild: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>kompensiert, %n Schritt, %1 % unerreichbar</numerusform>
+            <numerusform>kompensiert, %n Schritte, %1 % unerreichbar</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +352,8 @@
         <translation>Schwarz und Volllicht</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>Ebene {} von {}: {} Muster</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>Lichttransport</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>Neumessung von {} markierten Pixeln</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +370,20 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>Lichtberechnung am simulierten Spielort</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>Ebene {} von {}: %n Muster</numerusform>
+            <numerusform>Ebene {} von {}: %n Muster</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>Neumessung von %n markierten Pixel</numerusform>
+            <numerusform>Neumessung von %n markierten Pixeln</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -692,10 +701,6 @@
 <context>
     <name>relucent::CameraPage</name>
     <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>%1 × %2 Pixel, %3 Bit, Belichtungen %4 bis %5</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>Nicht nutzbar: %1</translation>
     </message>
@@ -899,16 +904,19 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Vielleicht reicht der Projektor nicht dorthin. Wo er es sollte, öffnen Sie die Blende.</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
+            <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>Das Gemessene ist sicher.</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>%1 Cluster</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -925,10 +933,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>Lesen des Lichttransports</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>%1 Cluster, Median %2 Projektorpixel</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -987,14 +991,6 @@
         <translation>%1, %2: in keinem Cluster</translation>
     </message>
     <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1, %2: %3 Projektorpixel, Fehler %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>Clusterkarte, %1 Cluster, größter %2</translation>
-    </message>
-    <message>
         <source>rel. RMS</source>
         <translation>rel. RMS</translation>
     </message>
@@ -1009,10 +1005,6 @@
     <message>
         <source>cap %1</source>
         <translation>max. %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>%1 Cluster, Median %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1097,6 +1089,34 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>Die Oberfläche ist über benachbarte Pixel hinweg unscharf, daher verbinden sich Gruppen. Die Obergrenze hält sie getrennt.</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>%n Cluster</numerusform>
+            <numerusform>%n Cluster</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>%n Cluster, Median %1 px</numerusform>
+            <numerusform>%n Cluster, Median %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2: %n Projektorpixel, Fehler %3</numerusform>
+            <numerusform>%1, %2: %n Projektorpixel, Fehler %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>Clusterkarte, %n Cluster, größter %1</numerusform>
+            <numerusform>Clusterkarte, %n Cluster, größter %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1167,10 +1187,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>Der Projektor zeigt Muster, die etwa %1-mal je Sekunde wechseln.</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>Der Projektor zeigt Muster, die so schnell wechseln, wie die Geräte es können, vielleicht öfter als 3-mal je Sekunde.</translation>
     </message>
@@ -1189,6 +1205,13 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>Lichtblitze können Anfälle auslösen. Räumen Sie den Raum und verdecken Sie den Eingang.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>Der Projektor zeigt Muster, die etwa einmal je Sekunde wechseln.</numerusform>
+            <numerusform>Der Projektor zeigt Muster, die etwa %n-mal je Sekunde wechseln.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1240,10 +1263,6 @@
         <translation>Messung, %1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>Additivität auf %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>Gemessen</translation>
     </message>
@@ -1270,10 +1289,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>Etwa %1 Testmuster</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1478,6 +1493,17 @@
         <source>Found while measuring</source>
         <translation>Beim Messen bemerkt</translation>
     </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>%1 Additivitätsfehler</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>Etwa %n Testmuster</numerusform>
+            <numerusform>Etwa %n Testmuster</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::MainWindow</name>
@@ -1636,10 +1662,6 @@ Projektor %2</translation>
         <translation>Installiert. Die Show startet bei der nächsten Anmeldung, ohne Kamera und Assistent.</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>Installiert. Installieren Sie erneut, dann startet sie nicht mehr von selbst.</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>Einmal installiert, läuft die Show unbeaufsichtigt, ohne Kamera und Assistent.</translation>
     </message>
@@ -1650,10 +1672,6 @@ Projektor %2</translation>
     <message>
         <source>Playlist</source>
         <translation>Playlist</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>Dieser Bildschirm hat andere Pixel als der gemessene Projektor.</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1923,6 +1941,14 @@ Projektor %2</translation>
         <source>Skipped: %1</source>
         <translation>Übersprungen: %1</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>Die Show startet noch mit diesem Computer. Installieren Sie sie erneut, um das zu beenden.</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>Dieser Bildschirm hat eine andere Auflösung als der gemessene Projektor.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2046,10 +2072,6 @@ Projektor %2</translation>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>Anteil des Inhalts, der zu dunkel bleiben darf, Prozent</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>Weiter rechts wird das Bild heller, und mehr davon bleibt zu dunkel.</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2274,6 +2296,10 @@ Projektor %2</translation>
     <message>
         <source>of white</source>
         <translation>von Weiß</translation>
+    </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>Je größer dieser Anteil, desto heller wird das Bild, und desto mehr davon bleibt zu dunkel.</translation>
     </message>
 </context>
 <context>
@@ -2808,10 +2834,6 @@ Projektor %2</translation>
         <translation>Eingabe öffnet die markierte Auswahl</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>Etwa %1 Muster, %2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>Kamera prüfen</translation>
     </message>
@@ -2858,10 +2880,6 @@ Projektor %2</translation>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>Jeder Projektor und jede Kamera, die ein Befehl steuern kann</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>Zeigt die Datei {image} und endet, sobald sie zu sehen ist</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -2990,6 +3008,17 @@ Projektor %2</translation>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>Mehr Pixel zeigen feinere Details und dauern länger. Beim ersten Mal wird das Licht des Spielorts berechnet; danach ist es gespeichert.</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>Etwa %n Muster, %1</numerusform>
+            <numerusform>Etwa %n Muster, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>Zeigt die Datei {image} und endet, sobald der Projektor sie ausstrahlt</translation>
     </message>
 </context>
 <context>

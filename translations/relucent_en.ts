@@ -2,6 +2,33 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en" sourcelanguage="en">
 <context>
+    <name>Overlay</name>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>compensated, %n step, %1 % out of reach</numerusform>
+            <numerusform>compensated, %n steps, %1 % out of reach</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>Stage</name>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>level {} of {}: %n pattern</numerusform>
+            <numerusform>level {} of {}: %n patterns</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>measuring %n flagged pixel again</numerusform>
+            <numerusform>measuring %n flagged pixels again</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::AcquirePage</name>
     <message numerus="yes">
         <source>%n pattern(s), %1</source>
@@ -33,12 +60,60 @@
     </message>
 </context>
 <context>
+    <name>relucent::CameraPage</name>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 pixels, %n bit, exposures %2 to %3</numerusform>
+            <numerusform>%1 pixels, %n bits, exposures %2 to %3</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::ClusterPage</name>
     <message numerus="yes">
         <source>%n unknown(s)</source>
         <translation>
             <numerusform>%n unknown</numerusform>
             <numerusform>%n unknowns</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>%n cluster</numerusform>
+            <numerusform>%n clusters</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>%n cluster, median %1 px</numerusform>
+            <numerusform>%n clusters, median %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2: %n projector pixel, error %3</numerusform>
+            <numerusform>%1, %2: %n projector pixels, error %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>Cluster map, %n cluster, largest %1</numerusform>
+            <numerusform>Cluster map, %n clusters, largest %1</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::FlashConsent</name>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>The projector shows patterns that change about once a second.</numerusform>
+            <numerusform>The projector shows patterns that change about %n times a second.</numerusform>
         </translation>
     </message>
 </context>
@@ -49,6 +124,23 @@
         <translation>
             <numerusform>%n level a colour, random order, drift removed</numerusform>
             <numerusform>%n levels a colour, random order, drift removed</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>About %n test pattern</numerusform>
+            <numerusform>About %n test patterns</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::SettingsDialog</name>
+    <message numerus="yes">
+        <source>At most %n change(s) a second</source>
+        <translation>
+            <numerusform>At most %n change a second</numerusform>
+            <numerusform>At most %n changes a second</numerusform>
         </translation>
     </message>
 </context>
@@ -63,12 +155,12 @@
     </message>
 </context>
 <context>
-    <name>relucent::SettingsDialog</name>
+    <name>relucent::VenuePage</name>
     <message numerus="yes">
-        <source>At most %n change(s) a second</source>
+        <source>About %n pattern(s), %1</source>
         <translation>
-            <numerusform>At most %n change a second</numerusform>
-            <numerusform>At most %n changes a second</numerusform>
+            <numerusform>About %n pattern, %1</numerusform>
+            <numerusform>About %n patterns, %1</numerusform>
         </translation>
     </message>
 </context>

@@ -68,10 +68,6 @@
         <translation>%1 fotogramas/s, %2 ms por fotograma, %3 de %4 con retraso</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>compensado, %1 pasos, %2&#xa0;% fuera de alcance</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>sin compensar</translation>
     </message>
@@ -82,6 +78,13 @@
     <message>
         <source>test chart: %1</source>
         <translation>carta de prueba: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>compensado, %n paso, %1 % fuera de alcance</numerusform>
+            <numerusform>compensado, %n pasos, %1 % fuera de alcance</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +352,8 @@
         <translation>negro y luz plena</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>nivel {} de {}: {} patrones</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>transporte de luz</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>midiendo de nuevo {} píxeles marcados</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +370,20 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>trazando la luz del lugar simulado</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>nivel {} de {}: %n patrón</numerusform>
+            <numerusform>nivel {} de {}: %n patrones</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>midiendo de nuevo %n píxel marcado</numerusform>
+            <numerusform>midiendo de nuevo %n píxeles marcados</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -671,7 +680,7 @@
     </message>
     <message>
         <source>Measuring</source>
-        <translation>Medición</translation>
+        <translation>Midiendo</translation>
     </message>
     <message>
         <source>about %1</source>
@@ -691,10 +700,6 @@
 </context>
 <context>
     <name>relucent::CameraPage</name>
-    <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>%1 × %2 píxeles, %3 bits, exposiciones de %4 a %5</translation>
-    </message>
     <message>
         <source>Cannot be used: %1</source>
         <translation>No se puede usar: %1</translation>
@@ -899,16 +904,19 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Quizá el proyector no llega ahí. Donde debería llegar, abra el diafragma.</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 píxeles, %n bit, exposiciones de %2 a %3</numerusform>
+            <numerusform>%1 píxeles, %n bits, exposiciones de %2 a %3</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>Lo medido está a salvo.</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>%1 clústeres</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -925,10 +933,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>Leyendo el transporte de luz</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>%1 clústeres, mediana de %2 píxeles de proyector</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -987,14 +991,6 @@
         <translation>%1, %2: en ningún clúster</translation>
     </message>
     <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1, %2: %3 píxeles de proyector, error %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>Mapa de clústeres, %1 clústeres, el mayor %2</translation>
-    </message>
-    <message>
         <source>rel. RMS</source>
         <translation>RMS rel.</translation>
     </message>
@@ -1009,10 +1005,6 @@
     <message>
         <source>cap %1</source>
         <translation>límite %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>%1 clústeres, mediana %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1097,6 +1089,34 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>La superficie está desenfocada entre píxeles vecinos y los grupos se unen. El límite los mantiene separados.</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>%n clúster</numerusform>
+            <numerusform>%n clústeres</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>%n clúster, mediana de %1 px</numerusform>
+            <numerusform>%n clústeres, mediana de %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2: %n píxel de proyector, error %3</numerusform>
+            <numerusform>%1, %2: %n píxeles de proyector, error %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>Mapa de clústeres, %n clúster, el mayor %1</numerusform>
+            <numerusform>Mapa de clústeres, %n clústeres, el mayor %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1167,10 +1187,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>El proyector muestra patrones que cambian unas %1 veces por segundo.</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>El proyector muestra patrones que cambian tan rápido como permiten los dispositivos, quizá más de 3 veces por segundo.</translation>
     </message>
@@ -1189,6 +1205,13 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>La luz intermitente puede causar crisis epilépticas. Despeje la sala y tape la entrada.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>El proyector muestra patrones que cambian aproximadamente una vez por segundo.</numerusform>
+            <numerusform>El proyector muestra patrones que cambian unas %n veces por segundo.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1240,10 +1263,6 @@
         <translation>Midiendo, %1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>Aditividad: %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>Medido</translation>
     </message>
@@ -1270,10 +1289,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>Confirme que la sala está despejada.</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>Unos %1 patrones de prueba</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1424,7 +1439,7 @@
     </message>
     <message>
         <source>Measuring</source>
-        <translation>Medición</translation>
+        <translation>Midiendo</translation>
     </message>
     <message>
         <source>Not measured yet</source>
@@ -1477,6 +1492,17 @@
     <message>
         <source>Found while measuring</source>
         <translation>Hallado al medir</translation>
+    </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>Error de aditividad: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>Alrededor de %n patrón de prueba</numerusform>
+            <numerusform>Unos %n patrones de prueba</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1636,10 +1662,6 @@ proyector %2</translation>
         <translation>Instalado. El show empieza en el próximo inicio de sesión, sin cámara ni asistente.</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>Instalado. Instálelo de nuevo y ya no se iniciará por sí solo.</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>Una vez instalado, el show funciona sin vigilancia, sin cámara ni asistente.</translation>
     </message>
@@ -1650,10 +1672,6 @@ proyector %2</translation>
     <message>
         <source>Playlist</source>
         <translation>Lista de reproducción</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>Esta pantalla no tiene los mismos píxeles que el proyector medido.</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1923,6 +1941,14 @@ proyector %2</translation>
         <source>Skipped: %1</source>
         <translation>Omitido: %1</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>El show aún se inicia con este equipo. Instálelo de nuevo para que deje de hacerlo.</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>La resolución de esta pantalla no es la del proyector medido.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2046,10 +2072,6 @@ proyector %2</translation>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>Parte del contenido que puede quedar demasiado oscura, en porcentaje</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>Más a la derecha la imagen gana brillo y una parte mayor queda oscura.</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2275,6 +2297,10 @@ proyector %2</translation>
         <source>of white</source>
         <translation>del blanco</translation>
     </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>Cuanto mayor es esta parte, más brillante es la imagen y más de ella queda oscura.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::SettingsDialog</name>
@@ -2296,7 +2322,7 @@ proyector %2</translation>
     </message>
     <message>
         <source>Light</source>
-        <translation>Luz</translation>
+        <translation>Claro</translation>
     </message>
     <message>
         <source>Theme. The dark one is for the dark room.</source>
@@ -2808,10 +2834,6 @@ proyector %2</translation>
         <translation>Intro abre la opción resaltada</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>Unos %1 patrones, %2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>Comprobar cámara</translation>
     </message>
@@ -2858,10 +2880,6 @@ proyector %2</translation>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>Cualquier proyector y cámara que se manejen con un comando</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>Muestra el archivo {image} y termina cuando ya está proyectado</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -2990,6 +3008,17 @@ proyector %2</translation>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>Más píxeles muestran más detalle y tardan más. La primera vez se traza la luz del lugar; después se reutiliza.</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>Alrededor de %n patrón, %1</numerusform>
+            <numerusform>Unos %n patrones, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>Muestra el archivo {image} y termina en cuanto el proyector lo emite</translation>
     </message>
 </context>
 <context>

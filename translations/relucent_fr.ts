@@ -68,10 +68,6 @@
         <translation>%1 images/s, %2&#x202f;ms par image, %3 sur %4 en retard</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>corrigé, %1 itérations, %2&#x202f;% hors d’atteinte</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>non corrigé</translation>
     </message>
@@ -82,6 +78,13 @@
     <message>
         <source>test chart: %1</source>
         <translation>mire&#x202f;: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>corrigé, %n itération, %1 % hors d’atteinte</numerusform>
+            <numerusform>corrigé, %n itérations, %1 % hors d’atteinte</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +352,8 @@
         <translation>noir et pleine lumière</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>niveau {} sur {}&#x202f;: {} motifs</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>transport lumineux</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>nouvelle mesure de {} pixels signalés</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +370,20 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>tracé de la lumière du lieu simulé</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>niveau {} sur {} : %n motif</numerusform>
+            <numerusform>niveau {} sur {} : %n motifs</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>nouvelle mesure de %n pixel signalé</numerusform>
+            <numerusform>nouvelle mesure de %n pixels signalés</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -692,10 +701,6 @@
 <context>
     <name>relucent::CameraPage</name>
     <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>%1 × %2 pixels, %3 bits, poses de %4 à %5</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>Inutilisable&#x202f;: %1</translation>
     </message>
@@ -899,16 +904,19 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Le projecteur n’y arrive peut-être pas. Là où il le devrait, ouvrez le diaphragme.</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 pixels, %n bit, poses de %2 à %3</numerusform>
+            <numerusform>%1 pixels, %n bits, poses de %2 à %3</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>Ce qui est mesuré est en sécurité.</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>%1 groupes</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -925,10 +933,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>Lecture du transport lumineux</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>%1 groupes, médiane %2 pixels du projecteur</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -987,14 +991,6 @@
         <translation>%1, %2&#x202f;: dans aucun groupe</translation>
     </message>
     <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1, %2&#x202f;: %3 pixels du projecteur, erreur %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>Carte des groupes, %1 groupes, le plus grand&#x202f;: %2</translation>
-    </message>
-    <message>
         <source>rel. RMS</source>
         <translation>RMS rel.</translation>
     </message>
@@ -1009,10 +1005,6 @@
     <message>
         <source>cap %1</source>
         <translation>plafond %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>%1 groupes, médiane %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1097,6 +1089,34 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>La surface est floue entre pixels voisins, et les groupes se rejoignent. Le plafond les sépare.</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>%n groupe</numerusform>
+            <numerusform>%n groupes</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>%n groupe, médiane %1 px</numerusform>
+            <numerusform>%n groupes, médiane %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2 : %n pixel du projecteur, erreur %3</numerusform>
+            <numerusform>%1, %2 : %n pixels du projecteur, erreur %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>Carte des groupes, %n groupe, le plus grand : %1</numerusform>
+            <numerusform>Carte des groupes, %n groupes, le plus grand : %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1167,10 +1187,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>Le projecteur affiche des motifs qui changent environ %1 fois par seconde.</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>Le projecteur affiche des motifs qui changent aussi vite que les appareils le peuvent, peut-être plus de 3 fois par seconde.</translation>
     </message>
@@ -1189,6 +1205,13 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>La lumière clignotante peut provoquer des crises d’épilepsie. Évacuez la salle et masquez l’entrée.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>Le projecteur affiche des motifs qui changent environ %n fois par seconde.</numerusform>
+            <numerusform>Le projecteur affiche des motifs qui changent environ %n fois par seconde.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1240,10 +1263,6 @@
         <translation>Mesure, %1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>additivité %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>Mesuré</translation>
     </message>
@@ -1270,10 +1289,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>Confirmez que la salle est évacuée.</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>Environ %1 motifs d’essai</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1478,6 +1493,17 @@
         <source>Found while measuring</source>
         <translation>Constaté pendant la mesure</translation>
     </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>erreur d’additivité %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>Environ %n motif d’essai</numerusform>
+            <numerusform>Environ %n motifs d’essai</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::MainWindow</name>
@@ -1636,10 +1662,6 @@ projecteur %2</translation>
         <translation>Installée. La diffusion démarre à la prochaine ouverture de session, sans caméra ni assistant.</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>Installée. Réinstallez pour qu’elle ne démarre plus d’elle-même.</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>Une fois installée, la diffusion tourne sans surveillance, sans caméra ni assistant.</translation>
     </message>
@@ -1650,10 +1672,6 @@ projecteur %2</translation>
     <message>
         <source>Playlist</source>
         <translation>Liste de lecture</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>Cet écran n’a pas les mêmes pixels que le projecteur mesuré.</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1923,6 +1941,14 @@ projecteur %2</translation>
         <source>Skipped: %1</source>
         <translation>Ignoré&#x202f;: %1</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>La diffusion démarre encore avec cet ordinateur. Réinstallez-la pour que cela cesse.</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>La définition de cet écran n’est pas celle du projecteur mesuré.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2046,10 +2072,6 @@ projecteur %2</translation>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>Part du contenu qui peut rester trop sombre, pour cent</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>Vers la droite, l’image est plus claire, mais une plus grande part reste trop sombre.</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2274,6 +2296,10 @@ projecteur %2</translation>
     <message>
         <source>of white</source>
         <translation>du blanc</translation>
+    </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>Plus cette part est grande, plus l’image est claire, et plus il en reste de parties trop sombres.</translation>
     </message>
 </context>
 <context>
@@ -2697,7 +2723,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Bust before a brick wall</source>
-        <translation>Buste devant un mur de briques</translation>
+        <translation>Buste et mur de briques</translation>
     </message>
     <message>
         <source>Texture, shadow and light between surfaces</source>
@@ -2808,10 +2834,6 @@ projecteur %2</translation>
         <translation>Entrée ouvre le choix en surbrillance</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>Environ %1 motifs, %2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>Vérifier la caméra</translation>
     </message>
@@ -2858,10 +2880,6 @@ projecteur %2</translation>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>Tout projecteur et toute caméra qu’une commande peut piloter</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>Affiche le fichier {image} et rend la main une fois la lumière émise</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -2990,6 +3008,17 @@ projecteur %2</translation>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>Plus de pixels montrent des détails plus fins et prennent plus de temps. La première fois, la lumière du lieu est tracée&#x202f;; ensuite, elle est réutilisée.</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>Environ %n motif, %1</numerusform>
+            <numerusform>Environ %n motifs, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>Affiche le fichier {image} et se termine dès que le projecteur l’émet</translation>
     </message>
 </context>
 <context>

@@ -68,10 +68,6 @@
         <translation>%1 fotogrammi al secondo, %2 ms a fotogramma, %3 di %4 in ritardo</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>compensata, %1 passi, %2 % non raggiungibile</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>non compensata</translation>
     </message>
@@ -82,6 +78,13 @@
     <message>
         <source>test chart: %1</source>
         <translation>carta di test: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>compensata, %n passo, %1 % non raggiungibile</numerusform>
+            <numerusform>compensata, %n passi, %1 % non raggiungibile</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +352,8 @@
         <translation>nero e piena luce</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>livello {} di {}: {} pattern</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>trasporto della luce</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>nuova misura di {} pixel segnalati</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +370,20 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>tracciamento del luogo simulato</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>livello {} di {}: %n pattern</numerusform>
+            <numerusform>livello {} di {}: %n pattern</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>nuova misura di %n pixel segnalato</numerusform>
+            <numerusform>nuova misura di %n pixel segnalati</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -692,10 +701,6 @@
 <context>
     <name>relucent::CameraPage</name>
     <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>%1 × %2 pixel, %3 bit, esposizioni da %4 a %5</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>Non utilizzabile: %1</translation>
     </message>
@@ -899,16 +904,19 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Forse il proiettore non arriva lì. Dove dovrebbe, aprire il diaframma.</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
+            <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>Quanto misurato è al sicuro.</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>%1 cluster</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -925,10 +933,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>Lettura del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>%1 cluster, mediana %2 pixel del proiettore</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -987,14 +991,6 @@
         <translation>%1, %2: in nessun cluster</translation>
     </message>
     <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1, %2: %3 pixel del proiettore, errore %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>Mappa cluster, %1 cluster, il più grande %2</translation>
-    </message>
-    <message>
         <source>rel. RMS</source>
         <translation>RMS rel.</translation>
     </message>
@@ -1009,10 +1005,6 @@
     <message>
         <source>cap %1</source>
         <translation>limite %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>%1 cluster, mediana %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1097,6 +1089,34 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>La superficie è sfocata tra pixel vicini, perciò i gruppi si uniscono. Il limite li tiene separati.</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>%n cluster</numerusform>
+            <numerusform>%n cluster</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>%n cluster, mediana %1 px</numerusform>
+            <numerusform>%n cluster, mediana %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2: %n pixel del proiettore, errore %3</numerusform>
+            <numerusform>%1, %2: %n pixel del proiettore, errore %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>Mappa cluster, %n cluster, il più grande %1</numerusform>
+            <numerusform>Mappa cluster, %n cluster, il più grande %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1167,10 +1187,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>Il proiettore mostra pattern che cambiano circa %1 volte al secondo.</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>Il proiettore mostra pattern che cambiano alla massima velocità dei dispositivi, forse più di 3 volte al secondo.</translation>
     </message>
@@ -1189,6 +1205,13 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>La luce lampeggiante può causare crisi epilettiche. Sgombrare la sala e coprire l’ingresso.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>Il proiettore mostra pattern che cambiano circa una volta al secondo.</numerusform>
+            <numerusform>Il proiettore mostra pattern che cambiano circa %n volte al secondo.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1240,10 +1263,6 @@
         <translation>Misura, %1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>Additività %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>Misurato</translation>
     </message>
@@ -1270,10 +1289,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>Confermare che la sala è sgombra.</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>Circa %1 pattern di test</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1424,7 +1439,7 @@
     </message>
     <message>
         <source>Measuring</source>
-        <translation>Misura</translation>
+        <translation>Misura in corso</translation>
     </message>
     <message>
         <source>Not measured yet</source>
@@ -1477,6 +1492,17 @@
     <message>
         <source>Found while measuring</source>
         <translation>Rilevato durante la misura</translation>
+    </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>Errore di additività %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>Circa %n pattern di test</numerusform>
+            <numerusform>Circa %n pattern di test</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1636,10 +1662,6 @@ proiettore %2</translation>
         <translation>Installato. Lo show parte al prossimo accesso, senza fotocamera né procedura guidata.</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>Installato. Installandolo di nuovo, non parte più da solo.</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>Una volta installato, lo show gira da solo, senza fotocamera né procedura guidata.</translation>
     </message>
@@ -1650,10 +1672,6 @@ proiettore %2</translation>
     <message>
         <source>Playlist</source>
         <translation>Playlist</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>I pixel di questo schermo non sono quelli del proiettore misurato.</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1923,6 +1941,14 @@ proiettore %2</translation>
         <source>Skipped: %1</source>
         <translation>Saltato: %1</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>Lo show parte ancora con questo computer. Installarlo di nuovo per disattivarlo.</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>La risoluzione di questo schermo non è quella del proiettore misurato.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2046,10 +2072,6 @@ proiettore %2</translation>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>Quota del contenuto che può restare troppo scura, in percento</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>Più a destra l’immagine è più luminosa, ma una parte maggiore resta troppo scura.</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2274,6 +2296,10 @@ proiettore %2</translation>
     <message>
         <source>of white</source>
         <translation>del bianco</translation>
+    </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>Più grande è questa quota, più l’immagine è luminosa e più ne resta troppo scura.</translation>
     </message>
 </context>
 <context>
@@ -2697,7 +2723,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Bust before a brick wall</source>
-        <translation>Busto davanti a un muro di mattoni</translation>
+        <translation>Busto e muro di mattoni</translation>
     </message>
     <message>
         <source>Texture, shadow and light between surfaces</source>
@@ -2808,10 +2834,6 @@ proiettore %2</translation>
         <translation>Invio apre la scelta evidenziata</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>Circa %1 pattern, %2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>Controlla fotocamera</translation>
     </message>
@@ -2858,10 +2880,6 @@ proiettore %2</translation>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>Qualsiasi proiettore e fotocamera pilotabili da un comando</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>Mostra il file {image} e termina quando la luce è emessa</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -2990,6 +3008,17 @@ proiettore %2</translation>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>Più pixel mostrano dettagli più fini e richiedono più tempo. La prima volta si traccia la luce del luogo; poi resta memorizzata.</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>Circa %n pattern, %1</numerusform>
+            <numerusform>Circa %n pattern, %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>Mostra il file {image} e termina appena il proiettore lo emette</translation>
     </message>
 </context>
 <context>

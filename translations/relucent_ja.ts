@@ -68,10 +68,6 @@
         <translation>毎秒 %1 フレーム、%2 ms/フレーム、遅延 %3/%4</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>補正あり、反復 %1 回、再現不可 %2 %</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>補正なし</translation>
     </message>
@@ -82,6 +78,12 @@
     <message>
         <source>test chart: %1</source>
         <translation>テストチャート：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>補正あり、反復 %n 回、再現不可 %1 %</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +351,8 @@
         <translation>黒と全点灯</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>階層 {}/{}：パターン {} 枚</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>光輸送</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>要確認の {} 画素の再測定</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +369,18 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>模擬会場の光線追跡</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>階層 {}/{}：パターン %n 枚</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>要確認の %n 画素の再測定</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -688,10 +694,6 @@
 <context>
     <name>relucent::CameraPage</name>
     <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>%1 × %2 画素、%3 ビット、露出 %4～%5</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>使用できません：%1</translation>
     </message>
@@ -895,16 +897,18 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>プロジェクターの光が届かない場所かもしれません。届くはずなら、レンズの絞りを開けてください。</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 画素、%n ビット、露出 %2～%3</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>測定済みのデータは無事です。</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>クラスター %1 個</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -921,10 +925,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>光輸送の読み込み</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>クラスター %1 個、中央値 %2 プロジェクター画素</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -983,14 +983,6 @@
         <translation>%1, %2：クラスターなし</translation>
     </message>
     <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1, %2：プロジェクター画素 %3、誤差 %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>クラスターマップ、クラスター %1 個、最大 %2</translation>
-    </message>
-    <message>
         <source>rel. RMS</source>
         <translation>相対 RMS</translation>
     </message>
@@ -1005,10 +997,6 @@
     <message>
         <source>cap %1</source>
         <translation>上限 %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>クラスター %1 個、中央値 %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1092,6 +1080,30 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>投影面では隣り合う画素にボケが広がり、グループがつながります。上限がそれを分けます。</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>クラスター %n 個</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>クラスター %n 個、中央値 %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2：プロジェクター画素 %n、誤差 %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>クラスターマップ、クラスター %n 個、最大 %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1162,10 +1174,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>プロジェクターが毎秒約 %1 回切り替わるパターンを表示します。</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>プロジェクターが、機器の最高速で切り替わるパターンを表示します。毎秒 3 回を超えることがあります。</translation>
     </message>
@@ -1184,6 +1192,12 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>点滅光は発作を引き起こすことがあります。室内から人を退避させ、入口を覆ってください。</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>プロジェクターが毎秒約 %n 回切り替わるパターンを表示します。</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1235,10 +1249,6 @@
         <translation>測定中、%1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>加法性誤差 %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>測定済み</translation>
     </message>
@@ -1265,10 +1275,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>退避が完了したことを確認してください。</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>テストパターン約 %1 枚</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1472,6 +1478,16 @@
         <source>Found while measuring</source>
         <translation>測定中の検出事項</translation>
     </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>加法性誤差 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>テストパターン約 %n 枚</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::MainWindow</name>
@@ -1630,10 +1646,6 @@ projector %2</source>
         <translation>登録済み。次回のログイン時から、カメラもウィザードもなしでショーが始まります。</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>登録済み。もう一度登録すると、自動では始まらなくなります。</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>登録すると、カメラもウィザードもなしで、ショーを無人で実行します。</translation>
     </message>
@@ -1644,10 +1656,6 @@ projector %2</source>
     <message>
         <source>Playlist</source>
         <translation>プレイリスト</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>この画面の画素数は、測定したプロジェクターと異なります。</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1917,6 +1925,14 @@ projector %2</source>
         <source>Skipped: %1</source>
         <translation>スキップ：%1</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>ショーはまだこのコンピューターと同時に始まります。もう一度登録すると解除されます。</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>この画面の解像度は、測定したプロジェクターと異なります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2040,10 +2056,6 @@ projector %2</source>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>コンテンツのうち暗いままでよい割合（パーセント）</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>右へ動かすほど画像は明るくなり、明るさの足りない部分が増えます。</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2268,6 +2280,10 @@ projector %2</source>
     <message>
         <source>of white</source>
         <translation>白に対する比</translation>
+    </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>この割合が大きいほど画像は明るくなり、明るさの足りない部分も増えます。</translation>
     </message>
 </context>
 <context>
@@ -2800,10 +2816,6 @@ projector %2</source>
         <translation>Enter で選択中の項目を開きます</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>パターン約 %1 枚、%2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>カメラを確認</translation>
     </message>
@@ -2850,10 +2862,6 @@ projector %2</source>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>コマンドで操作できる任意のプロジェクターとカメラ</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>ファイル {image} を表示し、光が出たら終了</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -2982,6 +2990,16 @@ projector %2</source>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>画素が多いほど細部まで見えますが、時間がかかります。初回は会場の光を追跡し、以後はその結果を使います。</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>パターン約 %n 枚、%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>ファイル {image} を表示し、実際に投影された時点で終了</translation>
     </message>
 </context>
 <context>

@@ -68,10 +68,6 @@
         <translation>%1 帧/秒，每帧 %2 ms，%4 帧中 %3 帧超时</translation>
     </message>
     <message>
-        <source>compensated, %1 steps, %2 % out of reach</source>
-        <translation>已补偿，迭代 %1 步，不可达 %2 %</translation>
-    </message>
-    <message>
         <source>not compensated</source>
         <translation>未补偿</translation>
     </message>
@@ -82,6 +78,12 @@
     <message>
         <source>test chart: %1</source>
         <translation>测试图卡：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>compensated, %n step(s), %1 % out of reach</source>
+        <translation>
+            <numerusform>已补偿，迭代 %n 步，不可达 %1 %</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -349,16 +351,8 @@
         <translation>黑场和全亮</translation>
     </message>
     <message>
-        <source>level {} of {}: {} patterns</source>
-        <translation>第 {} 层，共 {} 层：{} 个图案</translation>
-    </message>
-    <message>
         <source>light transport</source>
         <translation>光传输</translation>
-    </message>
-    <message>
-        <source>measuring {} flagged pixels again</source>
-        <translation>正在重新测量 {} 个存疑像素</translation>
     </message>
     <message>
         <source>projector {}</source>
@@ -375,6 +369,18 @@
     <message>
         <source>tracing the simulated venue</source>
         <translation>正在追踪模拟场地的光线</translation>
+    </message>
+    <message numerus="yes">
+        <source>level {} of {}: %n pattern(s)</source>
+        <translation>
+            <numerusform>第 {} 层，共 {} 层：%n 个图案</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>measuring %n flagged pixel(s) again</source>
+        <translation>
+            <numerusform>正在重新测量 %n 个存疑像素</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -688,10 +694,6 @@
 <context>
     <name>relucent::CameraPage</name>
     <message>
-        <source>%1 × %2 pixels, %3 bits, exposures %4 to %5</source>
-        <translation>%1 × %2 像素，%3 位，曝光 %4 至 %5</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>无法使用：%1</translation>
     </message>
@@ -895,16 +897,18 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>投影机可能照不到那里。若应照到，请开大光圈。</translation>
     </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 像素，%n 位，曝光 %2 至 %3</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>已测得的数据是安全的。</translation>
-    </message>
-    <message>
-        <source>%1 clusters</source>
-        <translation>%1 个簇</translation>
     </message>
     <message>
         <source>Out of date</source>
@@ -921,10 +925,6 @@
     <message>
         <source>Reading the light transport</source>
         <translation>正在读取光传输</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2 projector pixels</source>
-        <translation>%1 个簇，中位数 %2 个投影机像素</translation>
     </message>
     <message>
         <source>Preview content</source>
@@ -983,14 +983,6 @@
         <translation>%1, %2：不属于任何簇</translation>
     </message>
     <message>
-        <source>%1, %2: %3 projector pixels, error %4</source>
-        <translation>%1, %2：%3 个投影机像素，误差 %4</translation>
-    </message>
-    <message>
-        <source>Cluster map, %1 clusters, largest %2</source>
-        <translation>簇图，%1 个簇，最大 %2</translation>
-    </message>
-    <message>
         <source>rel. RMS</source>
         <translation>相对 RMS</translation>
     </message>
@@ -1005,10 +997,6 @@
     <message>
         <source>cap %1</source>
         <translation>上限 %1</translation>
-    </message>
-    <message>
-        <source>%1 clusters, median %2</source>
-        <translation>%1 个簇，中位数 %2</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -1092,6 +1080,30 @@
         <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
         <translation>表面的模糊跨越相邻像素，使簇连成一片。上限将它们分开。</translation>
     </message>
+    <message numerus="yes">
+        <source>%n cluster(s)</source>
+        <translation>
+            <numerusform>%n 个簇</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cluster(s), median %1 px</source>
+        <translation>
+            <numerusform>%n 个簇，中位数 %1 px</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s), error %3</source>
+        <translation>
+            <numerusform>%1, %2：%n 个投影机像素，误差 %3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Cluster map, %n cluster(s), largest %1</source>
+        <translation>
+            <numerusform>簇图，%n 个簇，最大 %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -1162,10 +1174,6 @@
 <context>
     <name>relucent::FlashConsent</name>
     <message>
-        <source>The projector shows patterns that change about %1 times a second.</source>
-        <translation>投影机显示的图案每秒变化约 %1 次。</translation>
-    </message>
-    <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>投影机以设备允许的最快速度切换图案，可能每秒超过 3 次。</translation>
     </message>
@@ -1184,6 +1192,12 @@
     <message>
         <source>Flashing light can cause seizures. Clear the room and cover the entrance.</source>
         <translation>闪光可能诱发癫痫。请清场，并遮挡入口。</translation>
+    </message>
+    <message numerus="yes">
+        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <translation>
+            <numerusform>投影机显示的图案每秒变化约 %n 次。</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1235,10 +1249,6 @@
         <translation>正在测量，%1</translation>
     </message>
     <message>
-        <source>%1 additivity</source>
-        <translation>可加性误差 %1</translation>
-    </message>
-    <message>
         <source>Measured</source>
         <translation>已测量</translation>
     </message>
@@ -1265,10 +1275,6 @@
     <message>
         <source>Confirm that the room is clear.</source>
         <translation>请确认已清场。</translation>
-    </message>
-    <message>
-        <source>About %1 test patterns</source>
-        <translation>约 %1 个测试图案</translation>
     </message>
     <message>
         <source>Plan acquisition</source>
@@ -1472,6 +1478,16 @@
         <source>Found while measuring</source>
         <translation>测量中的发现</translation>
     </message>
+    <message>
+        <source>%1 additivity error</source>
+        <translation>可加性误差 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n test pattern(s)</source>
+        <translation>
+            <numerusform>约 %n 个测试图案</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::MainWindow</name>
@@ -1630,10 +1646,6 @@ projector %2</source>
         <translation>已安装。下次登录时节目自动开始，无需相机或向导。</translation>
     </message>
     <message>
-        <source>Installed. Install again, and it starts no more by itself.</source>
-        <translation>已安装。再次安装后将不再自动启动。</translation>
-    </message>
-    <message>
         <source>Once installed, the show runs unattended, without camera or wizard.</source>
         <translation>安装后，节目可无人值守运行，无需相机或向导。</translation>
     </message>
@@ -1644,10 +1656,6 @@ projector %2</source>
     <message>
         <source>Playlist</source>
         <translation>播放列表</translation>
-    </message>
-    <message>
-        <source>This screen has other pixels than the projector that was measured.</source>
-        <translation>此屏幕的像素数与测量时的投影机不同。</translation>
     </message>
     <message>
         <source>The picture stands in its middle, pixel for pixel.</source>
@@ -1917,6 +1925,14 @@ projector %2</source>
         <source>Skipped: %1</source>
         <translation>已跳过：%1</translation>
     </message>
+    <message>
+        <source>The show still starts with this computer. Install it again to end that.</source>
+        <translation>节目仍会随此计算机启动。再次安装即可取消。</translation>
+    </message>
+    <message>
+        <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
+        <translation>此屏幕的分辨率与测量时的投影机不同。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProjection</name>
@@ -2040,10 +2056,6 @@ projector %2</source>
     <message>
         <source>Share of the content that may stay too dark, percent</source>
         <translation>内容中允许过暗的比例，百分比</translation>
-    </message>
-    <message>
-        <source>Further right the picture gets brighter, and more of it falls behind.</source>
-        <translation>越向右画面越亮，亮度不足的部分也越多。</translation>
     </message>
     <message>
         <source>Lift of the blacks</source>
@@ -2268,6 +2280,10 @@ projector %2</source>
     <message>
         <source>of white</source>
         <translation>相对白色</translation>
+    </message>
+    <message>
+        <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
+        <translation>此比例越大，画面越亮，亮度不足的部分也越多。</translation>
     </message>
 </context>
 <context>
@@ -2800,10 +2816,6 @@ projector %2</source>
         <translation>按 Enter 打开突出显示的选项</translation>
     </message>
     <message>
-        <source>About %1 patterns, %2</source>
-        <translation>约 %1 个图案，%2</translation>
-    </message>
-    <message>
         <source>Check camera</source>
         <translation>检查相机</translation>
     </message>
@@ -2850,10 +2862,6 @@ projector %2</source>
     <message>
         <source>Any projector and any camera that a command can drive</source>
         <translation>可用命令驱动的任何投影机和相机</translation>
-    </message>
-    <message>
-        <source>Shows the file {image} and returns when the light is out</source>
-        <translation>显示文件 {image}，画面完全投出后返回</translation>
     </message>
     <message>
         <source>Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF</source>
@@ -2982,6 +2990,16 @@ projector %2</source>
     <message>
         <source>More pixels show finer detail and take longer. The first time, the light of the venue is traced; later it is remembered.</source>
         <translation>像素越多，细节越精细，耗时越长。首次会追踪场地的光线，之后直接沿用。</translation>
+    </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1</source>
+        <translation>
+            <numerusform>约 %n 个图案，%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Shows the file {image} and ends as soon as the projector shines it</source>
+        <translation>显示文件 {image}，投影机实际投出后即结束</translation>
     </message>
 </context>
 <context>

@@ -57,7 +57,10 @@ void ActionBar::refresh() {
   primary_->setVisible(static_cast<bool>(primary.run));
   primary_->setText(primary.text);
   primary_->setIcon(iconOf(primary.icon, primary.enabled ? colours().onAccent : colours().disabled));
-  primary_->setLayoutDirection(primary.icon == Icon::next ? Qt::RightToLeft : Qt::LeftToRight);
+  // What leads on has its arrow behind its words.
+  Qt::LayoutDirection reading = layoutDirection();
+  Qt::LayoutDirection against = reading == Qt::LeftToRight ? Qt::RightToLeft : Qt::LeftToRight;
+  primary_->setLayoutDirection(primary.icon == Icon::next ? against : reading);
   primary_->setEnabled(primary.enabled);
   back_->setVisible(wizard_.canGoBack());
   back_->setIcon(iconOf(Icon::back, colours().text));

@@ -7,6 +7,21 @@
 #include <QLibraryInfo>
 
 namespace relucent {
+namespace {
+
+/// Some numbers are written where no locale is asked, with the digits 0 to 9: so that all agree, of the
+/// countries that speak the language one that writes it with these.
+QLocale withUsualDigits(const QLocale& locale) {
+  auto isUsual = [](const QLocale& one) { return one.zeroDigit() == "0"; };
+  if (isUsual(locale)) return locale;
+  QList<QLocale> same = QLocale::matchingLocales(locale.language(), locale.script(), QLocale::AnyTerritory);
+  same.removeIf([&](const QLocale& one) { return !isUsual(one); });
+  for (const QLocale& one : same)
+    if (one.decimalPoint() == ".") return one;
+  return same.isEmpty() ? QLocale(QLocale::English) : same.first();
+}
+
+}  // namespace
 
 Language::Language(const QString& code, QString folder) : folder_(std::move(folder)) {
   choose(code);
@@ -48,7 +63,7 @@ void Language::choose(const QString& code) {
   spoken_ = file.isEmpty() ? "en" : file.section("relucent_", -1).remove(".qm");
   if (spoken_ != "en") load("qtbase", {QLibraryInfo::path(QLibraryInfo::TranslationsPath)}, QLocale(spoken_));
   // "zh_CN" in a computer's "zh_SG" keeps the computer's numbers; English sentences read from the left.
-  QLocale::setDefault(locale);
+  QLocale::setDefault(withUsualDigits(locale));
   QGuiApplication::setLayoutDirection(QLocale(spoken_).textDirection());
 }
 

@@ -11,8 +11,9 @@
 
 namespace relucent {
 
-/// The language that the program speaks: its own sentences, Qt's, how numbers are written, and from which
-/// side one reads. What is made after choose() speaks it; what was made before has to be made again.
+/// The language that the program speaks: its own sentences, Qt's, how numbers are written (by the default
+/// QLocale, with the digits 0 to 9 in every language), and from which side one reads. What is made after
+/// choose() speaks it; what was made before has to be made again.
 class Language {
  public:
   /// `folder`: of relucent_LANGUAGE.qm.

@@ -90,12 +90,8 @@ void MainWindow::buildHeader() {
   row->setContentsMargins(space::page, 8, space::page, 8);
   auto* titles = new QVBoxLayout;
   titles->setSpacing(2);
-  titles->addWidget(title_ = labelOf({}, "title"));
-  titles->addWidget(subtitle_ = labelOf({}, "secondary"));
-  for (QLabel* label : {title_, subtitle_}) {
-    label->setWordWrap(false);
-    label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  }
+  titles->addWidget(title_ = elidedLabel("title"));
+  titles->addWidget(subtitle_ = elidedLabel("secondary"));
   row->addLayout(titles, 1);
   dim_ = buttonOf(tr("Dim pictures"), "flat");
   dim_->setCheckable(true);
@@ -116,10 +112,13 @@ void MainWindow::buildRailFooter() {
   QPushButton* help = buttonOf(tr("Help"), "flat");
   settings->setObjectName("open-settings");
   help->setObjectName("open-help");
-  help->setToolTip(tr("F1"));
+  settings->setToolTip(settings->text());
+  help->setToolTip(QString("%1 (%2)").arg(help->text(), tr("F1")));
   for (QPushButton* button : {settings, help}) {
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    button->setAccessibleName(button->text());
     rail_->footer()->addWidget(button);
+    footer_.push_back(button);
   }
   connect(settings, &QPushButton::clicked, this, &MainWindow::showSettings);
   connect(help, &QPushButton::clicked, this, &MainWindow::showHelp);
@@ -129,6 +128,21 @@ void MainWindow::buildRailFooter() {
   };
   connect(&Theme::instance(), &Theme::changed, settings, look);
   look();
+}
+
+/// Words where all of them have room, else icons alone.
+void MainWindow::fitRailFooter() {
+  int needed = 0;
+  for (QPushButton* button : footer_) {
+    button->ensurePolished();
+    button->setText(button->accessibleName());
+    needed = std::max(needed, button->sizeHint().width());
+  }
+  QMargins besides = rail_->layout()->contentsMargins();
+  int spaces = static_cast<int>(footer_.size()) - 1;
+  int room = rail_->width() - besides.left() - besides.right() - spaces * rail_->footer()->spacing();
+  if (needed * static_cast<int>(footer_.size()) <= room) return;
+  for (QPushButton* button : footer_) button->setText({});
 }
 
 void MainWindow::showSettings() {
@@ -185,9 +199,8 @@ void MainWindow::moveToNextRegion() {
 
 void MainWindow::refresh() {
   const PageModel& page = wizard_.currentPage();
-  title_->setText(page.title());
-  subtitle_->setText(page.subtitle());
-  subtitle_->setToolTip(page.subtitle());
+  title_->setWhole(page.title());
+  subtitle_->setWhole(page.subtitle());
   int index = static_cast<int>(wizard_.current());
   if (stages_->currentIndex() != index) {
     stages_->setCurrentIndex(index);
@@ -199,6 +212,7 @@ void MainWindow::refresh() {
 void MainWindow::resizeEvent(QResizeEvent* event) {
   bool wide = width() >= space::wideFrom;
   rail_->setFixedWidth(wide ? space::wideRail : space::rail);
+  fitRailFooter();
   inspectors_->setFixedWidth(wide ? space::wideInspector : space::inspector);
   QMainWindow::resizeEvent(event);
 }

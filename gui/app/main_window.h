@@ -45,6 +45,7 @@ class MainWindow : public QMainWindow {
  private:
   void buildHeader();
   void buildRailFooter();
+  void fitRailFooter();
   void bindKeys();
   void refresh();
   void moveToNextRegion();
@@ -60,9 +61,10 @@ class MainWindow : public QMainWindow {
   BannerBar* banner_;
   ActionBar* actions_;
   QWidget* header_;
-  QLabel *title_, *subtitle_;
+  ElidedLabel *title_, *subtitle_;
   QPushButton* dim_;
-  HelpWindow* help_ = nullptr;  // once it has been asked for
+  std::vector<QPushButton*> footer_;  // of the rail
+  HelpWindow* help_ = nullptr;        // once it has been asked for
   QStackedWidget *stages_, *inspectors_;
 };
 

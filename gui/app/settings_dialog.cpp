@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/settings_dialog.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLineEdit>
@@ -9,6 +8,7 @@
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "theme/tick.h"
 
 namespace relucent {
 namespace {
@@ -63,10 +63,10 @@ QWidget* SettingsDialog::lookPart() {
   look->setCurrent(preferences_.isLight() ? 1 : 0);
   connect(look, &Segmented::chosen, &preferences_, [this](int index) { preferences_.setLight(index == 1); });
   addNamed(card->body(), tr("Theme. The dark one is for the dark room."), look);
-  auto* dim = new QCheckBox(tr("Dim pictures: the laptop is room light"));
+  auto* dim = new Tick(tr("Dim pictures: the laptop is room light"));
   dim->setObjectName("settings-dim");
   dim->setChecked(preferences_.isDimmed());
-  connect(dim, &QCheckBox::toggled, &preferences_, &Preferences::setDimmed);
+  connect(dim, &Tick::toggled, &preferences_, &Preferences::setDimmed);
   connect(&preferences_, &Preferences::changed, dim,
           [this, dim] { dim->setChecked(preferences_.isDimmed()); });
   card->body()->addWidget(dim);
@@ -96,10 +96,10 @@ QWidget* SettingsDialog::measuringPart() {
   addNamed(card->body(), tr("Flashing light of the projector"), limit);
   card->body()->addWidget(labelOf(
       tr("More than three changes a second can cause seizures. Slower measuring needs no consent."), "note"));
-  auto* sound = new QCheckBox(tr("A sound when a measurement ends"));
+  auto* sound = new Tick(tr("A sound when a measurement ends"));
   sound->setObjectName("settings-sound");
   sound->setChecked(preferences_.hasSound());
-  connect(sound, &QCheckBox::toggled, &preferences_, &Preferences::setSound);
+  connect(sound, &Tick::toggled, &preferences_, &Preferences::setSound);
   card->body()->addWidget(sound);
   return card;
 }

@@ -54,7 +54,7 @@ void StatusStrip::refresh() {
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const ScreenRigSettings* screen = session_.screenRig())
     kind = QString::fromStdString(screen->display.connector);
-  projector_->setText(QString::fromUtf8("%1 × %2, %3").arg(size.width).arg(size.height).arg(kind));
+  projector_->setText(QString("%1, %2").arg(sizeText(size.width, size.height), kind));
   if (const ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
   camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));

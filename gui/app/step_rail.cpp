@@ -4,12 +4,15 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
 
 namespace relucent {
 namespace {
+
+constexpr double nameLeft = 52.0, nameRight = 12.0, lockRoom = 34.0;
 
 /// The program's mark: a lens and its light.
 class Mark : public QWidget {
@@ -63,7 +66,14 @@ void StepButton::show(const QString& name, const StepStatus& status, bool curren
   QString state = wordOf(status, current, locked);
   setAccessibleName(StepRail::tr("Step %1, %2, %3").arg(number_).arg(name, state));
   setAccessibleDescription(status.result);
+  setToolTip(status.result);
   update();
+}
+
+QSize StepButton::minimumSizeHint() const {
+  double name = QFontMetricsF(typeOf(type::section, QFont::DemiBold)).horizontalAdvance(text());
+  return {static_cast<int>(std::ceil(nameLeft + name + (locked_ ? lockRoom : nameRight))),
+          sizeHint().height()};
 }
 
 void StepButton::keyPressEvent(QKeyEvent* event) {
@@ -100,32 +110,32 @@ void StepButton::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   const Colours& c = colours();
   QRectF box = QRectF(rect()).adjusted(1, 0, -1, 0);
+  // In right-to-left languages the rail is mirrored.
+  auto place = [this](QRectF area) {
+    return isRightToLeft() ? QRectF(width() - area.right(), area.top(), area.width(), area.height()) : area;
+  };
   if (current_) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(c.accentGround);
     painter.drawRoundedRect(box, 6, 6);
     painter.setBrush(c.accent);
-    painter.drawRoundedRect(QRectF(box.left(), box.top() + 8, 3, box.height() - 16), 1.5, 1.5);
+    painter.drawRoundedRect(place(QRectF(box.left(), box.top() + 8, 3, box.height() - 16)), 1.5, 1.5);
   }
   if (hasFocus()) {
     painter.setPen(QPen(c.text, 2.0));
     painter.setBrush(Qt::NoBrush);
     painter.drawRoundedRect(box.adjusted(1, 1, -1, -1), 6, 6);
   }
-  // In right-to-left languages the rail is mirrored.
-  bool mirrored = layoutDirection() == Qt::RightToLeft;
-  auto place = [&](QRectF area) {
-    return mirrored ? QRectF(width() - area.right(), area.top(), area.width(), area.height()) : area;
-  };
-  Qt::Alignment side = (mirrored ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter;
+  // Mirrored with the rail.
+  constexpr int side = Qt::AlignLeft | Qt::AlignVCenter;
   paintBadge(painter, place(QRectF(15, height() / 2.0 - 12.0, 24, 24)));
   bool two = !locked_ && !status_.result.isEmpty();
-  double textWidth = width() - 52.0 - (locked_ ? 34.0 : 12.0);
+  double textWidth = width() - nameLeft - (locked_ ? lockRoom : nameRight);
   QFont nameFont = typeOf(type::section, QFont::DemiBold);
   painter.setFont(nameFont);
   painter.setPen(locked_ ? c.disabled : c.text);
   double top = two ? 6.0 : 14.0;
-  painter.drawText(place(QRectF(52, top, textWidth, 22)), side,
+  painter.drawText(place(QRectF(nameLeft, top, textWidth, 22)), side,
                    QFontMetrics(nameFont).elidedText(text(), Qt::ElideRight, static_cast<int>(textWidth)));
   if (two) {
     QFont small = typeOf(type::note);
@@ -134,7 +144,7 @@ void StepButton::paintEvent(QPaintEvent*) {
                    : status_.state == StepState::failed  ? c.error
                                                          : c.secondary);
     painter.drawText(
-        place(QRectF(52, top + 20, textWidth, 18)), side,
+        place(QRectF(nameLeft, top + 20, textWidth, 18)), side,
         QFontMetrics(small).elidedText(status_.result, Qt::ElideRight, static_cast<int>(textWidth)));
   }
   if (locked_)
@@ -155,9 +165,7 @@ StepRail::StepRail(Wizard& wizard, Session& session, QWidget* parent)
   auto* names = new QVBoxLayout;
   names->setSpacing(0);
   names->addWidget(labelOf("Relucent", "heading"));
-  names->addWidget(venue_ = labelOf({}, "note"));
-  venue_->setWordWrap(false);
-  venue_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  names->addWidget(venue_ = elidedLabel("note"));
   top->addLayout(names, 1);
   column->addLayout(top);
   for (std::size_t i = 0; i < wizard_.count(); ++i) {
@@ -181,8 +189,7 @@ QWidget* StepRail::firstFocus() const {
 }
 
 void StepRail::refresh() {
-  venue_->setText(session_.isOpen() ? session_.name() : tr("No venue open"));
-  venue_->setToolTip(venue_->text());
+  venue_->setWhole(session_.isOpen() ? session_.name() : tr("No venue open"));
   for (std::size_t i = 0; i < steps_.size(); ++i)
     steps_[i]->show(wizard_.page(i).name(), wizard_.page(i).status(), i == wizard_.current(),
                     wizard_.isLocked(i));

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <QAbstractButton>
-#include <QLabel>
 #include <vector>
 
+#include "theme/controls.h"
 #include "wizard/wizard.h"
 
 namespace relucent {
@@ -17,6 +17,8 @@ class StepButton : public QAbstractButton {
   StepButton(int number, QWidget* parent = nullptr);
   void show(const QString& name, const StepStatus& status, bool current, bool locked);
   QSize sizeHint() const override { return {208, 50}; }
+  /// Its name is read whole; the result below may end in an ellipsis.
+  QSize minimumSizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -42,7 +44,7 @@ class StepRail : public QWidget {
   void refresh();
   Wizard& wizard_;
   Session& session_;
-  QLabel* venue_;
+  ElidedLabel* venue_;
   std::vector<StepButton*> steps_;
   QLayout* footer_;
 };

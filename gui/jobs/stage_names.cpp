@@ -66,14 +66,25 @@ constexpr std::array stages{
     QT_TRANSLATE_NOOP("Stage", "Writing out the light transport"),
     QT_TRANSLATE_NOOP("Stage", "Writing the results"),
     QT_TRANSLATE_NOOP("Stage", "black and full light"),
-    QT_TRANSLATE_NOOP("Stage", "level {} of {}: {} patterns"),
+    "level {} of {}: {} patterns",
     QT_TRANSLATE_NOOP("Stage", "light transport"),
-    QT_TRANSLATE_NOOP("Stage", "measuring {} flagged pixels again"),
+    "measuring {} flagged pixels again",
     QT_TRANSLATE_NOOP("Stage", "projector {}"),
     QT_TRANSLATE_NOOP("Stage", "test patterns"),
     QT_TRANSLATE_NOOP("Stage", "the projector"),
     QT_TRANSLATE_NOOP("Stage", "tracing the simulated venue"),
 };
+
+/// Those that count: the sentence has another form for another number.
+struct Counting {
+  std::string_view stage;
+  const char* sentence;
+  qsizetype count;  // which of the stage's names
+};
+constexpr std::array counting{
+    Counting{"level {} of {}: {} patterns", QT_TRANSLATE_N_NOOP("Stage", "level {} of {}: %n pattern(s)"), 2},
+    Counting{"measuring {} flagged pixels again",
+             QT_TRANSLATE_N_NOOP("Stage", "measuring %n flagged pixel(s) again"), 0}};
 
 struct Pattern {
   const char* stage;
@@ -96,8 +107,12 @@ const std::vector<Pattern>& patterns() {
 }
 
 /// The translation may have the names in another order only if it says so: they are filled in as they come.
-QString filled(const char* stage, const QStringList& names) {
+QString filled(const char* stage, QStringList names) {
   QString text = QCoreApplication::translate("Stage", stage);
+  for (const Counting& counted : counting)
+    if (counted.stage == stage)
+      text = QCoreApplication::translate("Stage", counted.sentence, nullptr,
+                                         names.takeAt(counted.count).toInt());
   for (const QString& name : names) text.replace(text.indexOf("{}"), 2, stageText(name.toStdString()));
   return text;
 }

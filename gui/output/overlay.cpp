@@ -2,6 +2,7 @@
 #include "output/overlay.h"
 
 #include <QCoreApplication>
+#include <QLocale>
 #include <QPainter>
 #include <algorithm>
 
@@ -17,15 +18,15 @@ class Overlay {
 
 QStringList overlayLines(const OverlayState& state) {
   const PlayerStatistics& now = state.statistics;
+  auto number = [](double value) { return QLocale().toString(value, 'f', 1); };
   QStringList lines{Overlay::tr("%1 frames a second, %2 ms a frame, %3 of %4 late")
-                        .arg(now.framesPerSecond, 0, 'f', 1)
-                        .arg(1e3 * now.frameSeconds, 0, 'f', 1)
+                        .arg(number(now.framesPerSecond), number(1e3 * now.frameSeconds))
                         .arg(now.late)
                         .arg(now.frames),
-                    state.compensated ? Overlay::tr("compensated, %1 steps, %2 % out of reach")
-                                            .arg(now.steps)
-                                            .arg(100.0 * now.clipped, 0, 'f', 1)
-                                      : Overlay::tr("not compensated")};
+                    state.compensated
+                        ? Overlay::tr("compensated, %n step(s), %1 % out of reach", nullptr, now.steps)
+                              .arg(number(100.0 * now.clipped))
+                        : Overlay::tr("not compensated")};
   if (state.frozen) lines.append(Overlay::tr("frozen"));
   if (state.chart) lines.append(Overlay::tr("test chart: %1").arg(nameOf(*state.chart)));
   return lines;
@@ -38,10 +39,12 @@ void drawOverlay(QImage& picture, const QStringList& lines) {
   painter.setFont(font);
   QString text = lines.join('\n');
   int margin = font.pixelSize() / 2;
-  QRect place = painter.boundingRect(QRect(QPoint(margin, margin), picture.size()), 0, text);
+  // At the left in every language: what is projected is not mirrored.
+  constexpr int side = Qt::AlignAbsolute | Qt::AlignLeft;
+  QRect place = painter.boundingRect(QRect(QPoint(margin, margin), picture.size()), side, text);
   painter.fillRect(place.adjusted(-margin, -margin, margin, margin), Qt::black);
   painter.setPen(QColor(160, 160, 160));
-  painter.drawText(place, 0, text);
+  painter.drawText(place, side, text);
 }
 
 }  // namespace relucent

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "theme/controls.h"
 
+#include <QEvent>
 #include <QPainter>
+#include <algorithm>
 
 #include "theme/theme.h"
 
@@ -59,30 +61,33 @@ QFrame* lineOf() {
   return line;
 }
 
-namespace {
+void ElidedLabel::setWhole(const QString& text) {
+  whole_ = text;
+  setToolTip(text);
+  setAccessibleName(text);
+  elide();
+}
 
-/// One line; what has no room for it ends in an ellipsis and is read whole where the pointer rests.
-class ElidedLabel : public QLabel {
- public:
-  void setWhole(const QString& text) {
-    whole_ = text;
-    setToolTip(text);
-    setAccessibleName(text);
-    elide();
-  }
+void ElidedLabel::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  elide();
+}
 
- protected:
-  void resizeEvent(QResizeEvent* event) override {
-    QLabel::resizeEvent(event);
-    elide();
-  }
+void ElidedLabel::changeEvent(QEvent* event) {
+  QLabel::changeEvent(event);
+  if (event->type() == QEvent::FontChange) elide();
+}
 
- private:
-  void elide() { setText(fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width())); }
-  QString whole_;
-};
+void ElidedLabel::elide() {
+  setText(fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width()));
+}
 
-}  // namespace
+ElidedLabel* elidedLabel(const char* role) {
+  auto* label = new ElidedLabel;
+  setRole(label, role);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  return label;
+}
 
 Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
   setRole(this, "card");
@@ -95,10 +100,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
     title_ = labelOf(title, "section");
     title_->setWordWrap(false);
     header_->addWidget(title_);
-    subtitle_ = new ElidedLabel;
-    setRole(subtitle_, "note");
-    subtitle_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    header_->addWidget(subtitle_, 1);
+    header_->addWidget(subtitle_ = elidedLabel("note"), 1);
     all->addLayout(header_);
   }
   body_ = new QVBoxLayout;
@@ -107,7 +109,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
 }
 
 void Card::setSubtitle(const QString& text) {
-  static_cast<ElidedLabel*>(subtitle_)->setWhole(text);
+  subtitle_->setWhole(text);
 }
 
 void Card::addAction(QWidget* action) {
@@ -192,18 +194,44 @@ void Note::setText(const QString& sentence, const QString& more) {
   more_->setVisible(!more.isEmpty());
 }
 
-Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(space::tight);
+Segmented::Segmented(const QStringList& texts, QWidget* parent)
+    : QWidget(parent), buttons_(new QHBoxLayout(this)) {
+  buttons_->setContentsMargins(0, 0, 0, 0);
+  buttons_->setSpacing(space::tight);
   for (qsizetype i = 0; i < texts.size(); ++i) {
     QPushButton* button = buttonOf(texts[i], "segment", this);
     button->setCheckable(true);
     group_.addButton(button, static_cast<int>(i));
-    row->addWidget(button, 1);
+    buttons_->addWidget(button, 1);
   }
   group_.button(0)->setChecked(true);
   connect(&group_, &QButtonGroup::idClicked, this, &Segmented::chosen);
+}
+
+QSize Segmented::sizeHint() const {
+  QSize all(-space::tight, 0);
+  for (const QAbstractButton* button : group_.buttons()) {
+    QSize one = button->sizeHint();
+    all = {all.width() + space::tight + one.width(), std::max(all.height(), one.height())};
+  }
+  return all;
+}
+
+QSize Segmented::minimumSizeHint() const {
+  QSize least;
+  for (const QAbstractButton* button : group_.buttons()) least = least.expandedTo(button->sizeHint());
+  return least;
+}
+
+int Segmented::heightForWidth(int width) const {
+  int one = sizeHint().height(), count = static_cast<int>(group_.buttons().size());
+  return width >= sizeHint().width() ? one : count * one + (count - 1) * space::tight;
+}
+
+void Segmented::resizeEvent(QResizeEvent* event) {
+  bool fits = width() >= sizeHint().width();
+  buttons_->setDirection(fits ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  QWidget::resizeEvent(event);
 }
 
 void Segmented::setCurrent(int index) {

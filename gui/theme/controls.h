@@ -39,6 +39,25 @@ const QColor& accentColour();
 
 /// A label with a role of the style sheet; wraps.
 QLabel* labelOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
+/// One line; what has no room for it ends in an ellipsis and is read whole where the pointer rests.
+class ElidedLabel : public QLabel {
+  Q_OBJECT
+
+ public:
+  using QLabel::QLabel;
+  void setWhole(const QString& text);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void elide();
+  QString whole_;
+};
+/// Takes what room there is.
+ElidedLabel* elidedLabel(const char* role);
+
 /// A thin line between groups.
 QFrame* lineOf();
 
@@ -53,7 +72,8 @@ class Card : public QFrame {
   QVBoxLayout* body() { return body_; }
 
  private:
-  QLabel *title_ = nullptr, *subtitle_ = nullptr;
+  QLabel* title_ = nullptr;
+  ElidedLabel* subtitle_ = nullptr;
   QHBoxLayout* header_ = nullptr;
   QVBoxLayout* body_ = nullptr;
 };
@@ -98,7 +118,7 @@ class Note : public QFrame {
   QLabel *sentence_, *more_;
 };
 
-/// One of a few, side by side.
+/// One of a few, side by side; below each other where that has no room.
 class Segmented : public QWidget {
   Q_OBJECT
 
@@ -107,11 +127,19 @@ class Segmented : public QWidget {
   int current() const { return group_.checkedId(); }
   /// Silent.
   void setCurrent(int index);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+  bool hasHeightForWidth() const override { return true; }
+  int heightForWidth(int width) const override;
 
  Q_SIGNALS:
   void chosen(int index);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  QBoxLayout* buttons_;
   QButtonGroup group_;
 };
 

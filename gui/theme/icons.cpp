@@ -2,6 +2,7 @@
 #include "theme/icons.h"
 
 #include <QFile>
+#include <QGuiApplication>
 #include <QPainterPath>
 #include <QTemporaryDir>
 #include <QTextStream>
@@ -186,6 +187,8 @@ QString iconFile(Icon icon, const QColor& colour, int side) {
 }
 
 QIcon iconOf(Icon icon, const QColor& colour) {
+  if (QGuiApplication::isRightToLeft())
+    icon = icon == Icon::back ? Icon::next : icon == Icon::next ? Icon::back : icon;
   QIcon result;
   for (double ratio : {1.0, 2.0, 3.0}) result.addPixmap(pixmapOf(icon, colour, 18, ratio));
   return result;

@@ -51,7 +51,8 @@ enum class Icon {
 
 /// Draws it into a square. The colour is that of the text beside it.
 void drawIcon(QPainter& painter, Icon icon, const QRectF& square, const QColor& colour);
-/// Sharp at any scale of the screen: painted when it is asked for.
+/// Of a button: what points back or on does so in the direction that the program is read in. Sharp at any
+/// scale of the screen.
 QIcon iconOf(Icon icon, const QColor& colour);
 /// A picture file of it, as style sheets want one; kept as long as the program runs.
 QString iconFile(Icon icon, const QColor& colour, int side);

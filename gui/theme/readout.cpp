@@ -23,6 +23,13 @@ double advance(const QFontMetricsF& metrics, QChar letter) {
   return letter.isDigit() ? cellOf(metrics) : metrics.horizontalAdvance(letter);
 }
 
+double widthOf(const QString& value) {
+  QFontMetricsF large(figures());
+  double width = 0.0;
+  for (QChar letter : value) width += advance(large, letter);
+  return width;
+}
+
 }  // namespace
 
 Readout::Readout(const QString& what, QWidget* parent) : QWidget(parent), what_(what) {
@@ -32,8 +39,10 @@ Readout::Readout(const QString& what, QWidget* parent) : QWidget(parent), what_(
 }
 
 void Readout::setValue(const QString& value, bool warning) {
-  if (value == value_ && warning == warning_) return;
-  value_ = value;
+  if (value == given_ && warning == warning_) return;
+  value_ = given_ = value;
+  // Each sign is placed by itself, from the left: what keeps them together in a sentence is not needed.
+  value_.removeIf([](QChar sign) { return sign.unicode() >= 0x2066 && sign.unicode() <= 0x2069; });
   warning_ = warning;
   setAccessibleName(QString("%1, %2").arg(what_, value));
   updateGeometry();
@@ -42,9 +51,7 @@ void Readout::setValue(const QString& value, bool warning) {
 
 QSize Readout::sizeHint() const {
   QFontMetricsF large(figures()), small(typeOf(type::note));
-  double width = 0.0;
-  for (QChar letter : value_) width += advance(large, letter);
-  return QSizeF(std::max({width, small.horizontalAdvance(what_), 64.0}) + 4.0,
+  return QSizeF(std::max({widthOf(value_), small.horizontalAdvance(what_), 64.0}) + 4.0,
                 large.height() + small.height())
       .toSize();
 }
@@ -54,7 +61,7 @@ void Readout::paintEvent(QPaintEvent*) {
   QFontMetricsF large(figures()), small(typeOf(type::note));
   painter.setFont(figures());
   painter.setPen(warning_ ? colours().amber : colours().text);
-  double x = 0.0;
+  double x = isRightToLeft() ? width() - widthOf(value_) : 0.0;
   for (QChar letter : value_) {
     double cell = advance(large, letter);
     painter.drawText(QPointF(x + (cell - large.horizontalAdvance(letter)) / 2.0, large.ascent()), letter);
@@ -62,7 +69,7 @@ void Readout::paintEvent(QPaintEvent*) {
   }
   painter.setFont(typeOf(type::note));
   painter.setPen(colours().secondary);
-  painter.drawText(QPointF(0.0, large.height() + small.ascent()),
+  painter.drawText(QRectF(0.0, large.height(), width(), small.height()), Qt::AlignLeft,
                    small.elidedText(what_, Qt::ElideRight, width()));
 }
 

@@ -21,7 +21,7 @@ class Readout : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  QString what_, value_;
+  QString what_, given_, value_;
   bool warning_ = false;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "views/axis.h"
 
-#include <QLocale>
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +42,7 @@ std::vector<Axis::Tick> Axis::ticks(int count) const {
   double step = roundStep((high - low) / count);
   int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   for (double value = std::ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step)
-    found.push_back({value, QLocale().toString(std::abs(value) < 1e-9 * step ? 0.0 : value, 'f', decimals)});
+    found.push_back({value, decimalText(std::abs(value) < 1e-9 * step ? 0.0 : value, decimals)});
   return found;
 }
 

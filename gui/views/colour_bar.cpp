@@ -38,7 +38,7 @@ void drawColourBarWords(QPainter& painter, const QRectF& area, const ColourScale
     double y = bar.bottom() - axis.place(tick.value) * bar.height();
     QString text = percent ? percentText(tick.value) : tick.text;
     painter.drawText(QRectF(bar.right() + 5.0, y - 8.0, area.right() - bar.right() - 5.0, 16.0),
-                     Qt::AlignLeft | Qt::AlignVCenter, text);
+                     Qt::AlignAbsolute | Qt::AlignLeft | Qt::AlignVCenter, text);
   }
 }
 

@@ -15,9 +15,13 @@ namespace relucent {
 CutHistogram::CutHistogram(Axis x, QString countTitle, QWidget* parent)
     : QWidget(parent), x_(std::move(x)), cut_(std::numeric_limits<double>::quiet_NaN()) {
   counts_ = {1.0, 10.0, true, std::move(countTitle)};
-  setMinimumSize(160, 110);
   setFocusPolicy(Qt::StrongFocus);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+QSize CutHistogram::minimumSizeHint() const {
+  constexpr int leastHeight = 110;
+  return {leastSizeOf(x_, counts_).width(), leastHeight};
 }
 
 void CutHistogram::setBars(std::vector<Bar> bars) {
@@ -30,6 +34,7 @@ void CutHistogram::setBars(std::vector<Bar> bars) {
 
 void CutHistogram::setAxis(const Axis& x) {
   x_ = x;
+  updateGeometry();
   update();
 }
 

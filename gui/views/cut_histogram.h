@@ -27,6 +27,7 @@ class CutHistogram : public QWidget {
   double cut() const { return cut_; }
   /// Silent. NaN: none.
   void setCut(double cut);
+  QSize minimumSizeHint() const override;
 
  Q_SIGNALS:
   /// Moved by hand, while it moves.

@@ -3,6 +3,7 @@
 
 #include <QPainter>
 #include <QPainterPath>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,8 +44,8 @@ QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis
 
   painter.setPen(colours().secondary);
   if (!y.title.isEmpty())
-    painter.drawText(QRectF(area.left(), area.top(), area.width(), metrics.height() + 2.0), Qt::AlignLeft,
-                     y.title);
+    painter.drawText(QRectF(area.left(), area.top(), area.width(), metrics.height() + 2.0),
+                     Qt::AlignAbsolute | Qt::AlignLeft, y.title);
   if (!x.title.isEmpty())
     painter.drawText(
         QRectF(plot.left(), plot.bottom() + metrics.height() + 8.0, plot.width(), metrics.height() + 2.0),
@@ -55,7 +56,7 @@ QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis
     painter.drawLine(QPointF(plot.left(), at), QPointF(plot.right(), at));
     painter.setPen(colours().secondary);
     painter.drawText(QRectF(area.left(), at - metrics.height() / 2.0, left - 8.0, metrics.height()),
-                     Qt::AlignRight | Qt::AlignVCenter, tick.text);
+                     Qt::AlignAbsolute | Qt::AlignRight | Qt::AlignVCenter, tick.text);
   }
   painter.setPen(colours().border);
   painter.drawLine(plot.bottomLeft(), plot.bottomRight());
@@ -70,9 +71,17 @@ QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis
   return plot;
 }
 
+QSize leastSizeOf(const Axis& x, const Axis& y) {
+  constexpr double besides = 56.0, leastWidth = 160.0;  // beside the plot: numbers, and what is free
+  constexpr int leastHeight = 96;
+  QFontMetricsF metrics(typeOf(type::axis));
+  double across = metrics.horizontalAdvance(x.title) + besides;
+  return {static_cast<int>(std::ceil(std::max({leastWidth, across, metrics.horizontalAdvance(y.title)}))),
+          leastHeight};
+}
+
 LineChart::LineChart(Axis x, Axis y, QWidget* parent)
     : QWidget(parent), x_(std::move(x)), y_(std::move(y)), mark_(std::numeric_limits<double>::quiet_NaN()) {
-  setMinimumSize(160, 96);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }
@@ -80,6 +89,7 @@ LineChart::LineChart(Axis x, Axis y, QWidget* parent)
 void LineChart::setAxes(const Axis& x, const Axis& y) {
   x_ = x;
   y_ = y;
+  updateGeometry();
   update();
 }
 

@@ -22,6 +22,9 @@ struct Curve {
 /// The plot's rectangle within a widget, with axes, grid and titles round it.
 QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis& y);
 
+/// Room for the titles and a small plot.
+QSize leastSizeOf(const Axis& x, const Axis& y);
+
 /// Curves over two axes. What they say in short is the accessible description.
 class LineChart : public QWidget {
   Q_OBJECT
@@ -32,6 +35,7 @@ class LineChart : public QWidget {
   void setCurves(std::vector<Curve> curves);
   /// A dashed vertical at a value; none: NaN.
   void setMark(double x);
+  QSize minimumSizeHint() const override { return leastSizeOf(x_, y_); }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -39,7 +39,7 @@ void MatrixView::paintAxes(QPainter& painter) const {
     painter.drawLine(QPointF(area.left() - 4.0, y), QPointF(area.left(), y));
     painter.drawText(
         QRectF(0.0, std::clamp(y - ascent / 2.0, 0.0, height() - ascent), area.left() - 7.0, ascent),
-        Qt::AlignRight | Qt::AlignVCenter, tick.text);
+        Qt::AlignAbsolute | Qt::AlignRight | Qt::AlignVCenter, tick.text);
   }
   double next = 0.0;
   for (const RasterTick& tick :

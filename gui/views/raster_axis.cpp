@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "views/axis.h"
+#include "views/number_text.h"
 
 namespace relucent {
 namespace {
@@ -28,7 +29,7 @@ QString ofDevice(const Rasters& rasters, std::size_t device, const QString& text
 
 QString pixelText(const Rasters& rasters, std::size_t index) {
   Place place = placeOf(rasters, index);
-  return ofDevice(rasters, place.device, QString("%1, %2").arg(place.pixel.x).arg(place.pixel.y));
+  return ofDevice(rasters, place.device, placeText(place.pixel.x, place.pixel.y));
 }
 
 std::vector<RasterTick> rasterTicks(const Rasters& rasters, double first, double last, int count) {

@@ -10,11 +10,9 @@ namespace relucent {
 namespace {
 
 QString factsOf(const CameraTraits& traits) {
-  return CameraPage::tr("%1 × %2 pixels, %3 bits, exposures %4 to %5")
-      .arg(traits.size.width)
-      .arg(traits.size.height)
-      .arg(traits.format.bits)
-      .arg(exposureText(traits.exposures.shortest), exposureText(traits.exposures.longest));
+  return CameraPage::tr("%1 pixels, %n bit(s), exposures %2 to %3", nullptr, traits.format.bits)
+      .arg(sizeText(traits.size.width, traits.size.height), exposureText(traits.exposures.shortest),
+           exposureText(traits.exposures.longest));
 }
 
 QString sentenceOf(const std::string& text) {

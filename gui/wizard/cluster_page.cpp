@@ -123,11 +123,11 @@ void ClusterPage::setSettings(const ClusteringSettings& settings) {
 }
 
 StepStatus ClusterPage::status() const {
+  int clusters = 0;
   switch (session_.progress(Step::clustering)) {
     case StepProgress::done:
-      return {StepState::done,
-              tr("%1 clusters")
-                  .arg(countText(session_.result(Step::clustering)->values.value("clusters", 0ULL)))};
+      clusters = session_.result(Step::clustering)->values.value("clusters", 0);
+      return {StepState::done, groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
     case StepProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
     case StepProgress::open:
@@ -139,8 +139,12 @@ StepStatus ClusterPage::status() const {
 QString ClusterPage::hint() const {
   if (isComputing()) return result_ ? tr("Grouping again") : tr("Grouping");
   if (!result_) return tr("Reading the light transport");
-  return tr("%1 clusters, median %2 projector pixels")
-      .arg(countText(result_->sizes.size()))
+  return sizesText();
+}
+
+QString ClusterPage::sizesText() const {
+  const auto clusters = static_cast<int>(result_->sizes.size());
+  return groupedText(tr("%n cluster(s), median %1 px", nullptr, clusters), clusters)
       .arg(result_->statistics.medianUnknowns);
 }
 

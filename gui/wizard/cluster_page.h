@@ -45,6 +45,8 @@ class ClusterPage : public PageModel {
   void setSettings(const ClusteringSettings& settings);
   /// What the sliders gave last; they may have moved on.
   const std::shared_ptr<const ClusterResult>& result() const { return result_; }
+  /// "21 480 clusters, median 12 px". Contract: there is a result.
+  QString sizesText() const;
   /// T is read and its connections are known: sliders are followed.
   bool isReady() const { return prepared_ != nullptr; }
   bool isComputing() const { return computing_.isBusy() || preparing_.isBusy(); }

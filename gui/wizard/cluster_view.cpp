@@ -82,10 +82,10 @@ class ClusterStage : public QWidget {
     std::size_t at = indexOf(result->camera, {pixel.x(), pixel.y()});
     if (result->map[at] == noCluster)
       return ClusterPage::tr("%1, %2: in no cluster").arg(pixel.x()).arg(pixel.y());
-    return ClusterPage::tr("%1, %2: %3 projector pixels, error %4")
+    return ClusterPage::tr("%1, %2: %n projector pixel(s), error %3", nullptr,
+                           static_cast<int>(result->sizes[result->map[at]].unknowns))
         .arg(pixel.x())
         .arg(pixel.y())
-        .arg(result->sizes[result->map[at]].unknowns)
         .arg(percentText(static_cast<double>(result->error[at])));
   }
   void refresh() {
@@ -98,9 +98,10 @@ class ClusterStage : public QWidget {
       return error_->setPicture({});
     }
     map_->setPicture(result->picture);
-    map_->setAccessibleName(ClusterPage::tr("Cluster map, %1 clusters, largest %2")
-                                .arg(countText(result->sizes.size()))
-                                .arg(result->statistics.largest));
+    const auto clusters = static_cast<int>(result->sizes.size());
+    map_->setAccessibleName(
+        groupedText(ClusterPage::tr("Cluster map, %n cluster(s), largest %1", nullptr, clusters), clusters)
+            .arg(result->statistics.largest));
     error_->setScale(result->errorScale, ClusterPage::tr("rel. RMS"), true);
     error_->setPicture(result->errorPicture);
     error_->setValues(Image(result->camera, 1, result->error));
@@ -113,9 +114,7 @@ class ClusterStage : public QWidget {
     sizes_->setBars(barsOf(result->sizes));
     sizes_->setCut(model_.settings().mostUnknowns);
     sizes_->setCutText(ClusterPage::tr("cap %1").arg(model_.settings().mostUnknowns));
-    sizeCard_->setSubtitle(ClusterPage::tr("%1 clusters, median %2")
-                               .arg(countText(result->sizes.size()))
-                               .arg(result->statistics.medianUnknowns));
+    sizeCard_->setSubtitle(model_.sizesText());
   }
 
   /// Of the picked pixel's cluster, in both maps.

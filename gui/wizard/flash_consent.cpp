@@ -11,8 +11,8 @@ namespace relucent {
 namespace {
 
 QString rateSentence(std::optional<double> changes) {
-  return changes ? FlashConsent::tr("The projector shows patterns that change about %1 times a second.")
-                       .arg(numberText(*changes))
+  return changes ? FlashConsent::tr("The projector shows patterns that change about %n time(s) a second.",
+                                    nullptr, static_cast<int>(std::ceil(*changes)))
                  : FlashConsent::tr(
                        "The projector shows patterns that change as quickly as the devices can, "
                        "perhaps more than 3 times a second.");
@@ -29,7 +29,7 @@ std::optional<double> measuredChanges(const Session& session) {
 }
 
 FlashConsent::FlashConsent(QWidget* parent)
-    : QWidget(parent), note_(new Note(Note::Kind::amber)), tick_(new QCheckBox(tr("The room is clear"))) {
+    : QWidget(parent), note_(new Note(Note::Kind::amber)), tick_(new Tick(tr("The room is clear"))) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(labelOf(tr("Flashing light"), "section"));
@@ -38,7 +38,7 @@ FlashConsent::FlashConsent(QWidget* parent)
   tick_->setAccessibleName(tr("The room is clear and everyone here knows"));
   tick_->setToolTip(tick_->accessibleName());
   column->addWidget(tick_);
-  connect(tick_, &QCheckBox::toggled, this, &FlashConsent::given);
+  connect(tick_, &Tick::toggled, this, &FlashConsent::given);
 }
 
 void FlashConsent::show(bool needed, bool given, std::optional<double> changes) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QCheckBox>
 #include <optional>
 
+#include "theme/tick.h"
 #include "wizard/session.h"
 
 namespace relucent {
@@ -27,7 +27,7 @@ class FlashConsent : public QWidget {
 
  private:
   Note* note_;
-  QCheckBox* tick_;
+  Tick* tick_;
 };
 
 /// That of the open venue.

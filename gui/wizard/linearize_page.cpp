@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/linearize_page.h"
 
-#include <QLocale>
 #include <algorithm>
 
 #include "calibration/results.h"
@@ -52,7 +51,7 @@ StepStatus LinearizePage::status() const {
   switch (session_.progress(Step::linearization)) {
     case StepProgress::done:
       if (result_ && !result_->additivityError.empty())
-        return {StepState::done, tr("%1 additivity")
+        return {StepState::done, tr("%1 additivity error")
                                      .arg(percentText(*std::max_element(result_->additivityError.begin(),
                                                                         result_->additivityError.end())))};
       return {StepState::done, tr("Measured")};
@@ -73,7 +72,7 @@ QString LinearizePage::hint() const {
     if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
   }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
-  return tr("About %1 test patterns").arg(3 * levels() + 60);
+  return tr("About %n test pattern(s)", nullptr, 3 * levels() + 60);
 }
 
 Command LinearizePage::primary() const {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output_inspector.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "theme/tick.h"
 #include "views/number_text.h"
 #include "wizard/flash_consent.h"
 #include "wizard/output_page.h"
@@ -26,7 +26,7 @@ QComboBox* screenBox(OutputPage& page) {
     QStringList now;
     for (const OutputScreen& screen : page.screens()) {
       QString name = screen.operators ? OutputPage::tr("This screen") : screen.identity.connector;
-      now << QString::fromUtf8("%1, %2 × %3").arg(name).arg(screen.size.width()).arg(screen.size.height());
+      now << QString("%1, %2").arg(name, sizeText(screen.size.width(), screen.size.height()));
     }
     QStringList shown;
     for (int i = 0; i < box->count(); ++i) shown << box->itemText(i);
@@ -42,9 +42,8 @@ QComboBox* screenBox(OutputPage& page) {
 }
 
 QString errorLine(const QString& what, const ProvedProjection& projection) {
-  auto number = [](double value) { return QLocale().toString(value, 'f', 1); };
   return OutputPage::tr("%1: measured ΔE %2, predicted %3")
-      .arg(what, number(projection.measured.deltaE), number(projection.predicted.deltaE));
+      .arg(what, decimalText(projection.measured.deltaE, 1), decimalText(projection.predicted.deltaE, 1));
 }
 
 void showProof(Remark& remark, const Proof* proof) {
@@ -126,14 +125,14 @@ QWidget* handOverPart(OutputPage& page) {
   QPushButton* report = buttonOf(OutputPage::tr("Save report"));
   report->setObjectName("report");
   column->addWidget(report);
-  auto* starts = new QCheckBox(OutputPage::tr("Start the show with this computer"));
+  auto* starts = new Tick(OutputPage::tr("Start the show with this computer"));
   starts->setObjectName("start-with-computer");
   column->addWidget(starts);
   QLabel* state = labelOf({}, "note");
   state->setObjectName("install-state");
   column->addWidget(state);
   QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
-  QObject::connect(starts, &QCheckBox::toggled, &page, &OutputPage::setStartsWithComputer);
+  QObject::connect(starts, &Tick::toggled, &page, &OutputPage::setStartsWithComputer);
   auto refresh = [=, &page] {
     report->setEnabled(page.proof().isPossible());
     report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));
@@ -144,7 +143,8 @@ QWidget* handOverPart(OutputPage& page) {
             ? (page.startsWithComputer()
                    ? OutputPage::tr(
                          "Installed. The show starts at the next log-in, without camera or wizard.")
-                   : OutputPage::tr("Installed. Install again, and it starts no more by itself."))
+                   : OutputPage::tr(
+                         "The show still starts with this computer. Install it again to end that."))
             : (page.startsWithComputer()
                    ? OutputPage::tr("Once installed, the show runs unattended, without camera or wizard.")
                    : OutputPage::tr("The show does not start by itself.")));
@@ -178,8 +178,9 @@ QWidget* outputInspector(OutputPage& page) {
     Size size = page.projectorSize();
     differs->setVisible(page.chosen() &&
                         page.screens()[*page.chosen()].size != QSize(size.width, size.height));
-    differs->setText(OutputPage::tr("This screen has other pixels than the projector that was measured."),
-                     OutputPage::tr("The picture stands in its middle, pixel for pixel."));
+    differs->setText(
+        OutputPage::tr("This screen's resolution is not that of the projector that was measured."),
+        OutputPage::tr("The picture stands in its middle, pixel for pixel."));
     QString still = page.stillMethod();
     method->setVisible(!still.isEmpty());
     method->setText(OutputPage::tr("Still pictures: %1").arg(still),

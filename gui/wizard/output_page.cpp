@@ -18,7 +18,7 @@ namespace relucent {
 OutputPage::OutputPage(Session& session, QObject* parent)
     : PageModel(parent),
       session_(session),
-      proof_(session),
+      proof_(session, [this] { return name(); }),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   connect(&session_, &Session::opened, this, [this] {
     close();
@@ -199,7 +199,7 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
 }
 
 void OutputPage::verify() {
-  whileClosed([this] { proof_.photograph(pictureToProve(), name()); });
+  whileClosed([this] { proof_.photograph(pictureToProve()); });
 }
 
 void OutputPage::proofEnded() {
@@ -215,7 +215,7 @@ QString OutputPage::pictureToProve() const {
 }
 
 void OutputPage::report() {
-  if (proof_.isPossible()) proof_.report(pictureToProve(), name());
+  if (proof_.isPossible()) proof_.report(pictureToProve());
 }
 
 void OutputPage::setStartsWithComputer(bool starts) {

@@ -69,7 +69,7 @@ class OutputPage : public PageModel {
   /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
   void verify();
   void checkDrift() {
-    whileClosed([this] { proof_.checkDrift(name()); });
+    whileClosed([this] { proof_.checkDrift(); });
   }
   /// Writes the report and lets the desktop show it.
   void report();

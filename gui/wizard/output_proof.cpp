@@ -59,7 +59,8 @@ struct OutputProof::Found {
   QString report;
 };
 
-OutputProof::OutputProof(Session& session, QObject* parent) : QObject(parent), session_(session) {
+OutputProof::OutputProof(Session& session, std::function<QString()> who, QObject* parent)
+    : QObject(parent), session_(session), who_(std::move(who)) {
   connect(&session_, &Session::opened, this, [this] {
     job_.cancel();
     proof_ = nullptr;
@@ -79,18 +80,17 @@ void OutputProof::forgetWhatIsNoProof() {
   Q_EMIT changed();
 }
 
-void OutputProof::start(Work work, const QString& who, Job::Work job) {
+void OutputProof::start(Work work, Job::Work job) {
   work_ = work;
-  who_ = who;
-  session_.setBusy(who);
+  session_.setBusy(who_());
   job_.start(std::move(job));
   Q_EMIT changed();
 }
 
-void OutputProof::photograph(const QString& picture, const QString& who) {
+void OutputProof::photograph(const QString& picture) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
-  start(Work::photograph, who,
+  start(Work::photograph,
         [found = found_, work = workOf(session_), picture, content = session_.settings().content,
          measured = measurementOf(session_)](Progress& progress) {
           ProveSettings settings;
@@ -108,10 +108,10 @@ void OutputProof::photograph(const QString& picture, const QString& who) {
         });
 }
 
-void OutputProof::checkDrift(const QString& who) {
+void OutputProof::checkDrift() {
   if (!isPossible() || !mayFlash()) return;
   found_ = std::make_shared<Found>();
-  start(Work::drift, who, [found = found_, work = workOf(session_)](Progress& progress) {
+  start(Work::drift, [found = found_, work = workOf(session_)](Progress& progress) {
     Progress opening = progress.part(0.3, tr("Opening the devices").toStdString());
     Rig& rig = work.devices->open(opening);
     Progress verifying = progress.part(0.7, tr("Checking for drift").toStdString());
@@ -120,29 +120,28 @@ void OutputProof::checkDrift(const QString& who) {
   });
 }
 
-void OutputProof::report(const QString& picture, const QString& who) {
+void OutputProof::report(const QString& picture) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
-  start(Work::report, who,
-        [found = found_, path = session_.path(), cache = session_.cache(), picture,
-         logs = showLogs()](Progress& progress) {
-          ReportSettings settings;
-          settings.out = path / "report.html";
-          settings.images = {fileOf(picture, path / "verification")};
-          settings.bundle = path / "support.zip";
-          settings.attachments = logs;
-          settings.evaluate = false;  // what was measured, not what a simulation knows
-          Progress writing = progress.part(1.0, tr("Writing the report").toStdString());
-          WrittenFiles written = relucent::report(path, settings, cache, writing);
-          found->report = QString::fromStdString(written.files.front().string());
-          writeReportPdf(QString::fromStdString(readFile(settings.out)),
-                         QString::fromStdString((path / "report.pdf").string()));
-        });
+  start(Work::report, [found = found_, path = session_.path(), cache = session_.cache(), picture,
+                       logs = showLogs()](Progress& progress) {
+    ReportSettings settings;
+    settings.out = path / "report.html";
+    settings.images = {fileOf(picture, path / "verification")};
+    settings.bundle = path / "support.zip";
+    settings.attachments = logs;
+    settings.evaluate = false;  // what was measured, not what a simulation knows
+    Progress writing = progress.part(1.0, tr("Writing the report").toStdString());
+    WrittenFiles written = relucent::report(path, settings, cache, writing);
+    found->report = QString::fromStdString(written.files.front().string());
+    writeReportPdf(QString::fromStdString(readFile(settings.out)),
+                   QString::fromStdString((path / "report.pdf").string()));
+  });
 }
 
 void OutputProof::finished() {
   std::shared_ptr<Found> found = std::exchange(found_, nullptr);
-  if (session_.busy() == who_) session_.setBusy({});
+  if (session_.busy() == who_()) session_.setBusy({});
   bool done = job_.state() == Job::State::done && found;
   if (done && found->proof) proof_ = found->proof;
   if (done && found->drift) drift_ = std::move(found->drift);

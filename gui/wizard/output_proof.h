@@ -3,6 +3,7 @@
 
 #include <QDateTime>
 #include <QImage>
+#include <functional>
 
 #include "jobs/job.h"
 #include "pipeline/prove.h"
@@ -32,7 +33,8 @@ class OutputProof : public QObject {
  public:
   enum class Work { none, photograph, drift, report };
 
-  explicit OutputProof(Session& session, QObject* parent = nullptr);
+  /// `who`: the page that the devices are used by, as it is called in the language of the moment.
+  OutputProof(Session& session, std::function<QString()> who, QObject* parent = nullptr);
   ~OutputProof() override { job_.cancel(); }
 
   Work work() const { return job_.isRunning() ? work_ : Work::none; }
@@ -46,12 +48,12 @@ class OutputProof : public QObject {
   const std::shared_ptr<const Proof>& proof() const { return proof_; }
   const std::optional<VerifyResult>& drift() const { return drift_; }
 
-  /// `picture`: a file or resource. `who`: the page that the devices are used by.
-  void photograph(const QString& picture, const QString& who);
-  void checkDrift(const QString& who);
+  /// `picture`: a file or resource.
+  void photograph(const QString& picture);
+  void checkDrift();
   /// Written into the calibration's folder as report.html and report.pdf, and support.zip for whoever helps;
   /// reported() names the first.
-  void report(const QString& picture, const QString& who);
+  void report(const QString& picture);
   void cancel() { job_.cancel(); }
 
  Q_SIGNALS:
@@ -62,14 +64,14 @@ class OutputProof : public QObject {
   void reported(const QString& file);
 
  private:
-  void start(Work work, const QString& who, Job::Work job);
+  void start(Work work, Job::Work job);
   void finished();
   void forgetWhatIsNoProof();
 
   Session& session_;
   Job job_;
   Work work_ = Work::none;
-  QString who_;
+  std::function<QString()> who_;
   std::shared_ptr<const Proof> proof_;
   std::optional<VerifyResult> drift_;
   struct Found;

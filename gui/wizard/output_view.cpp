@@ -48,9 +48,9 @@ class PlaybackCard : public Card {
     PlayerStatistics s = page_.projection().statistics();
     bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 1.0;
     QString none = QString::fromUtf8("–");
-    rate_->setValue(open && moves ? QLocale().toString(s.framesPerSecond, 'f', 1) : none);
+    rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);
     time_->setValue(open && s.frameSeconds > 0.0
-                        ? OutputPage::tr("%1 ms").arg(QLocale().toString(1000.0 * s.frameSeconds, 'f', 1))
+                        ? OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.frameSeconds, 1))
                         : none);
     late_->setValue(open ? countText(s.late) : none, s.late > 0);
     setSubtitle(!open   ? OutputPage::tr("closed")
@@ -199,9 +199,8 @@ class OutputStage : public QWidget {
     if (!page_.isOpen() || s.frames == 0) return {};
     QString clipped = OutputPage::tr("%1 out of reach").arg(percentText(s.clipped));
     if (s.framesPerSecond <= 1.0) return OutputPage::tr("still picture, %1").arg(clipped);
-    auto number = [](double value) { return QLocale().toString(value, 'f', 1); };
     return OutputPage::tr("%1 fps, %2 ms, %3")
-        .arg(number(s.framesPerSecond), number(1000.0 * s.frameSeconds), clipped);
+        .arg(decimalText(s.framesPerSecond, 1), decimalText(1000.0 * s.frameSeconds, 1), clipped);
   }
   void showProof() {
     if (!shown_) {
@@ -217,10 +216,9 @@ class OutputStage : public QWidget {
     ColourScale scale{ColourMap::cividis, 0.0, worstDeltaE, false};
     difference_->setPicture(mapped(shown_->deltaE.data(), shown_->deltaE.size(), scale));
     difference_->setReadout([proof = shown_](QPoint pixel) {
-      return QString::fromUtf8("%1, %2: ΔE %3")
-          .arg(pixel.x())
-          .arg(pixel.y())
-          .arg(numberText(static_cast<double>(proof->deltaE.at(pixel.x(), pixel.y(), 0))));
+      const float difference = proof->deltaE.at(pixel.x(), pixel.y(), 0);
+      return isolated(QString::fromUtf8("%1: ΔE %2")
+                          .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
     });
   }
 

@@ -44,7 +44,8 @@ QWidget* previewInspector(PreviewPage& page) {
   column->addWidget(bright);
   column->addWidget(brightness);
   column->addWidget(labelOf(
-      PreviewPage::tr("Further right the picture gets brighter, and more of it falls behind."), "note"));
+      PreviewPage::tr("The larger this share, the brighter the picture, and the more of it stays too dark."),
+      "note"));
   auto* black = new ValueRow(PreviewPage::tr("Lift of the blacks"));
   auto* lift = new QSlider(Qt::Horizontal);
   lift->setRange(0, 20);
@@ -106,7 +107,7 @@ QWidget* previewInspector(PreviewPage& page) {
       reach->setValue(percentText(preview->reachableShare), preview->reachableShare > 0.8 ? "good" : "amber");
       dark->setValue(percentText(preview->tooDark));
       never->setValue(percentText(preview->tooBright));
-      error->setValue(QString::fromUtf8("ΔE %1").arg(QLocale().toString(preview->deltaEMean, 'f', 1)));
+      error->setValue(isolated(QString::fromUtf8("ΔE %1").arg(decimalText(preview->deltaEMean, 1))));
     }
   };
   QObject::connect(&page, &PreviewPage::changed, card, refresh);

@@ -131,12 +131,12 @@ class PreviewStage : public QWidget {
     for (int row = 0; row < table_->rowCount(); ++row) {
       const MethodPreview& method = rows[static_cast<std::size_t>(row)];
       QStringList cells{methodName(toString(method.method)),
-                        PreviewPage::tr("%1 dB").arg(QLocale().toString(method.psnr, 'f', 1)),
-                        QLocale().toString(method.ssim, 'f', 3),
-                        QString::fromUtf8("ΔE %1").arg(QLocale().toString(method.deltaE, 'f', 1)),
+                        PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
+                        decimalText(method.ssim, 3),
+                        isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
                         method.seconds < 1.0
                             ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
-                            : PreviewPage::tr("%1 s").arg(QLocale().toString(method.seconds, 'f', 1)),
+                            : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1)),
                         noteOf(method.method)};
       bool chosen = toString(method.method) == page_.settings().method;
       for (int cell = 0; cell < cells.size(); ++cell) {
@@ -170,10 +170,9 @@ class PreviewStage : public QWidget {
     views_[difference]->setScale(deltaE, QString::fromUtf8("ΔE₀₀"), false);
     views_[difference]->setPicture(mapped(preview->deltaE.data(), size, deltaE));
     views_[difference]->setReadout([preview](QPoint pixel) {
-      return QString::fromUtf8("%1, %2: ΔE %3")
-          .arg(pixel.x())
-          .arg(pixel.y())
-          .arg(numberText(static_cast<double>(preview->deltaE.at(pixel.x(), pixel.y(), 0))));
+      const float difference = preview->deltaE.at(pixel.x(), pixel.y(), 0);
+      return isolated(QString::fromUtf8("%1: ΔE %2")
+                          .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
     });
   }
 

@@ -73,11 +73,9 @@ class DeviceViews : public Card {
   QString readout(QPoint pixel) const {
     if (!model_.footprint() || !model_.acquisition()) return {};
     Size size = model_.acquisition()->transport.projectors().size(0);
-    return QString("%1, %2: %3")
-        .arg(pixel.x())
-        .arg(pixel.y())
-        .arg(numberText(
-            static_cast<double>(model_.footprint()->luminance[indexOf(size, {pixel.x(), pixel.y()})])));
+    const float light = model_.footprint()->luminance[indexOf(size, {pixel.x(), pixel.y()})];
+    return isolated(
+        QString("%1: %2").arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(light))));
   }
 
   void refresh() {

@@ -134,9 +134,10 @@ QWidget* inspectorOf(ThresholdPage& model) {
     if (!known) return;
     const PixelFootprint& footprint = *model.footprint();
     picked->setText(ThresholdPage::tr("Picked pixel %1, %2").arg(model.picked()->x).arg(model.picked()->y));
-    litBy->setValue(ThresholdPage::tr("%n pixel(s)", nullptr, static_cast<int>(footprint.pixels)));
+    const auto pixels = static_cast<int>(footprint.pixels);
+    litBy->setValue(groupedText(ThresholdPage::tr("%n pixel(s)", nullptr, pixels), pixels));
     Pixel at = pixelAt(model.acquisition()->transport.projectors().size(0), footprint.strongest);
-    strongest->setValue(QString("%1, %2").arg(at.x).arg(at.y));
+    strongest->setValue(placeText(at.x, at.y));
     direct->setValue(percentText(footprint.nearShare));
     elsewhere->setValue(percentText(1.0 - footprint.nearShare));
   };

@@ -4,10 +4,22 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <algorithm>
+#include <limits>
 
 #include "theme/theme.h"
 
 namespace relucent {
+namespace {
+
+constexpr int besideIcon = 20, besidePicture = 14;
+constexpr int belowIcon = 64, leastPicture = 47, underName = 6, belowSentence = 14;
+
+QFont nameFont() {
+  return typeOf(type::section, QFont::DemiBold);
+}
+
+}  // namespace
 
 Tile::Tile(Icon icon, const QString& name, const QString& sentence, QWidget* parent)
     : QAbstractButton(parent), icon_(icon) {
@@ -25,8 +37,41 @@ void Tile::init(const QString& name, const QString& sentence) {
   setAccessibleName(name);
   setAccessibleDescription(sentence);
   setFocusPolicy(Qt::StrongFocus);
-  setSizePolicy(QSizePolicy::Expanding, picture_.isNull() ? QSizePolicy::Preferred : QSizePolicy::Expanding);
+  QSizePolicy policy(QSizePolicy::Expanding,
+                     picture_.isNull() ? QSizePolicy::Preferred : QSizePolicy::Expanding);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+int Tile::besides() const {
+  return 2 * (icon_ ? besideIcon : besidePicture);
+}
+
+/// Two lines at least, so that names stand beside names.
+int Tile::sentenceHeight(int width) const {
+  QFontMetrics metrics(typeOf(type::note));
+  QRect room(0, 0, std::max(1, width - besides()), std::numeric_limits<short>::max());
+  return std::max(2 * metrics.height(), metrics.boundingRect(room, Qt::TextWordWrap, sentence_).height()) + 4;
+}
+
+int Tile::heightForWidth(int width) const {
+  int name = QFontMetrics(nameFont()).height();
+  int above = icon_ ? belowIcon : leastPicture;
+  int least = icon_ ? sizeHint().height() : minimumSizeHint().height();
+  return std::max(least, above + name + underName + sentenceHeight(width) + belowSentence);
+}
+
+QSize Tile::sizeHint() const {
+  return {std::max(280, minimumSizeHint().width()), icon_ ? 148 : 240};
+}
+
+QSize Tile::minimumSizeHint() const {
+  // The name in one line; of the sentence a word, or a sign where words are not apart.
+  QRect narrow(0, 0, 1, std::numeric_limits<short>::max());
+  int word = QFontMetrics(typeOf(type::note)).boundingRect(narrow, Qt::TextWordWrap, sentence_).width();
+  int widest = std::max(word, QFontMetrics(nameFont()).horizontalAdvance(text()));
+  return {std::max(140, widest + besides() + 1), icon_ ? 120 : 160};
 }
 
 void Tile::setDashed(bool dashed) {
@@ -76,16 +121,18 @@ void Tile::paintEvent(QPaintEvent*) {
   painter.setBrush(chosen ? c.accentGround : c.card);
   painter.drawRoundedRect(box, space::cardRadius, space::cardRadius);
 
-  QFont bold = typeOf(type::section, QFont::DemiBold), small = typeOf(type::note);
-  int lines = 2 * QFontMetrics(small).height() + 4;
+  QFont bold = nameFont(), small = typeOf(type::note);
+  int lines = sentenceHeight(width());
   double textTop = height() - 16.0 - lines - QFontMetrics(bold).height();
   if (icon_) {
-    drawIcon(painter, *icon_, QRectF(20, 22, 28, 28), chosen ? c.accent : c.secondary);
-    textTop = std::max(64.0, (height() - lines) / 2.0 - 2.0);
+    // Where reading begins.
+    double left = isRightToLeft() ? width() - 48.0 : 20.0;
+    drawIcon(painter, *icon_, QRectF(left, 22, 28, 28), chosen ? c.accent : c.secondary);
+    textTop = std::max<double>(belowIcon, (height() - lines) / 2.0 - 2.0);
   } else {
     paintPicture(painter, QRectF(9, 9, width() - 18.0, std::max(20.0, textTop - 18.0)));
   }
-  double left = icon_ ? 20.0 : 14.0;
+  double left = besides() / 2.0;
   QRectF text(left, textTop, width() - 2.0 * left, QFontMetrics(bold).height() + 2.0);
   painter.setPen(isEnabled() ? c.text : c.disabled);
   painter.setFont(bold);

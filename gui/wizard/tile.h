@@ -19,8 +19,10 @@ class Tile : public QAbstractButton {
   /// Of something that is not there now.
   void setDashed(bool dashed);
   bool isDashed() const { return dashed_; }
-  QSize sizeHint() const override { return {280, picture_.isNull() ? 148 : 240}; }
-  QSize minimumSizeHint() const override { return {140, picture_.isNull() ? 120 : 160}; }
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+  /// As high as its sentence is long.
+  int heightForWidth(int width) const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -31,6 +33,9 @@ class Tile : public QAbstractButton {
  private:
   void init(const QString& name, const QString& sentence);
   void paintPicture(QPainter& painter, QRectF area) const;
+  /// What stands free at both sides of its words.
+  int besides() const;
+  int sentenceHeight(int width) const;
   std::optional<Icon> icon_;
   QImage picture_;
   QString sentence_;

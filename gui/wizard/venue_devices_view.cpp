@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "views/number_text.h"
 #include "wizard/flash_consent.h"
 #include "wizard/page_view.h"
 #include "wizard/screen_list.h"
@@ -50,11 +51,10 @@ QWidget* devicesInspector(VenuePage& model) {
   column->addStretch(1);
   auto refresh = [&model, screen] {
     const ScreenRigSettings& chosen = model.screen();
-    screen->setValue(chosen.projector.empty() ? QString::fromUtf8("–")
-                                              : QString::fromUtf8("%1, %2 × %3")
-                                                    .arg(QString::fromStdString(chosen.display.connector))
-                                                    .arg(chosen.projector.width)
-                                                    .arg(chosen.projector.height));
+    screen->setValue(chosen.projector.empty()
+                         ? QString::fromUtf8("–")
+                         : QString("%1, %2").arg(QString::fromStdString(chosen.display.connector),
+                                                 sizeText(chosen.projector.width, chosen.projector.height)));
   };
   QObject::connect(&model, &VenuePage::changed, screen, refresh);
   refresh();

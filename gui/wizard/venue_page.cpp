@@ -15,7 +15,7 @@ namespace {
 constexpr Size usualScreen{1920, 1080};
 
 QString sizeText(Size size) {
-  return QString::fromUtf8("%1 × %2").arg(size.width).arg(size.height);
+  return relucent::sizeText(size.width, size.height);
 }
 
 }  // namespace
@@ -23,17 +23,21 @@ QString sizeText(Size size) {
 VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
     : PageModel(parent), session_(session), recent_(recent) {
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
-  venues_ = {{"corner", tr("Glossy corner"), tr("Light bounces between two cards"), ":/venues/corner.png"},
-             {"statue", tr("Bust before a brick wall"), tr("Texture, shadow and light between surfaces"),
-              ":/venues/statue.png"},
-             {"depth", tr("Many depths"), tr("Some surfaces are out of focus"), ":/venues/depth.png"},
-             {"dome", tr("Dome"), tr("Every part lights every other part"), ":/venues/dome.png"},
-             {"glass", tr("Wine glass"), tr("Light is refracted both ways"), ":/venues/glass.png"},
-             {"plain", tr("Painted wall"), tr("Flat, with diamonds; the easiest"), ":/venues/plain.png"}};
-  setSizes({{{64, 48}, {48, 36}, tr("%1, a first look")},
-            {{128, 96}, {80, 60}, tr("%1, quick")},
-            {{256, 192}, {160, 120}, tr("%1, usual")},
-            {{512, 384}, {320, 240}, tr("%1, fine")}});
+  venues_ = {
+      {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
+       ":/venues/corner.png"},
+      {"statue", QT_TR_NOOP("Bust before a brick wall"),
+       QT_TR_NOOP("Texture, shadow and light between surfaces"), ":/venues/statue.png"},
+      {"depth", QT_TR_NOOP("Many depths"), QT_TR_NOOP("Some surfaces are out of focus"),
+       ":/venues/depth.png"},
+      {"dome", QT_TR_NOOP("Dome"), QT_TR_NOOP("Every part lights every other part"), ":/venues/dome.png"},
+      {"glass", QT_TR_NOOP("Wine glass"), QT_TR_NOOP("Light is refracted both ways"), ":/venues/glass.png"},
+      {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
+       ":/venues/plain.png"}};
+  setSizes({{{64, 48}, {48, 36}, QT_TR_NOOP("%1, a first look")},
+            {{128, 96}, {80, 60}, QT_TR_NOOP("%1, quick")},
+            {{256, 192}, {160, 120}, QT_TR_NOOP("%1, usual")},
+            {{512, 384}, {320, 240}, QT_TR_NOOP("%1, fine")}});
   size_ = 1;
   script_.projector = {1024, 768};
   connect(&session_, &Session::changed, this, &VenuePage::changed);
@@ -90,8 +94,9 @@ QString VenuePage::hint() const {
                              : tr("Enter opens the highlighted choice");
   if (QString wrong = problem(); !wrong.isEmpty()) return wrong;
   WorkLeft work = expected();
-  return tr("About %1 patterns, %2")
-      .arg(countText(static_cast<std::uint64_t>(work.shots)), bytesText(work.diskBytes));
+  const auto patterns = static_cast<int>(work.shots);
+  return groupedText(tr("About %n pattern(s), %1", nullptr, patterns), patterns)
+      .arg(bytesText(work.diskBytes));
 }
 
 Command VenuePage::primary() const {
@@ -146,10 +151,12 @@ void VenuePage::chooseSize(std::size_t index) {
   Q_EMIT changed();
 }
 
+QString VenuePage::nameOf(const RehearsalSize& size) {
+  return tr(size.text).arg(sizeText(size.projector));
+}
+
 void VenuePage::setSizes(std::vector<RehearsalSize> sizes) {
   sizes_ = std::move(sizes);
-  for (RehearsalSize& size : sizes_)
-    if (size.text.contains("%1")) size.text = size.text.arg(sizeText(size.projector));
   size_ = 0;
   Q_EMIT changed();
 }
@@ -187,7 +194,7 @@ void VenuePage::setUsualFolder(const QString& folder) {
 /// A name that is not taken yet.
 void VenuePage::suggestName() {
   if (named_) return;
-  QString base = isReal() ? tr("New venue") : venues_[venue_].name;
+  QString base = isReal() ? tr("New venue") : tr(venues_[venue_].name);
   venueName_ = base;
   for (int number = 2; QFileInfo::exists(target()); ++number)
     venueName_ = QString("%1 %2").arg(base).arg(number);

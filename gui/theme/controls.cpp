@@ -3,6 +3,7 @@
 
 #include <QEvent>
 #include <QPainter>
+#include <QStyle>
 #include <algorithm>
 
 #include "theme/theme.h"
@@ -194,15 +195,11 @@ void Note::setText(const QString& sentence, const QString& more) {
   more_->setVisible(!more.isEmpty());
 }
 
-Segmented::Segmented(const QStringList& texts, QWidget* parent)
-    : QWidget(parent), buttons_(new QHBoxLayout(this)) {
-  buttons_->setContentsMargins(0, 0, 0, 0);
-  buttons_->setSpacing(space::tight);
+Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent) {
   for (qsizetype i = 0; i < texts.size(); ++i) {
     QPushButton* button = buttonOf(texts[i], "segment", this);
     button->setCheckable(true);
     group_.addButton(button, static_cast<int>(i));
-    buttons_->addWidget(button, 1);
   }
   group_.button(0)->setChecked(true);
   connect(&group_, &QButtonGroup::idClicked, this, &Segmented::chosen);
@@ -228,10 +225,22 @@ int Segmented::heightForWidth(int width) const {
   return width >= sizeHint().width() ? one : count * one + (count - 1) * space::tight;
 }
 
-void Segmented::resizeEvent(QResizeEvent* event) {
-  bool fits = width() >= sizeHint().width();
-  buttons_->setDirection(fits ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-  QWidget::resizeEvent(event);
+/// By hand: of a widget with a layout, layouts ask that one how high it is.
+void Segmented::resizeEvent(QResizeEvent*) {
+  const QList<QAbstractButton*> buttons = group_.buttons();
+  const auto count = static_cast<int>(buttons.size());
+  const QSize row = sizeHint();
+  bool inARow = width() >= row.width();
+  int spare = width() - row.width(), left = 0, top = (height() - heightForWidth(width())) / 2;
+  for (int i = 0; i < count; ++i) {
+    int wide = buttons[i]->sizeHint().width() + (i + 1) * spare / count - i * spare / count;
+    QRect place(left, top, inARow ? wide : width(), row.height());
+    buttons[i]->setGeometry(QStyle::visualRect(layoutDirection(), rect(), place));
+    if (inARow)
+      left += wide + space::tight;
+    else
+      top += row.height() + space::tight;
+  }
 }
 
 void Segmented::setCurrent(int index) {

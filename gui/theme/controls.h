@@ -139,7 +139,6 @@ class Segmented : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  QBoxLayout* buttons_;
   QButtonGroup group_;
 };
 

@@ -10,7 +10,7 @@ namespace relucent {
 
 Tick::Tick(const QString& text, QWidget* parent) : QCheckBox(text, parent), whole_(text) {
   setAccessibleName(text);
-  QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Preferred);
   policy.setHeightForWidth(true);
   setSizePolicy(policy);
 }

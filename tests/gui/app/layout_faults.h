@@ -98,7 +98,8 @@ class LayoutFaults {
     for (int column = 0; column < table.columnCount(); ++column) {
       const QHeaderView& header = *table.horizontalHeader();
       QString title = table.horizontalHeaderItem(column)->text();
-      int needed = std::max(header.sectionSizeHint(column), table.sizeHintForColumn(column));
+      int cells = static_cast<const QAbstractItemView&>(table).sizeHintForColumn(column);
+      int needed = std::max(header.sectionSizeHint(column), cells);
       int has = table.columnWidth(column), end = header.sectionPosition(column) + needed;
       if (needed > has || end > table.viewport()->width())
         tell(table, title,

@@ -84,7 +84,6 @@ HelpWindow::HelpWindow(const QString& language, QWidget* parent)
   list_->setAccessibleName(tr("Pages of the guide"));
   left->addWidget(search_);
   left->addWidget(list_, 1);
-  for (QWidget* widget : std::initializer_list<QWidget*>{search_, list_}) widget->setFixedWidth(230);
   row->addLayout(left);
   text_ = new HelpText;
   text_->setObjectName("help-text");
@@ -95,6 +94,10 @@ HelpWindow::HelpWindow(const QString& language, QWidget* parent)
   connect(list_, &QListWidget::currentRowChanged, this, &HelpWindow::fill);
   connect(text_, &QTextBrowser::anchorClicked, this, &HelpWindow::follow);
   search({});
+  // The widest title in one line, beside the bar that scrolls.
+  int bar = list_->verticalScrollBar()->sizeHint().width();
+  int width = std::max(230, list_->sizeHintForColumn(0) + 2 * list_->frameWidth() + bar);
+  for (QWidget* widget : std::initializer_list<QWidget*>{search_, list_}) widget->setFixedWidth(width);
 }
 
 void HelpWindow::showPage(int index) {

@@ -253,6 +253,8 @@ Choice::Choice(const QString& name, const QString& sentence, QWidget* parent) : 
   setAccessibleName(name);
   setAccessibleDescription(sentence);
   setMinimumHeight(52);
+  // Buttons are no higher than one line; this one is as high as its sentence is long.
+  setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Minimum);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(12, 6, 12, 6);
   auto* texts = new QVBoxLayout;

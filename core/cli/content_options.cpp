@@ -36,19 +36,23 @@ std::vector<std::string> methodNames() {
   return names;
 }
 
+void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, std::string& method) {
+  sub->add_option("--image", image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
+      ->type_name("FILE")
+      ->required();
+  sub->add_option("--method", method, "How to compensate")
+      ->check(CLI::IsMember(methodNames()))
+      ->type_name("METHOD")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 std::function<Command()> addCompensateOptions(CLI::App* sub) {
   auto command = std::make_shared<Compensate>();
   CompensateSettings& settings = command->settings;
   addFolder(sub, command->calibration, "Folder of the calibration");
-  sub->add_option("--image", settings.image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
-      ->type_name("FILE")
-      ->required();
-  sub->add_option("--method", settings.method, "How to compensate")
-      ->check(CLI::IsMember(methodNames()))
-      ->type_name("METHOD")
-      ->capture_default_str();
+  addImageAndMethod(sub, settings.image, settings.method);
   sub->add_option(
          "--solver", settings.solver,
          "How optimum is found: fista, spectral (Barzilai-Borwein), descent (the paper's five steps), "
@@ -67,13 +71,7 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
   auto command = std::make_shared<Prove>();
   ProveSettings& settings = command->settings;
   addFolder(sub, command->calibration, "Folder of the calibration");
-  sub->add_option("--image", settings.image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
-      ->type_name("FILE")
-      ->required();
-  sub->add_option("--method", settings.method, "How to compensate")
-      ->check(CLI::IsMember(methodNames()))
-      ->type_name("METHOD")
-      ->capture_default_str();
+  addImageAndMethod(sub, settings.image, settings.method);
   sub->add_option("--shown", settings.shown,
                   "Prove this instead, one picture a projector: what stands on its display, pixel by pixel")
       ->type_name("FILE");

@@ -1564,7 +1564,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>%1 across, %2 down</source>
-        <translation>%1 waagerecht, %2 senkrecht</translation>
+        <translation>%1 →, %2 ↓</translation>
     </message>
 </context>
 <context>

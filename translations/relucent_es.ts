@@ -1564,7 +1564,7 @@ proyector %2</translation>
     </message>
     <message>
         <source>%1 across, %2 down</source>
-        <translation>%1 (horiz.), %2 (vert.)</translation>
+        <translation>%1 →, %2 ↓</translation>
     </message>
 </context>
 <context>

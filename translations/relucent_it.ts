@@ -1564,7 +1564,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>%1 across, %2 down</source>
-        <translation>orizz. %1, vert. %2</translation>
+        <translation>%1 →, %2 ↓</translation>
     </message>
 </context>
 <context>

@@ -57,8 +57,8 @@ class Scripted(unittest.TestCase):
 
 
 class Install(Scripted):
-    def install(self, *sections, root=False):
-        """installDependencies SECTIONS, as root or as somebody else."""
+    def install(self, *sections, root=False, options=""):
+        """installDependencies SECTIONS of a program called with OPTIONS, as root or as somebody else."""
         somebody = {}
         if os.geteuid() == 0 and not root:
             for path in [self.folder, *self.folder.rglob("*")]:
@@ -66,7 +66,8 @@ class Install(Scripted):
             somebody = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
         environment = {"PATH": f"{self.folder}/tools:/usr/bin:/bin", "STATE": str(self.state)}
         return subprocess.run(
-            ["bash", "-c", "set -euo pipefail; source packaging/common.sh; installDependencies " + " ".join(sections)],
+            ["bash", "-c", f"set -euo pipefail; source packaging/common.sh; readOptions {options}; "
+             f"installDependencies {' '.join(sections)}"],
             cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
             **somebody)
 
@@ -112,8 +113,18 @@ class Install(Scripted):
         self.says(installed="old-name", sudo="", plan="Inst libc6 [2.36-9] (2.36-10 Debian),Inst alpha (1.0 Debian)")
         done = self.install("build")
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"newer versions of libc6,.*apt-get install .*alpha")
+        self.assertRegex(done.stderr, r"newer versions of libc6,.*--upgrade")
         self.assertFalse([call for call in self.calls() if "--simulate" not in call and call != "update"])
+        self.says(calls="")
+        done = self.install("build", options="--upgrade")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("up to date: libc6\n", done.stdout)
+        self.assertRegex(self.calls()[-1], r"--no-remove.* alpha$")
+
+    def test_an_unknown_option_is_refused(self):
+        done = self.install("build", options="--purge")
+        self.assertEqual((done.returncode, done.stdout, self.calls()), (1, "", []))
+        self.assertRegex(done.stderr, "--purge.*--upgrade is the only one")
 
     @unittest.skipUnless(os.geteuid() == 0, "needs to be root")
     def test_root_needs_no_sudo(self):

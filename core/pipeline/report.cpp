@@ -11,6 +11,8 @@
 #include "base/file.h"
 #include "image/color.h"
 #include "pipeline/report_charts.h"
+#include "pipeline/report_html.h"
+#include "pipeline/report_measurement.h"
 #include "pipeline/report_pictures.h"
 #include "pipeline/report_style.h"
 
@@ -18,42 +20,6 @@ namespace relucent {
 namespace {
 
 constexpr double deltaEScale = 20.0;  // right end of the error maps: far beyond what nobody could miss
-
-std::string section(const std::string& heading, const std::string& lead, const std::string& body) {
-  std::string introduction = lead.empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", escaped(lead));
-  return fmt::format("<section><h2>{}</h2>{}{}</section>\n", escaped(heading), introduction, body);
-}
-
-std::string figure(const Image& encoded, const std::string& name, const std::string& caption,
-                   const std::string& below = {}) {
-  return fmt::format(
-      R"(<figure><img src="{}" width="{}" height="{}" alt="{}: {}">{}<figcaption><b>{}</b> {}</figcaption></figure>)",
-      pngDataUri(encoded), encoded.width(), encoded.height(), escaped(name), escaped(caption), below,
-      escaped(name), escaped(caption));
-}
-
-std::string card(const std::string& name, const std::string& value) {
-  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", escaped(name), escaped(value));
-}
-
-std::string percent(double share) {
-  return fmt::format("{:.1f} %", 100.0 * share);
-}
-
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, "\u202f");
-  return digits;
-}
-
-std::string duration(double seconds) {
-  if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);
-  return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
-}
-
-std::string decibels(double value) {
-  return std::isfinite(value) ? fmt::format("{:.1f} dB", value) : "exact";
-}
 
 double meanOf(const Image& values) {
   double sum = 0.0;
@@ -187,100 +153,6 @@ std::string methodComparison(const EvaluateResult& evaluation) {
       "Through the true light transport of the simulated venue, in linear light, where the picture can be "
       "reached. Three decibels more halve the squared error.",
       barChart(bars, "PSNR of each method") + methodTable(scores, best));
-}
-
-std::string measuredPictures(const ReportData& data) {
-  if (data.flood.empty()) return {};
-  std::array<float, 3> white =
-      data.comparisons.empty() ? percentileWhite(data.flood, 0.85) : data.comparisons.front().white;
-  Image reach = reachableLight(data.flood, data.black, white);
-  for (float& value : reach.data()) value = value > 0.0f ? std::log2(value) : -100.0f;
-
-  std::string body = "<div class=\"pictures\">";
-  body += figure(viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
-                 "what the camera sees when every pixel of the projector is fully lit.");
-  body += figure(
-      painted(reach, ColorMap::viridis, -4.0, 2.0), "Reachable light",
-      "the brightest that each place can get, in the colour that is hardest there; 1 is the picture's "
-      "white.",
-      legend(ColorMap::viridis, {"1/16", "1/4", "1", "4"}, "Reachable light from 1/16 to 4 times white"));
-  if (!data.black.empty())
-    body += figure(
-        viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
-        "room light and the projector's black, brightened to be seen: nothing can be darker than this.");
-  if (data.flagged.size() == data.flood.pixels()) {
-    Image mask(data.flood.size(), 1);
-    for (std::size_t i = 0; i < data.flagged.size(); ++i) mask.data()[i] = data.flagged[i] != 0 ? 1.0f : 0.0f;
-    body += figure(
-        painted(mask, ColorMap::cividis, 0.0, 1.0), "Flagged pixels",
-        fmt::format("bright: {} of the camera's pixels did not pass the verification and are not relied "
-                    "on.",
-                    percent(data.result.flaggedShare)));
-  }
-  return section("What the camera measured", "", body + "</div>");
-}
-
-std::string responses(const ReportData& data) {
-  if (data.responses.empty()) return {};
-  std::string body = "<div class=\"charts\">";
-  for (std::size_t projector = 0; projector < data.responses.size(); ++projector) {
-    std::string title = fmt::format("Response of projector {}", projector + 1);
-    body += "<div><h3>" + title + "</h3>" + responseChart(data.responses[projector], title);
-    if (projector < data.additivityError.size())
-      body += fmt::format(
-          "<p>Red, green and blue together differ from white by at most {}. Up to 2 % is good; more "
-          "means a white segment or a picture mode in the projector's menu.</p>",
-          percent(data.additivityError[projector]));
-    body += "</div>";
-  }
-  std::string times;
-  for (double exposure : data.exposures)
-    times += (times.empty() ? "" : ", ") + fmt::format("{:.4g} s", exposure);
-  if (!times.empty()) body += "<div><h3>Exposures</h3><p>" + times + "</p></div>";
-  return section("Response of the projector", "How much light each level sent to the projector really gives.",
-                 body + "</div>");
-}
-
-/// What was tried to find how strongly the inverse has to be damped.
-std::string ridge(const ReportData& data) {
-  if (data.ridgeCurve.empty()) return "";
-  std::vector<Bar> bars;
-  for (const RidgeTrial& trial : data.ridgeCurve)
-    bars.push_back({fmt::format("{:.3g}", trial.ridge), std::max(0.0, trial.psnr),
-                    fmt::format("{:.2f} dB", trial.psnr), trial.ridge == data.ridge});
-  return fmt::format(
-      "<h3>Damping of the inverse</h3><p>Pictures were compensated with several dampings and sent through "
-      "the "
-      "measured transport; {:.3g} is used, the strongest that is as good as the best.</p>{}",
-      data.ridge, barChart(bars, "PSNR by damping of the inverse"));
-}
-
-std::string transport(const ReportData& data) {
-  std::vector<Bar> bars;
-  for (std::size_t level = 0; level < data.leavesPerLevel.size(); ++level)
-    bars.push_back({level == 0 ? "single pixels" : fmt::format("{0} × {0}", 1ULL << level),
-                    std::log10(1.0 + static_cast<double>(data.leavesPerLevel[level])),
-                    grouped(data.leavesPerLevel[level]), level == 0});
-  std::string chart = bars.empty() ? ""
-                                   : "<h3>Leaves by block size (logarithmic)</h3>" +
-                                         barChart(bars, "Stored blocks of the light transport by their size");
-  chart += ridge(data);
-  std::string truth;
-  if (data.evaluation)
-    truth = fmt::format(
-        "<p>Compared with the true transport: relative error {}, relighting a photograph {}, relighting "
-        "noise {}.</p>",
-        percent(data.evaluation->transport.frobenius), percent(data.evaluation->transport.relightNatural),
-        percent(data.evaluation->transport.relightRandom));
-  return section(
-      "The light transport",
-      "Every connection from a projector pixel to a camera pixel. Sharp light is kept pixel by pixel, light "
-      "that arrives evenly from a wide area as one block.",
-      fmt::format("<p>{} connections in {} stored blocks. {} of the light could not be attributed; held-out "
-                  "patterns were predicted to within {}.</p>{}{}",
-                  grouped(data.result.connections), grouped(data.result.leaves),
-                  percent(data.result.unresolvedEnergy), percent(data.result.verificationError), truth,
-                  chart));
 }
 
 std::string limits() {

@@ -7,6 +7,7 @@
 
 #include "acquisition/import_agreement.h"
 #include "acquisition/import_response.h"
+#include "acquisition/import_rows.h"
 #include "acquisition/import_score.h"
 #include "base/error.h"
 
@@ -77,26 +78,9 @@ class Importing {
 
  private:
   void findLitPixels() {
-    constexpr float leastShare = 0.1f;
-    std::size_t pixels = photographs_.size().count();
-    std::vector<float> span(pixels);
-    parallelFor(0, pixels, 1024, [&](std::size_t pixel) {
-      float least = 1e30f, most = 0.0f;
-      for (int frame : frames_.fitted) {
-        float value = photographs_.grey(pixel, frame);
-        least = std::min(least, value);
-        most = std::max(most, value);
-      }
-      span[pixel] = most - least;
-    });
-    std::vector<float> sorted = span;
-    auto p95 = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 95 / 100);
-    std::nth_element(sorted.begin(), p95, sorted.end());
-    lit_.resize(pixels);
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      lit_[pixel] = span[pixel] > 0.0f && span[pixel] >= leastShare * *p95;
+    lit_ = litPixels(photographs_, frames_);
+    for (std::size_t pixel = 0; pixel < lit_.size(); ++pixel)
       if (lit_[pixel] != 0) litPixels_.push_back(static_cast<std::uint32_t>(pixel));
-    }
     if (litPixels_.empty())
       throw Error(ErrorKind::input, "the photographs are all alike: no camera pixel reacts to the patterns",
                   "check that patterns and photographs belong together and that the projector was on");
@@ -229,7 +213,7 @@ class Importing {
       acquisition.flagged[pixel] = known ? 0 : 1;
     });
     progress.checkpoint();
-    acquisition.transport = rows(colours);
+    acquisition.transport = importedTransport(footprint_, colours, patterns_.size(), photographs_.size());
     Progress finishing = progress.part(0.4, progress.stage());
     acquisition.flood = acquisition.transport.floodlight();
     finishing.report(1.0);
@@ -259,59 +243,6 @@ class Importing {
   bool colouredPatterns() const {
     return std::any_of(frames_.fitted.begin(), frames_.fitted.end(),
                        [&](int frame) { return patterns_.isColoured(frame); });
-  }
-
-  TransportMatrix rows(const std::vector<PixelColour>& colours) const {
-    Size projector = patterns_.size();
-    NodeLayout layout{Rasters(projector)};
-    std::size_t root = layout.index({0, layout.levels() - 1, 0, 0});
-    std::vector<float> fullScale(colours.size());
-    std::vector<std::size_t> blocks(colours.size());
-    parallelFor(0, colours.size(), 256, [&](std::size_t row) {
-      float strongest = 1.0f;
-      blocks[row] = 1;
-      if (footprint_[row].found()) {
-        std::vector<NodeShare> shares = sharesOf(footprint_[row], projector);
-        strongest = 0.0f;
-        for (const NodeShare& share : shares) strongest = std::max(strongest, share.share);
-        blocks[row] = shares.size() + 1;
-      }
-      constexpr float leastScale = 1e-9f;  // of rows that hold nothing
-      fullScale[row] = std::max(leastScale, strongest * colours[row].block.cwiseAbs().maxCoeff());
-      fullScale[row] = std::max(fullScale[row], colours[row].far.cwiseAbs().maxCoeff());
-    });
-    std::vector<float> scale(fullScale);
-    for (float& value : scale) value /= 32767.0f;
-    BlockSparseWriter writer(layout.count(), std::move(fullScale),
-                             std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}));
-    for (std::size_t row = 0; row < colours.size(); ++row) {
-      const ColourBlock& block = colours[row].block;
-      if (!footprint_[row].found()) {
-        writer.add(root, codeOf(block, scale[row]));
-      } else {
-        for (const NodeShare& share : sharesOf(footprint_[row], projector))
-          writer.add(layout.index({0, share.level, share.x, share.y}),
-                     codeOf(ColourBlock(share.share * block), scale[row]));
-        writer.add(root, codeOf(colours[row].far, scale[row]));
-      }
-      writer.endRow();
-    }
-    return TransportMatrix(Rasters(photographs_.size()), Rasters(projector), writer.build());
-  }
-
-  /// At least three quarters of the variation of what was fitted.
-  static bool isExplained(const PixelFrames& seen, const PixelColour& colour) {
-    constexpr float least = 0.25f;
-    float apart = 0.0f, varies = 0.0f;
-    for (int c = 0; c < 3; ++c) {
-      Eigen::VectorXf signal = seen.signal.col(c);
-      Eigen::VectorXf predicted =
-          (seen.drive * colour.block.row(c).transpose() + seen.mean * colour.far.row(c).transpose()).array() +
-          colour.black[c];
-      apart += (signal - predicted).cwiseAbs2().dot(seen.weight);
-      varies += (signal.array() - signal.mean()).matrix().cwiseAbs2().dot(seen.weight);
-    }
-    return apart <= least * varies;
   }
 
   void score(Import& result, Progress& progress) const {

@@ -168,6 +168,20 @@ PixelColour fitGains(const PixelFrames& frames, float noise, bool withFar) {
   return colour;
 }
 
+bool isExplained(const PixelFrames& seen, const PixelColour& colour) {
+  constexpr float least = 0.25f;
+  float apart = 0.0f, varies = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    Eigen::VectorXf signal = seen.signal.col(c);
+    Eigen::VectorXf predicted =
+        (seen.drive * colour.block.row(c).transpose() + seen.mean * colour.far.row(c).transpose()).array() +
+        colour.black[c];
+    apart += (signal - predicted).cwiseAbs2().dot(seen.weight);
+    varies += (signal.array() - signal.mean()).matrix().cwiseAbs2().dot(seen.weight);
+  }
+  return apart <= least * varies;
+}
+
 ColourBlock commonMixing(const std::vector<PixelFrames>& sample) {
   constexpr int rounds = 6;
   ColourBlock mixing = ColourBlock::Identity();

@@ -54,6 +54,9 @@ PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, floa
 /// The same with diagonal blocks, for grey patterns: a black, a gain and a far light for each channel.
 PixelColour fitGains(const PixelFrames& frames, float noise, bool withFar);
 
+/// Whether at least three quarters of the variation of what was fitted is explained.
+bool isExplained(const PixelFrames& seen, const PixelColour& colour);
+
 /// The one 3x3 that, with a gain for each pixel and camera channel, explains a sample best; rows sum to 1.
 /// What grey patterns leave open stays the identity.
 ColourBlock commonMixing(const std::vector<PixelFrames>& sample);

@@ -155,4 +155,26 @@ void readSequence(const PictureSequence& photographs, const ImportFrames& frames
   }
 }
 
+std::vector<std::uint8_t> litPixels(const PictureSequence& photographs, const ImportFrames& frames) {
+  constexpr float leastShare = 0.1f;
+  std::size_t pixels = photographs.size().count();
+  std::vector<float> span(pixels);
+  parallelFor(0, pixels, 1024, [&](std::size_t pixel) {
+    float least = 1e30f, most = 0.0f;
+    for (int frame : frames.fitted) {
+      float value = photographs.grey(pixel, frame);
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    span[pixel] = most - least;
+  });
+  std::vector<float> sorted = span;
+  auto p95 = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 95 / 100);
+  std::nth_element(sorted.begin(), p95, sorted.end());
+  std::vector<std::uint8_t> lit(pixels);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    lit[pixel] = span[pixel] > 0.0f && span[pixel] >= leastShare * *p95;
+  return lit;
+}
+
 }  // namespace relucent

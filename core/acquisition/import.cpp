@@ -2,7 +2,6 @@
 #include "acquisition/import.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "acquisition/import_agreement.h"
@@ -16,16 +15,6 @@ namespace {
 
 constexpr int leastSpatial = 6;  // patterns with content
 constexpr std::size_t sampleSize = 1500;
-
-/// What most projectors do; stands where the patterns cannot tell.
-ResponseCurve usualCurve() {
-  std::vector<double> x, y;
-  for (int k = 0; k <= 32; ++k) {
-    x.push_back(k / 32.0);
-    y.push_back(std::pow(k / 32.0, 2.2));
-  }
-  return ResponseCurve(std::move(x), std::move(y));
-}
 
 /// A decoded place stands for its pixel alone: what a one-to-one map knows.
 std::vector<NodeShare> pixelAlone(const Decoded& decoded, Size projector) {
@@ -102,7 +91,7 @@ class Importing {
     bool levels = false;
     for (int c = 0; c < 3; ++c) levels = levels || codesOf(patterns_, frames_, c).size() > 2;
     responseKnown_ = levels;
-    for (int frame : frames_.fitted) isBinary_.push_back(isBinary(frame) ? 1 : 0);
+    for (int frame : frames_.fitted) isBinary_.push_back(isBinary(patterns_, frame) ? 1 : 0);
     const int rounds = levels ? 4 : 2;
     std::vector<std::uint32_t> chosen = sample();
     for (int round = 0; round < rounds; ++round) {
@@ -136,13 +125,6 @@ class Importing {
       if (!isBinary_[row]) weight[static_cast<Eigen::Index>(row)] = 0.0f;
     if (weight.sum() >= least) seen.weight = weight;
     return seen;
-  }
-
-  bool isBinary(int frame) const {
-    for (std::size_t pixel = 0; pixel < patterns_.size().count(); ++pixel)
-      for (int c = 0; c < 3; ++c)
-        if (int code = patterns_.code(pixel, frame, c); code != 0 && code != 65535) return false;
-    return true;
   }
 
   /// Pixels that decoded well, evenly spread over the lit ones.

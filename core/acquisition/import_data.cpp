@@ -8,6 +8,13 @@
 
 namespace relucent {
 
+bool isBinary(const PictureSequence& patterns, int picture) {
+  for (std::size_t pixel = 0; pixel < patterns.size().count(); ++pixel)
+    for (int c = 0; c < 3; ++c)
+      if (int code = patterns.code(pixel, picture, c); code != 0 && code != 65535) return false;
+  return true;
+}
+
 double finenessOf(const PictureSequence& patterns, int picture) {
   Size size = patterns.size();
   int channels = patterns.isColoured() ? 3 : 1;

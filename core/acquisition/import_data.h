@@ -22,6 +22,8 @@ struct ImportFrames {
   /// Values of a sequence: one for each spatial frame and channel, frame after frame.
   int samples() const { return static_cast<int>(spatial.size()) * channels; }
 };
+/// Whether a pattern holds nothing between black and white.
+bool isBinary(const PictureSequence& patterns, int picture);
 /// Mean difference between neighbouring pixels, all channels: how fine a pattern is. 0: even all over.
 double finenessOf(const PictureSequence& patterns, int picture);
 /// Patterns that are not even all over, coarse ones first.

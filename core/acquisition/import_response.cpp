@@ -185,4 +185,13 @@ ProjectorResponse estimateResponse(const PictureSequence& patterns, const Pictur
   return system.solve(before);
 }
 
+ResponseCurve usualCurve() {
+  std::vector<double> x, y;
+  for (int k = 0; k <= 32; ++k) {
+    x.push_back(k / 32.0);
+    y.push_back(std::pow(k / 32.0, 2.2));
+  }
+  return ResponseCurve(std::move(x), std::move(y));
+}
+
 }  // namespace relucent

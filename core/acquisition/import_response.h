@@ -26,4 +26,7 @@ ProjectorResponse estimateResponse(const PictureSequence& patterns, const Pictur
                                    const ImportFrames& frames, const std::vector<SamplePixel>& sample,
                                    const ProjectorResponse& before);
 
+/// What most projectors do, a power of 2.2; stands where the patterns cannot tell.
+ResponseCurve usualCurve();
+
 }  // namespace relucent

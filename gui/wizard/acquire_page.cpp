@@ -17,34 +17,6 @@ constexpr int photographsBeforeTime = 20;
 
 }  // namespace
 
-/// A question of the measuring thread to the user, and its answer.
-class AcquirePage::Asking {
- public:
-  Answer wait() {
-    QMutexLocker lock(&guard_);
-    answer_.reset();
-    while (!answer_ && !closed_) given_.wait(&guard_);
-    return answer_.value_or(Answer::keepAndStop);
-  }
-  /// Closed, it waits for nobody.
-  void setClosed(bool closed) {
-    QMutexLocker lock(&guard_);
-    closed_ = closed;
-    given_.wakeAll();
-  }
-  void give(Answer answer) {
-    QMutexLocker lock(&guard_);
-    answer_ = answer;
-    given_.wakeAll();
-  }
-
- private:
-  QMutex guard_;
-  QWaitCondition given_;
-  std::optional<Answer> answer_;
-  bool closed_ = false;
-};
-
 AcquirePage::AcquirePage(Session& session, QObject* parent)
     : PageModel(parent), session_(session), asking_(std::make_shared<Asking>()) {
   connect(&session_, &Session::opened, this, [this] {

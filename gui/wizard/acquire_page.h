@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QMutex>
 #include <QTimer>
-#include <QWaitCondition>
+#include <memory>
 
 #include "jobs/job.h"
 #include "jobs/time_left.h"
+#include "wizard/asking.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
 
@@ -67,7 +67,6 @@ class AcquirePage : public PageModel {
   void measured();
 
  private:
-  class Asking;
   void start();
   void change(const QString& what, const AcquisitionSettings& settings);
   void keep(const AcquisitionSettings& settings);

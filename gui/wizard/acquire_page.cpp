@@ -170,6 +170,13 @@ void AcquirePage::setWhite(bool white) {
   change(tr("Colours"), settings);
 }
 
+QString AcquirePage::watching() const {
+  return tr(
+      "Every %n pattern(s) the room light, the lamp and the camera's place are compared with the start. If "
+      "something moved, the measurement pauses and asks.",
+      nullptr, session_.settings().acquisition.checkInterval);
+}
+
 std::optional<double> AcquirePage::figure(const char* name) const {
   const auto& stored = session_.result(Step::acquisition);
   if (!stored || !stored->values.contains("cost")) return std::nullopt;

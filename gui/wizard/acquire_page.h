@@ -55,6 +55,8 @@ class AcquirePage : public PageModel {
   void setFineness(Fineness fineness);
   bool isWhite() const { return session_.settings().acquisition.colours == LitColours::white; }
   void setWhite(bool white);
+  /// How often light and view are compared, and what follows.
+  QString watching() const;
   /// What was measured, as far as the folder tells: "patterns", "seconds", ...
   std::optional<double> figure(const char* name) const;
 

@@ -95,13 +95,9 @@ QWidget* runOf(AcquirePage& model) {
   column->addWidget(lineOf());
   column->addWidget(labelOf(AcquirePage::tr("Watching"), "section"));
   auto* watch = new Remark;
-  watch->show(
-      Remark::Kind::good, AcquirePage::tr("Light and view are watched"),
-      AcquirePage::tr(
-          "Every 40 photographs the room light, the lamp and the camera's place are compared with the "
-          "start. If something moved, the measurement pauses and asks."));
   column->addWidget(watch);
-  QObject::connect(&model, &AcquirePage::changed, part, [&model, left, counts, rate, taken, ahead, disk] {
+  auto refresh = [&model, left, counts, rate, taken, ahead, disk, watch] {
+    watch->show(Remark::Kind::good, AcquirePage::tr("Light and view are watched"), model.watching());
     if (!model.isMeasuring()) return;
     if (model.isPaused())
       left->setText(AcquirePage::tr("Paused"));
@@ -116,7 +112,9 @@ QWidget* runOf(AcquirePage& model) {
       ahead->setValue(AcquirePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work->shots))));
       disk->setValue(bytesText(work->diskBytes));
     }
-  });
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
   return part;
 }
 

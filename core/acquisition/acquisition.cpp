@@ -8,6 +8,7 @@
 
 #include "acquisition/forecast.h"
 #include "acquisition/growth.h"
+#include "acquisition/observer.h"
 #include "acquisition/repair.h"
 #include "base/error.h"
 
@@ -79,13 +80,13 @@ void addFindings(Acquisition& acquisition, double unusable, double drift) {
 class Measurement {
  public:
   Measurement(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-              Decisions& decisions)
+              Decisions& decisions, AcquisitionObserver& observer)
       : settings_(settings),
         shots_(shots),
         linearization_(linearization),
         shotsBefore_(shots.shots()),
         photographer_(shots, linearization),
-        watch_(photographer_, shots, references_, settings, decisions) {}
+        watch_(photographer_, shots, references_, settings, decisions, observer) {}
 
   Acquisition run(Progress& progress) {
     expect(progress, {});
@@ -159,7 +160,7 @@ class Measurement {
 }  // namespace
 
 Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-                    const AlarmHandler& handler, Progress& progress) {
+                    const AlarmHandler& handler, AcquisitionObserver& observer, Progress& progress) {
   std::vector<std::string> wrong = problems(settings);
   require(wrong.empty(), "{}", fmt::join(wrong, "; "));
   Linearization used = linearization;
@@ -168,7 +169,7 @@ Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const 
   Decisions decisions{handler, {}};
   while (true) {
     try {
-      Acquisition result = Measurement(shots, used, settings, decisions).run(progress);
+      Acquisition result = Measurement(shots, used, settings, decisions, observer).run(progress);
       result.patterns = shots.shots() - shotsBefore;
       result.exposures = shots.exposures() - exposuresBefore;
       return result;
@@ -176,6 +177,12 @@ Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const 
       shots.goBackTo(shotsBefore);
     }
   }
+}
+
+Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
+                    const AlarmHandler& handler, Progress& progress) {
+  AcquisitionObserver nobody;
+  return acquire(shots, linearization, settings, handler, nobody, progress);
 }
 
 Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,

@@ -16,13 +16,10 @@ namespace {
 
 constexpr std::uint64_t referenceKey = 0x7265666572ULL;
 
-// Beyond what drift does between two checks.
-constexpr double darkShare = 0.2;        // of the light expected: less is no lamp's drift
-constexpr double lampStep = 0.1;         // between neighbouring checks
-constexpr double ambientStep = 0.004;    // of the typical flood, on average: half of the usual threshold
-constexpr double differenceLimit = 0.1;  // of the reference picture, relative: not noise, not drift
-constexpr double localLimit = 0.25;      // of a pixel's own and the typical light: something is in the way
-constexpr double localShare = 0.003;     // of the camera pixels
+// Beyond what drift does between two checks; more of them in observer.h.
+constexpr double darkShare = 0.2;     // of the light expected: less is no lamp's drift
+constexpr double localLimit = 0.25;   // of a pixel's own and the typical light: something is in the way
+constexpr double localShare = 0.003;  // of the camera pixels
 constexpr double sigmas = 6.0;
 
 struct Sum {
@@ -58,6 +55,13 @@ std::optional<Alarm> inspectDarkness(const Check& now, const References& referen
                "uncover the lens, check that the projector is on, then retry");
 }
 
+/// In units of the typical flood.
+double roomLight(const HdrFrame& black, const References& references) {
+  double light = sumOf(black.radiance, black.variance, references).value;
+  double whole = static_cast<double>(references.typical) * static_cast<double>(black.radiance.size());
+  return whole > 0.0 ? light / whole : 0.0;
+}
+
 std::optional<Alarm> inspectAmbient(const Check& now, const References& references) {
   Sum change;
   for (std::size_t i = 0; i < now.black.radiance.size(); ++i) {
@@ -65,43 +69,56 @@ std::optional<Alarm> inspectAmbient(const Check& now, const References& referenc
     change.value += static_cast<double>(now.black.radiance[i] - references.black.radiance[i]);
     change.variance += static_cast<double>(now.black.variance[i] + references.black.variance[i]);
   }
-  double limit =
-      ambientStep * static_cast<double>(references.typical) * static_cast<double>(now.black.radiance.size());
+  double limit = reading_limit::roomLight * static_cast<double>(references.typical) *
+                 static_cast<double>(now.black.radiance.size());
   if (std::abs(change.value) < limit || !change.isSignificant()) return std::nullopt;
   return alarm(AlarmKind::ambientChanged,
                fmt::format("the light of the room became {}", change.value > 0.0 ? "brighter" : "darker"),
                "switch it back, keep doors and curtains closed, then retry");
 }
 
+/// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
+struct Views {
+  Image before, after;
+  double apart = 0.0, whole = 0.0, noise = 0.0;  // squared
+  std::size_t changed = 0;                       // pixels off by a share of their own light
+};
+
+Views viewsOf(std::size_t camera, const Check& now, const Check& first, const References& references,
+              const Rasters& cameras, double power) {
+  Size size = cameras.size(camera);
+  Views views{Image(size, 1), Image(size, 1)};
+  for (std::size_t i = 0; i < size.count(); ++i) {
+    std::size_t row = cameras.offset(camera) + i;
+    if (!references.usable[row]) continue;
+    double was = 0.0, is = 0.0, variance = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      was += static_cast<double>(first.light.radiance[3 * row + c]);
+      is += static_cast<double>(now.light.radiance[3 * row + c]) / power;
+      variance += static_cast<double>(now.light.variance[3 * row + c] + first.light.variance[3 * row + c]);
+    }
+    views.before.data()[i] = static_cast<float>(was);
+    views.after.data()[i] = static_cast<float>(is);
+    views.apart += (is - was) * (is - was);
+    views.whole += was * was;
+    views.noise += variance;
+    double large = localLimit * std::max(was, static_cast<double>(references.typical));
+    if (std::abs(is - was) > std::max(large, sigmas * std::sqrt(variance))) ++views.changed;
+  }
+  return views;
+}
+
 std::optional<Alarm> inspectView(const Check& now, const Check& first, const References& references,
                                  const Rasters& cameras, double power) {
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     Size size = cameras.size(camera);
-    Image before(size, 1), after(size, 1);
-    double apart = 0.0, whole = 0.0, noise = 0.0;
-    std::size_t changed = 0;
-    for (std::size_t i = 0; i < size.count(); ++i) {
-      std::size_t row = cameras.offset(camera) + i;
-      if (!references.usable[row]) continue;
-      double was = 0.0, is = 0.0, variance = 0.0;
-      for (std::size_t c = 0; c < 3; ++c) {
-        was += static_cast<double>(first.light.radiance[3 * row + c]);
-        is += static_cast<double>(now.light.radiance[3 * row + c]) / power;
-        variance += static_cast<double>(now.light.variance[3 * row + c] + first.light.variance[3 * row + c]);
-      }
-      before.data()[i] = static_cast<float>(was);
-      after.data()[i] = static_cast<float>(is);
-      apart += (is - was) * (is - was);
-      whole += was * was;
-      noise += variance;
-      double large = localLimit * std::max(was, static_cast<double>(references.typical));
-      if (std::abs(is - was) > std::max(large, sigmas * std::sqrt(variance))) ++changed;
-    }
-    bool different = apart > differenceLimit * differenceLimit * whole && apart > 4.0 * noise;
-    bool local = static_cast<double>(changed) > localShare * static_cast<double>(size.count());
+    Views views = viewsOf(camera, now, first, references, cameras, power);
+    bool different = views.apart > reading_limit::view * reading_limit::view * views.whole &&
+                     views.apart > 4.0 * views.noise;
+    bool local = static_cast<double>(views.changed) > localShare * static_cast<double>(size.count());
     if (!different && !local) continue;
 
-    Movement movement = movementBetween(before, after);
+    Movement movement = movementBetween(views.before, views.after);
     if (movement.explains)
       return alarm(AlarmKind::moved,
                    fmt::format("a camera or projector has moved: the view of camera {} is shifted by "
@@ -109,11 +126,11 @@ std::optional<Alarm> inspectView(const Check& now, const Check& first, const Ref
                                camera + 1, movement.x, movement.y, movement.degrees),
                    "put it back to within half a pixel, then retry");
     if (local)
-      return alarm(
-          AlarmKind::localChange,
-          fmt::format("{:.1f} % of the view of camera {} look different than before",
-                      100.0 * static_cast<double>(changed) / static_cast<double>(size.count()), camera + 1),
-          "take away what is in the light or in the view, then retry");
+      return alarm(AlarmKind::localChange,
+                   fmt::format("{:.1f} % of the view of camera {} look different than before",
+                               100.0 * static_cast<double>(views.changed) / static_cast<double>(size.count()),
+                               camera + 1),
+                   "take away what is in the light or in the view, then retry");
   }
   return std::nullopt;
 }
@@ -172,13 +189,30 @@ double lampPower(const Check& now, const Check& first, const References& referen
   return before > 0.0 ? after / before : 1.0;
 }
 
+Reading readingOf(const Check& now, const Check& first, const References& references, const Rasters& cameras,
+                  double expectedPower) {
+  Reading reading;
+  reading.roomLight = roomLight(now.black, references);
+  reading.roomLightAtFirst = roomLight(first.black, references);
+  reading.roomLightExpected = roomLight(references.black, references);
+  reading.lamp = lampPower(now, first, references);
+  reading.lampExpected = expectedPower;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    Views views = viewsOf(camera, now, first, references, cameras, reading.lamp);
+    if (views.whole > 0.0)
+      reading.view =
+          std::max(reading.view, std::sqrt(std::max(0.0, views.apart - views.noise) / views.whole));
+  }
+  return reading;
+}
+
 std::optional<Alarm> inspect(const Check& now, const Check& first, const References& references,
                              const Rasters& cameras, double expectedPower, const AcquisitionSettings&) {
   double power = lampPower(now, first, references);
   if (auto dark = inspectDarkness(now, references, power)) return dark;
   if (auto ambient = inspectAmbient(now, references)) return ambient;
   if (auto view = inspectView(now, first, references, cameras, power)) return view;
-  if (std::abs(power / expectedPower - 1.0) > lampStep)
+  if (std::abs(power / expectedPower - 1.0) > reading_limit::lamp)
     return alarm(AlarmKind::lampChanged,
                  fmt::format("the projector's light changed by {:.0f} % within a few photographs",
                              100.0 * (power / expectedPower - 1.0)),

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "acquisition/alarm.h"
+#include "acquisition/observer.h"
 #include "acquisition/references.h"
 #include "acquisition/settings.h"
 
@@ -23,6 +23,10 @@ struct Check {
 
 /// Total light of a check relative to the first one.
 double lampPower(const Check& now, const Check& first, const References& references);
+
+/// A check in numbers, its shot, flicker and alarm left open: as inspect() compares them.
+Reading readingOf(const Check& now, const Check& first, const References& references, const Rasters& cameras,
+                  double expectedPower);
 
 /// Compares a check with the first one and with what is expected now: e as in `references`, the lamp at
 /// `expectedPower`. The most fundamental finding only.

@@ -141,9 +141,11 @@ HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& dem
     encoded.push_back(imageFromStack(pattern, projectors_, projector));
   Shot shot = shoot(encoded, exposures, progress, meanwhile);
   HdrFrame frame = mergeBracket(shot, linearization_.cameras, cameras_);
+  overexposed_ = 0;
 
   for (std::size_t shorter = exposures.back() + 1; shorter < linearization_.exposures.size(); ++shorter) {
     if (!needsShorter(frame, demands)) break;
+    ++overexposed_;
     Shot again = shoot(encoded, {shorter}, progress, {});
     shot.frames.push_back(std::move(again.frames.front()));
     frame = mergeBracket(shot, linearization_.cameras, cameras_);

@@ -39,6 +39,9 @@ class Photographer {
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }
 
+  /// How often the last photograph was taken again because some pixel that is needed was overexposed.
+  int overexposed() const { return overexposed_; }
+
   /// Standard deviation of one camera pixel's radiance at an exposure of the list.
   double deviation(std::size_t row, double radiance, std::size_t exposure) const;
 
@@ -58,6 +61,7 @@ class Photographer {
   Rasters projectors_;
   std::vector<std::uint8_t> cameraOf_;  // per row
   double contradiction_ = 0.0;
+  int overexposed_ = 0;
   std::vector<double> saturation_;  // per camera: linear signal that no channel should reach
 };
 

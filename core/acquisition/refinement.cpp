@@ -49,7 +49,9 @@ class Division {
       std::size_t end = first;
       while (end < frames_.size() && frames_[end].colour == frames_[first].colour) ++end;
       std::shared_ptr<ColourClass> blocks;
+      int begun = watch_.shots();
       for (int round = 0; round == 0 || (round < 3 && blocks->contradictsParents()); ++round) {
+        if (round > 0) watch_.contradicted(begun, static_cast<int>(end - first));
         for (std::size_t frame = first; frame < end; ++frame) {
           blocks = take(frame);
           if (round == 0)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -12,10 +13,8 @@
 namespace relucent {
 namespace {
 
-// Exposures of one pattern may contradict each other by this much: their times are known to some per mille.
-constexpr double bracketLimit = 0.03;
 // Total light of equal patterns may differ by this much from round to round, drift taken out.
-constexpr double flickerLimit = 0.01;
+constexpr double roundsLimit = 0.01;
 // Mean squared deviation of a new black from e in units of both variances, above which e has changed; noise
 // models are right to 10 or 20 %.
 constexpr double changedBlack = 1.4;
@@ -63,14 +62,16 @@ void join(HdrFrame& into, const HdrFrame& other) {
 }  // namespace
 
 Watch::Watch(Photographer& photographer, ShotTaker& shots, References& references,
-             const AcquisitionSettings& settings, Decisions& decisions)
+             const AcquisitionSettings& settings, Decisions& decisions, AcquisitionObserver& observer)
     : photographer_(photographer),
       shots_(shots),
       references_(references),
       settings_(settings),
-      decisions_(decisions) {}
+      decisions_(decisions),
+      observer_(observer) {}
 
 Check Watch::photographCheck(const Progress& progress) {
+  beginPhotograph();
   HdrFrame black = photographer_.takeAll(relucent::black(projectors()), progress);
   inspectBracket();
   HdrFrame light = photographer_.takeAll(referencePattern(projectors()), progress);
@@ -80,7 +81,7 @@ Check Watch::photographCheck(const Progress& progress) {
 
 void Watch::begin(const Progress& progress) {
   trusted_ = 0;
-  if (references_.flicker > flickerLimit)
+  if (references_.flicker > roundsLimit)
     handle(flickerAlarm(references_.flicker, "every photograph before the light transport is"), 0);
   for (std::size_t projector = 0; projector < projectors().devices(); ++projector) {
     Stack pattern = referencePattern(projectors(), projector);
@@ -90,7 +91,7 @@ void Watch::begin(const Progress& progress) {
   }
   first_ = photographCheck(progress);
   last_ = beforeLast_ = {shots_.shots(), 1.0};
-  if (auto alarm = inspect(first_, first_, references_, cameras(), 1.0, settings_)) handle(*alarm, 0);
+  inspectCheck(first_, 1.0, 0);
   follow(first_);
   trusted_ = shots_.shots();
 }
@@ -98,9 +99,25 @@ void Watch::begin(const Progress& progress) {
 void Watch::check(const Progress& progress) {
   if (shots_.shots() == trusted_) return;
   Check now = photographCheck(progress);
-  if (auto alarm = inspect(now, first_, references_, cameras(), power(), settings_)) handle(*alarm, trusted_);
+  inspectCheck(now, power(), trusted_);
   follow(now);
   trusted_ = shots_.shots();
+}
+
+void Watch::inspectCheck(const Check& now, double expectedPower, int doubtful) {
+  std::optional<Alarm> alarm = inspect(now, first_, references_, cameras(), expectedPower, settings_);
+  if (isNew()) {
+    Reading reading = readingOf(now, first_, references_, cameras(), expectedPower);
+    reading.shot = shots_.shots();
+    reading.flicker = std::exchange(flicker_, 0.0);
+    if (alarm) reading.alarm = alarm->kind;
+    observer_.checked(reading);
+  }
+  if (alarm) handle(*alarm, doubtful);
+}
+
+void Watch::contradicted(int shot, int patterns) {
+  if (isNew()) observer_.takenAgain({shot, patterns, RetakeReason::contradiction});
 }
 
 void Watch::handle(const Alarm& alarm, int doubtful) {
@@ -116,6 +133,7 @@ void Watch::handle(const Alarm& alarm, int doubtful) {
   if (!decisions_.handler)
     throw Error(ErrorKind::device, alarm.what, alarm.advice + " by resuming the calibration; " + alarm.safe,
                 "light transport");
+  observer_.takenAgain({doubtful, shot - doubtful, RetakeReason::alarm, alarm.kind});
   throw BeginAgain();
 }
 
@@ -125,7 +143,8 @@ void Watch::checkIfDue(const Progress& progress) {
 
 void Watch::inspectBracket() {
   double apart = photographer_.contradiction();
-  if (apart < bracketLimit) return;
+  flicker_ = std::max(flicker_, apart);
+  if (apart < reading_limit::flicker) return;
   handle(flickerAlarm(apart, "every photograph up to the check before is"), trusted_);
 }
 
@@ -158,13 +177,18 @@ HdrFrame Watch::lightOf(HdrFrame frame) const {
 HdrFrame Watch::light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
                       const Meanwhile& meanwhile) {
   checkIfDue(progress);
+  beginPhotograph();
+  int shot = shots();
   HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
+  if (int again = photographer_.overexposed(); again > 0 && isNew())
+    observer_.takenAgain({shot, again, RetakeReason::overexposed});
   inspectBracket();
   return lightOf(std::move(frame));
 }
 
 HdrFrame Watch::lightOfAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile) {
   checkIfDue(progress);
+  beginPhotograph();
   HdrFrame frame = photographer_.takeAll(pattern, progress, meanwhile);
   inspectBracket();
   return lightOf(std::move(frame));

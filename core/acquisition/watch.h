@@ -4,6 +4,7 @@
 #include <set>
 
 #include "acquisition/inspection.h"
+#include "acquisition/observer.h"
 #include "acquisition/photographer.h"
 
 namespace relucent {
@@ -23,13 +24,14 @@ struct KeepAndStop {};
 /// reference picture are photographed:
 /// - e becomes the mean of all blacks so far or, where it has changed, the new one;
 /// - the lamp's power follows from the reference picture, continued as a straight line until the next check;
-/// - sentinels compare the view with the first one, see inspection.h. On an alarm the handler is asked.
+/// - sentinels compare the view with the first one, see inspection.h. On an alarm the handler is asked;
+/// - the observer is told of both.
 /// Frames come out as light: less e, in units of the lamp's power at the first check.
 class Watch {
  public:
   /// Keeps references; e in `references` follows the checks.
   Watch(Photographer& photographer, ShotTaker& shots, References& references,
-        const AcquisitionSettings& settings, Decisions& decisions);
+        const AcquisitionSettings& settings, Decisions& decisions, AcquisitionObserver& observer);
 
   const Rasters& cameras() const { return photographer_.cameras(); }
   const Rasters& projectors() const { return photographer_.projectors(); }
@@ -45,6 +47,11 @@ class Watch {
                  const Meanwhile& meanwhile = {});
   HdrFrame lightOfAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile = {});
 
+  /// The next one's number.
+  int shots() const { return shots_.shots(); }
+  /// Tells the observer that patterns from `shot` on, whose light does not add up, are photographed again.
+  void contradicted(int shot, int patterns);
+
   /// Power of the lamp now, relative to the first check.
   double power() const;
 
@@ -54,11 +61,17 @@ class Watch {
     double value = 1.0;
   };
   Check photographCheck(const Progress& progress);
+  /// Looks at a check, tells the observer, and handles what it found wrong with the shots from `doubtful` on.
+  void inspectCheck(const Check& now, double expectedPower, int doubtful);
   /// Asks what to do about an alarm of the shots from `doubtful` on.
   void handle(const Alarm& alarm, int doubtful);
   void checkIfDue(const Progress& progress);
   /// Exposures of one pattern that contradict each other are an alarm of their own.
   void inspectBracket();
+  /// What comes next is the last photograph.
+  void beginPhotograph() { photographedBefore_ = shots_.times().shots; }
+  /// The last photograph was taken now and not read from the log.
+  bool isNew() const { return shots_.times().shots > photographedBefore_; }
   void follow(const Check& check);
   HdrFrame lightOf(HdrFrame frame) const;
 
@@ -67,9 +80,12 @@ class Watch {
   References& references_;
   const AcquisitionSettings& settings_;
   Decisions& decisions_;
+  AcquisitionObserver& observer_;
   Check first_;
   Power last_, beforeLast_;
-  int trusted_ = 0;  // shots before this one have been confirmed by a check
+  int trusted_ = 0;             // shots before this one have been confirmed by a check
+  int photographedBefore_ = 0;  // the last photograph, of those not read from the log
+  double flicker_ = 0.0;        // the largest contradiction since the last check
 };
 
 }  // namespace relucent

@@ -51,12 +51,20 @@ Linearization measureLinearization(CalibrationFolder& folder, Rig& rig, Progress
 
 Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
                                const AlarmHandler& handler, Progress& progress) {
+  AcquisitionObserver nobody;
+  return measureAcquisition(folder, rig, linearization, handler, nobody, progress);
+}
+
+Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
+                               const AlarmHandler& handler, AcquisitionObserver& observer,
+                               Progress& progress) {
   std::string inputs = acquisitionFingerprint(folder);
   if (auto done = folder.find(stage::acquisition, inputs)) return loadAcquisition(*done);
   Stopwatch watch;
   ShotJournal journal(folder.shotFolder());
   ShotTaker shots(rig, journal, stage::acquisition);
-  Acquisition acquisition = acquire(shots, linearization, settingsOf(folder).acquisition, handler, progress);
+  Acquisition acquisition =
+      acquire(shots, linearization, settingsOf(folder).acquisition, handler, observer, progress);
   storeAcquisition(folder, inputs, acquisition, cost(watch, &shots));
   return acquisition;
 }

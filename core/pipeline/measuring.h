@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/acquisition.h"
+#include "acquisition/observer.h"
 #include "calibration/calibration_folder.h"
 #include "linearization/linearization.h"
 #include "pipeline/pipeline.h"
@@ -21,6 +21,10 @@ Linearization measureLinearization(CalibrationFolder& folder, Rig& rig, Progress
 /// Throws: as acquire() and storeAcquisition().
 Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
                                const AlarmHandler& handler, Progress& progress);
+/// The same with somebody who looks on.
+Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
+                               const AlarmHandler& handler, AcquisitionObserver& observer,
+                               Progress& progress);
 /// Chooses the windows' ridge and keeps it, unless that is done. Throws: as invert(); Error{disk}.
 void measureInverse(CalibrationFolder& folder, const MeasuredVenue& venue, Progress& progress);
 

@@ -19,12 +19,13 @@ class Overlay {
 QStringList overlayLines(const OverlayState& state) {
   const PlayerStatistics& now = state.statistics;
   auto number = [](double value) { return QLocale().toString(value, 'f', 1); };
-  QStringList lines{Overlay::tr("%1 frames a second, %2 ms a frame, %3 of %4 late")
-                        .arg(number(now.framesPerSecond), number(1e3 * now.frameSeconds))
-                        .arg(now.late)
-                        .arg(now.frames),
-                    state.compensated
-                        ? Overlay::tr("compensated, %n step(s), %1 % out of reach", nullptr, now.steps)
+  QStringList lines{
+      now.framesPerSecond > 0.0 ? Overlay::tr("%1 frames a second, %2 ms a frame, %3 of %4 late")
+                                      .arg(number(now.framesPerSecond), number(1e3 * now.frameSeconds))
+                                      .arg(now.late)
+                                      .arg(now.frames)
+                                : Overlay::tr("still picture"),
+      state.compensated ? Overlay::tr("compensated, %n step(s), %1 % out of reach", nullptr, now.steps)
                               .arg(number(100.0 * now.clipped))
                         : Overlay::tr("not compensated")};
   if (state.frozen) lines.append(Overlay::tr("frozen"));

@@ -12,6 +12,8 @@ namespace relucent {
 namespace {
 
 constexpr ContentTime standsStill{500'000};
+// For whoever looks at the figures: pictures that follow each other more slowly are stills.
+constexpr ContentTime stillFor{2'000'000};
 constexpr int overlayInterval = 500;      // milliseconds
 constexpr double windowSeconds = 5.0;     // over which the statistics are taken
 constexpr std::size_t mostRecent = 1500;  // frames in that time, at the quickest displays' rates
@@ -110,7 +112,7 @@ void Player::frameReady() {
       ++frames_;
       late_ += !last_.request.thorough &&
                1e-9 * static_cast<double>(begun_.nsecsElapsed()) > refreshSeconds(windows_);
-      recent_.emplace_back(microseconds(running_), last_.rendered.seconds);
+      recent_.push_back({microseconds(running_), last_.rendered.seconds, last_.content});
       while (recent_.size() > mostRecent) recent_.pop_front();
       present();
     }
@@ -143,15 +145,20 @@ PlayerStatistics Player::statistics() const {
   result.steps = last_.rendered.steps;
   ContentTime now = microseconds(running_);
   double seconds = 0.0;
-  int count = 0;
-  for (const auto& [when, took] : recent_) {
-    if (static_cast<double>((now - when).count()) > 1e6 * windowSeconds) continue;
-    seconds += took;
+  int count = 0, changes = 0;
+  const Shown* before = nullptr;
+  for (const Shown& frame : recent_) {
+    if (static_cast<double>((now - frame.when).count()) > 1e6 * windowSeconds) continue;
+    seconds += frame.seconds;
     ++count;
+    changes += before != nullptr && before->content != frame.content;
+    before = &frame;
   }
   if (count > 0) result.frameSeconds = seconds / count;
   double span = std::min(windowSeconds, 1e-6 * static_cast<double>(now.count()));
-  if (span > 0.0) result.framesPerSecond = count / span;
+  // One picture that took another's place, or is computed anew, is no film.
+  bool moves = changes > 1 && !clock_.isPaused() && clock_.time() - last_.since < stillFor;
+  if (span > 0.0 && moves) result.framesPerSecond = count / span;
   return result;
 }
 

@@ -74,6 +74,12 @@ class Player : public QObject {
     RenderRequest request;
     RenderedFrame rendered;
   };
+  /// A frame that went to the windows.
+  struct Shown {
+    ContentTime when{0};  // on a clock that never rests
+    double seconds = 0.0;
+    std::uint64_t content = 0;
+  };
 
   void next();
   void beginFrame();
@@ -94,7 +100,7 @@ class Player : public QObject {
   QFutureWatcher<Outcome<Frame>> working_;
   QElapsedTimer begun_;
   Frame last_;
-  std::deque<std::pair<ContentTime, double>> recent_;  // when a frame was shown, on a clock that never rests
+  std::deque<Shown> recent_;
   QElapsedTimer running_;
   std::uint64_t frames_ = 0, late_ = 0;
 };

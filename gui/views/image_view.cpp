@@ -16,6 +16,7 @@ namespace relucent {
 namespace {
 
 constexpr double barWidth = 76.0;
+constexpr double besideDivider = 10.0, dividerGrip = 60.0;  // the latter at the lower end
 
 const Colours& dark() {
   return colours(Look::dark);
@@ -106,8 +107,22 @@ void ImageView::paintDivider(QPainter& painter) {
   painter.drawEllipse(QPointF(x, frame().bottom() - 40.0), 13.0, 13.0);
   drawIcon(painter, Icon::back, QRectF(x - 13.0, frame().bottom() - 47.0, 14.0, 14.0), dark().text);
   drawIcon(painter, Icon::next, QRectF(x - 1.0, frame().bottom() - 47.0, 14.0, 14.0), dark().text);
-  drawTag(painter, {x - 10.0, frame().top() + 10.0}, leftText_, dark().secondary, true);
-  drawTag(painter, {x + 10.0, frame().top() + 10.0}, rightText_, dark().text);
+  drawTag(painter, dividerTag(false).topLeft(), leftText_, dark().secondary);
+  drawTag(painter, dividerTag(true).topLeft(), rightText_, dark().text);
+}
+
+QRectF ImageView::dividerTag(bool right) const {
+  QSizeF size = tagSize(right ? rightText_ : leftText_);
+  double x = frame().left() + divider_ * frame().width();
+  double left = right ? x + besideDivider : x - besideDivider - size.width();
+  // At the top, or below what is in the way there.
+  std::vector<QPointF> places;
+  double y = frame().top() + besideDivider;
+  do {
+    places.emplace_back(left, y);
+    y += size.height() + 4.0;
+  } while (y + size.height() < frame().bottom() - dividerGrip);
+  return tagBox(size, places, keptFree());
 }
 
 }  // namespace relucent

@@ -25,8 +25,12 @@ class ImageView : public PlaneView {
   void setCompared(const QImage& right, const QString& leftText, const QString& rightText);
   double divider() const { return divider_; }
   void setDivider(double share);
+  /// Where the words at the left or right of the divider stand.
+  QRectF dividerTag(bool right) const;
 
  protected:
+  /// What no words may lie on.
+  virtual std::vector<QRectF> keptFree() const { return {}; }
   QSize planeSize() const override { return picture_.size(); }
   QRectF frame() const override;
   void paintPlane(QPainter& painter) override;

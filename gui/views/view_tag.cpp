@@ -12,6 +12,15 @@ QSizeF tagSize(const QString& text) {
   return QFontMetricsF(typeOf(type::note, QFont::DemiBold)).size(0, text) + QSizeF(20.0, 10.0);
 }
 
+QRectF tagBox(QSizeF size, const std::vector<QPointF>& places, const std::vector<QRectF>& kept) {
+  for (QPointF place : places) {
+    QRectF box(place, size);
+    if (std::none_of(kept.begin(), kept.end(), [&](const QRectF& area) { return area.intersects(box); }))
+      return box;
+  }
+  return {places.front(), size};
+}
+
 void drawTag(QPainter& painter, QPointF place, const QString& text, const QColor& colour, bool rightAligned) {
   painter.setFont(typeOf(type::note, QFont::DemiBold));
   QSizeF size = tagSize(text);

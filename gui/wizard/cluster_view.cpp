@@ -108,8 +108,6 @@ class ClusterStage : public QWidget {
     form_->setEnabled(error_->canRise());
     QString median = percentText(result->statistics.errorMedian);
     error_->setAccessibleName(ClusterPage::tr("Error map, median %1").arg(median));
-    errorCard_->setSubtitle(
-        ClusterPage::tr("median %1, 95 % below %2").arg(median, percentText(result->statistics.errorP95)));
     outline();
     sizes_->setBars(barsOf(result->sizes));
     sizes_->setCut(model_.settings().mostUnknowns);
@@ -183,7 +181,8 @@ QWidget* inspectorOf(ClusterPage& model) {
   auto* cut = new ValueRow(ClusterPage::tr("Cut by the cap"));
   auto* kept = new ValueRow(ClusterPage::tr("Light kept in clusters"));
   auto* error = new ValueRow(ClusterPage::tr("Median error"));
-  for (ValueRow* row : {clusters, cut, kept, error}) column->addWidget(row);
+  auto* most = new ValueRow(ClusterPage::tr("95 % of pixels below"));
+  for (ValueRow* row : {clusters, cut, kept, error, most}) column->addWidget(row);
   auto* normal = new Note(Note::Kind::information);
   normal->setText(
       ClusterPage::tr("An error of 70 to 80 % is normal here."),
@@ -223,6 +222,7 @@ QWidget* inspectorOf(ClusterPage& model) {
     cut->setValue(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap)));
     kept->setValue(percentText(s.keptLight));
     error->setValue(percentText(s.errorMedian));
+    most->setValue(percentText(s.errorP95));
     double joined =
         s.litProjectorPixels > 0 ? s.largestBeforeCap / static_cast<double>(s.litProjectorPixels) : 0.0;
     percolated->setVisible(joined > 0.2);

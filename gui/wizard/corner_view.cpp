@@ -13,7 +13,8 @@
 namespace relucent {
 namespace {
 
-constexpr double handleRadius = 7.0, grip = 14.0, dividerStep = 0.1;
+constexpr double handleRadius = 7.0, activeRadius = 11.0, grip = 14.0, dividerStep = 0.1;
+constexpr double fromEdge = 12.0;
 constexpr int corners = 4;
 
 }  // namespace
@@ -51,6 +52,25 @@ void CornerView::activate(int corner) {
 QPointF CornerView::handle(int corner) const {
   const auto& place = (dragged_ ? *dragged_ : *corners_)[static_cast<std::size_t>(corner)];
   return widgetFromPicture({place[0], place[1]});
+}
+
+QRectF CornerView::handleArea(int corner) const {
+  QPointF reach(activeRadius, activeRadius);
+  return {handle(corner) - reach, handle(corner) + reach};
+}
+
+std::vector<QRectF> CornerView::keptFree() const {
+  std::vector<QRectF> kept;
+  for (int corner = 0; corners_ && corner < corners; ++corner) kept.push_back(handleArea(corner));
+  return kept;
+}
+
+QRectF CornerView::cornerTag() const {
+  QSizeF size = tagSize(cornerText(active_));
+  double right = width() - fromEdge - size.width(), lower = height() - fromEdge - size.height();
+  std::vector<QRectF> kept = keptFree();
+  for (bool atRight : {false, true}) kept.push_back(dividerTag(atRight));
+  return tagBox(size, {{fromEdge, lower}, {right, lower}, {fromEdge, fromEdge}, {right, fromEdge}}, kept);
 }
 
 int CornerView::handleAt(QPointF place) const {
@@ -163,9 +183,9 @@ void CornerView::paintEvent(QPaintEvent* event) {
     if (corner != active_) continue;
     painter.setPen(QPen(dark.text, 2.0));
     painter.setBrush(Qt::NoBrush);
-    painter.drawEllipse(handle(corner), handleRadius + 4.0, handleRadius + 4.0);
+    painter.drawEllipse(handle(corner), activeRadius, activeRadius);
   }
-  if (active_ >= 0) drawTag(painter, {12.0, height() - 38.0}, cornerText(active_), dark.text);
+  if (active_ >= 0) drawTag(painter, cornerTag().topLeft(), cornerText(active_), dark.text);
 }
 
 }  // namespace relucent

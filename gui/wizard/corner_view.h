@@ -23,6 +23,10 @@ class CornerView : public ImageView {
   int active() const { return active_; }
   /// "Top left corner, 176, 92."
   QString cornerText(int corner) const;
+  /// Where the active corner's words stand.
+  QRectF cornerTag() const;
+  /// What a corner's handle takes.
+  QRectF handleArea(int corner) const;
 
  Q_SIGNALS:
   /// The user wants them there: within the picture, perhaps crossed.
@@ -31,6 +35,7 @@ class CornerView : public ImageView {
   void released();
 
  protected:
+  std::vector<QRectF> keptFree() const override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;

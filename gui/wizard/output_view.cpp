@@ -46,7 +46,7 @@ class PlaybackCard : public Card {
  private:
   void refresh() {
     PlayerStatistics s = page_.projection().statistics();
-    bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 1.0;
+    bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 0.0;
     QString none = QString::fromUtf8("–");
     rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);
     time_->setValue(open && s.frameSeconds > 0.0
@@ -198,7 +198,7 @@ class OutputStage : public QWidget {
     PlayerStatistics s = page_.projection().statistics();
     if (!page_.isOpen() || s.frames == 0) return {};
     QString clipped = OutputPage::tr("%1 out of reach").arg(percentText(s.clipped));
-    if (s.framesPerSecond <= 1.0) return OutputPage::tr("still picture, %1").arg(clipped);
+    if (!(s.framesPerSecond > 0.0)) return OutputPage::tr("still picture, %1").arg(clipped);
     return OutputPage::tr("%1 fps, %2 ms, %3")
         .arg(decimalText(s.framesPerSecond, 1), decimalText(1000.0 * s.frameSeconds, 1), clipped);
   }

@@ -5,14 +5,40 @@
 #include <QShortcut>
 #include <algorithm>
 
+#include "base/error.h"
 #include "theme/theme.h"
 #include "wizard/identify_overlay.h"
 #include "wizard/tile.h"
 #include "wizard/venue_page.h"
 
 namespace relucent {
+namespace {
+
+constexpr QSize largestTile(320, 200);
+
+}  // namespace
+
+std::vector<QSize> drawnToScale(const std::vector<Size>& screens, QSize room, int gap, QSize most) {
+  int across = 0, widest = 1, highest = 1;
+  for (Size screen : screens) {
+    require(screen.width > 0 && screen.height > 0, "a screen of {}x{} pixels", screen.width, screen.height);
+    across += screen.width;
+    widest = std::max(widest, screen.width);
+    highest = std::max(highest, screen.height);
+  }
+  double free = room.width() - gap * (static_cast<double>(screens.size()) - 1.0);
+  double scale =
+      std::min({free / std::max(1, across), room.height() / static_cast<double>(highest),
+                most.width() / static_cast<double>(widest), most.height() / static_cast<double>(highest)});
+  std::vector<QSize> drawn;
+  for (Size screen : screens)
+    drawn.emplace_back(std::max(1, static_cast<int>(scale * screen.width)),
+                       std::max(1, static_cast<int>(scale * screen.height)));
+  return drawn;
+}
 
 ScreenList::ScreenList(Chosen chosen) : tell_(std::move(chosen)), row_(new QHBoxLayout(this)) {
+  row_->setContentsMargins(0, 0, 0, 0);
   row_->setSpacing(space::gap);
   connect(qApp, &QGuiApplication::screenAdded, this, [this] { fill(); });
   connect(qApp, &QGuiApplication::screenRemoved, this, [this] { fill(); });
@@ -24,17 +50,40 @@ void ScreenList::fill() {
     delete item->widget();
     delete item;
   }
+  tiles_.clear();
+  row_->addStretch(1);
   const std::vector<ScreenChoice> choices = screenChoices();
-  for (const ScreenChoice& choice : choices) row_->addWidget(tileOf(choice));
+  for (const ScreenChoice& choice : choices) add(tileOf(choice), choice.size);
   const bool there = std::any_of(choices.begin(), choices.end(), [this](const ScreenChoice& choice) {
     return chosen_ && choice.display == chosen_->display;
   });
-  if (!chosen_ || there) return;
-  auto* gone =
-      new Tile(Icon::warning, chosen_->title, VenuePage::tr("Unplugged. Plug it in or choose another."));
-  gone->setDashed(true);
-  gone->setEnabled(false);
-  row_->addWidget(gone);
+  if (chosen_ && !there) {
+    auto* gone =
+        new Tile(Icon::warning, chosen_->title, VenuePage::tr("Unplugged. Plug it in or choose another."));
+    gone->setDashed(true);
+    gone->setEnabled(false);
+    add(gone, chosen_->size);
+  }
+  row_->addStretch(1);
+  draw();
+}
+
+void ScreenList::add(Tile* tile, Size screen) {
+  row_->addWidget(tile, 0, Qt::AlignVCenter);
+  tiles_.emplace_back(tile, screen);
+}
+
+void ScreenList::draw() {
+  std::erase_if(tiles_, [](const auto& entry) { return entry.first.isNull(); });
+  std::vector<Size> screens;
+  for (const auto& [tile, screen] : tiles_) screens.push_back(screen);
+  std::vector<QSize> drawn = drawnToScale(screens, size(), space::gap, largestTile);
+  for (std::size_t i = 0; i < tiles_.size(); ++i) tiles_[i].first->setLargest(drawn[i]);
+}
+
+void ScreenList::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  draw();
 }
 
 Tile* ScreenList::tileOf(const ScreenChoice& choice) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <QHBoxLayout>
+#include <QPointer>
 #include <QWidget>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "theme/controls.h"
 #include "wizard/screen_choice.h"
@@ -13,19 +15,29 @@ namespace relucent {
 
 class Tile;
 
-/// A button for each screen of the desktop, with its size; follows them as they come and go.
+/// Screens as a person would draw them side by side: to scale with each other, all within the room, none
+/// larger than `most`.  Contract: no screen is empty.
+std::vector<QSize> drawnToScale(const std::vector<Size>& screens, QSize room, int gap, QSize most);
+
+/// A button for each screen of the desktop in its shape; follows them as they come and go.
 class ScreenList : public QWidget {
  public:
   using Chosen = std::function<void(const ScreenChoice&)>;
   explicit ScreenList(Chosen chosen);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void fill();
+  void add(Tile* tile, Size screen);
+  void draw();
   Tile* tileOf(const ScreenChoice& choice);
   void dropGone();
 
   Chosen tell_;
   QHBoxLayout* row_;
+  std::vector<std::pair<QPointer<Tile>, Size>> tiles_;
   std::optional<ScreenChoice> chosen_;
 };
 

@@ -55,14 +55,19 @@ int Tile::sentenceHeight(int width) const {
   return std::max(2 * metrics.height(), metrics.boundingRect(room, Qt::TextWordWrap, sentence_).height()) + 4;
 }
 
-int Tile::heightForWidth(int width) const {
-  int name = QFontMetrics(nameFont()).height();
+int Tile::wordsHeight(int width) const {
   int above = icon_ ? belowIcon : leastPicture;
+  return above + QFontMetrics(nameFont()).height() + underName + sentenceHeight(width) + belowSentence;
+}
+
+int Tile::heightForWidth(int width) const {
   int least = icon_ ? sizeHint().height() : minimumSizeHint().height();
-  return std::max(least, above + name + underName + sentenceHeight(width) + belowSentence);
+  if (largest_.isValid()) least = std::min(width, largest_.width()) * largest_.height() / largest_.width();
+  return std::max(least, wordsHeight(width));
 }
 
 QSize Tile::sizeHint() const {
+  if (largest_.isValid()) return largest_;
   return {std::max(280, minimumSizeHint().width()), icon_ ? 148 : 240};
 }
 
@@ -72,6 +77,13 @@ QSize Tile::minimumSizeHint() const {
   int word = QFontMetrics(typeOf(type::note)).boundingRect(narrow, Qt::TextWordWrap, sentence_).width();
   int widest = std::max(word, QFontMetrics(nameFont()).horizontalAdvance(text()));
   return {std::max(140, widest + besides() + 1), icon_ ? 120 : 160};
+}
+
+void Tile::setLargest(QSize size) {
+  int width = std::max(size.width(), minimumSizeHint().width());
+  largest_ = {width, std::max(size.height(), wordsHeight(width))};
+  setMaximumSize(largest_);
+  updateGeometry();
 }
 
 void Tile::setDashed(bool dashed) {

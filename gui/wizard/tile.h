@@ -19,6 +19,9 @@ class Tile : public QAbstractButton {
   /// Of something that is not there now.
   void setDashed(bool dashed);
   bool isDashed() const { return dashed_; }
+  /// Of what is drawn in its own shape: never larger than this, smaller in the same shape where there is less
+  /// room, as long as its words have theirs.
+  void setLargest(QSize size);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
   /// As high as its sentence is long.
@@ -36,9 +39,12 @@ class Tile : public QAbstractButton {
   /// What stands free at both sides of its words.
   int besides() const;
   int sentenceHeight(int width) const;
+  /// That all its words need.
+  int wordsHeight(int width) const;
   std::optional<Icon> icon_;
   QImage picture_;
   QString sentence_;
+  QSize largest_;
   bool dashed_ = false;
 };
 

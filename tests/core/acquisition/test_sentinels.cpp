@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "acquisition/observer.h"
 #include "acquisition_run.h"
 #include "base/error.h"
 #include "venue/device_faults.h"
@@ -32,9 +33,13 @@ class FaultyVenue {
   }
 
   Acquisition run(const AlarmHandler& handler, ShotLog& log) {
+    AcquisitionObserver nobody;
+    return run(handler, log, nobody);
+  }
+  Acquisition run(const AlarmHandler& handler, ShotLog& log, AcquisitionObserver& observer) {
     Rig rig = venue_.rig(faults);
     ShotTaker shots(rig, log, stage);
-    return acquire(shots, linearization_, acquisition_, handler, progress_);
+    return acquire(shots, linearization_, acquisition_, handler, observer, progress_);
   }
   /// Without faults, once.
   const Acquisition& sound() {
@@ -76,6 +81,16 @@ DeviceFault fault(FaultKind kind, int first, double amount = 0.0, double degrees
   fault.degrees = degrees;
   return fault;
 }
+
+/// Keeps what it is told.
+class Listening : public AcquisitionObserver {
+ public:
+  void checked(const Reading& reading) override { readings.push_back(reading); }
+  void takenAgain(const Retake& retake) override { retakes.push_back(retake); }
+
+  std::vector<Reading> readings;
+  std::vector<Retake> retakes;
+};
 
 DeviceFault handOver(int first) {
   DeviceFault hand = fault(FaultKind::hand, first);
@@ -173,6 +188,88 @@ class TestSentinels : public QObject {
     QVERIFY2(std::abs(rise / 0.0015 - 1.0) < 0.2, qPrintable(QString::number(rise)));
     QVERIFY2(a.verificationError < 1.2 * venue_->sound().verificationError,
              qPrintable(QString::number(a.verificationError)));
+  }
+
+  /// Told as they are taken, readings rise where the light does, in proportion.
+  void readingsFollowTheRoomLight() {
+    std::vector<double> rises;
+    for (double amount : {0.0008, 0.0016}) {
+      venue_->faults->faults = {fault(FaultKind::ambient, 60, amount)};
+      NoShotLog log;
+      Listening listening;
+      venue_->run({}, log, listening);
+      QVERIFY(listening.retakes.empty() && listening.readings.size() > 2);
+      double before = 0.0, after = 0.0;
+      int earlier = -1;
+      for (const Reading& reading : listening.readings) {
+        QVERIFY(reading.shot > earlier && !reading.alarm);
+        earlier = reading.shot;
+        // The light is followed, not taken for the lamp's nor for a movement.
+        QVERIFY2(std::abs(reading.lamp - 1.0) < 0.01, qPrintable(QString::number(reading.lamp)));
+        QVERIFY2(reading.view < 0.03, qPrintable(QString::number(reading.view)));
+        QVERIFY2(reading.flicker < reading_limit::flicker, qPrintable(QString::number(reading.flicker)));
+        (reading.shot <= 60 ? before : after) = reading.roomLight - reading.roomLightAtFirst;
+      }
+      QVERIFY2(std::abs(before) < 0.1 * after, qPrintable(QString("%1, %2").arg(before).arg(after)));
+      const Reading& last = listening.readings.back();
+      QVERIFY(std::abs(last.roomLight - last.roomLightExpected) < 0.1 * after);
+      rises.push_back(after);
+    }
+    // Shot noise of the blacks, averaged over 5000 values, is far below.
+    QVERIFY2(std::abs(rises[1] / rises[0] - 2.0) < 0.1, qPrintable(QString::number(rises[1] / rises[0])));
+  }
+
+  /// An alarm's reading is beyond the limit; what it made doubtful is told as taken again, what was read from
+  /// the log is not told twice, and looking on changes nothing.
+  void anAlarmIsTold() {
+    venue_->faults->faults = {fault(FaultKind::ambient, 60, 0.05)};
+    MemoryLog log;
+    Listening listening;
+    Acquisition a = venue_->run(
+        [&](const Alarm&) {
+          venue_->faults->faults.clear();
+          return Answer::retry;
+        },
+        log, listening);
+    // Before the check that found it, the light contradicted what was seen without it.
+    auto isAlarm = [](const Retake& retake) { return retake.reason == RetakeReason::alarm; };
+    QCOMPARE(std::count_if(listening.retakes.begin(), listening.retakes.end(), isAlarm), 1);
+    QVERIFY(isAlarm(listening.retakes.back()));
+    const Retake& retake = listening.retakes.back();
+    QVERIFY(retake.alarm == AlarmKind::ambientChanged);
+    QVERIFY(retake.shot <= 60 && retake.shot + retake.patterns > 60);
+    int sound = 0, alarms = 0;
+    for (const Reading& reading : listening.readings) {
+      double off = reading.roomLight - reading.roomLightExpected;
+      QCOMPARE(off > reading_limit::roomLight, reading.alarm.has_value());
+      if (reading.alarm) {
+        QVERIFY(reading.alarm == AlarmKind::ambientChanged);
+        QCOMPARE(reading.shot, retake.shot + retake.patterns);
+        ++alarms;
+      } else {
+        QVERIFY(reading.shot > sound);
+        sound = reading.shot;
+      }
+    }
+    QCOMPARE(alarms, 1);
+    QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+  }
+
+  /// A flash between two checks contradicts what was seen before.
+  void aContradictionIsTold() {
+    DeviceFault flash = handOver(80);
+    flash.last = 81;
+    flash.kind = FaultKind::flash;
+    flash.amount = 20.0;
+    venue_->faults->faults = {flash};
+    NoShotLog log;
+    Listening listening;
+    venue_->run([](const Alarm&) { return Answer::skip; }, log, listening);
+    auto isIt = [](const Retake& retake) {
+      return retake.reason == RetakeReason::contradiction && retake.shot <= 81 &&
+             retake.shot + retake.patterns > 80;
+    };
+    QVERIFY(std::any_of(listening.retakes.begin(), listening.retakes.end(), isIt));
   }
 
   void skippingGoesOn() {

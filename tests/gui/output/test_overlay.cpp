@@ -17,6 +17,12 @@ class TestOverlay : public QObject {
     QVERIFY(!text.contains("frozen") && !text.contains("chart"));
   }
 
+  void aStillPictureHasNoRate() {
+    QString text = overlayLines({{0.0, 0.0123, 0.045, 2, 7, 0}, true, false, std::nullopt}).join('\n');
+    QVERIFY2(text.contains("still picture") && !text.contains("a second"), qPrintable(text));
+    QVERIFY2(text.contains("4.5 % out of reach"), qPrintable(text));
+  }
+
   void tellsWhatWasSwitched() {
     QString text = overlayLines({{}, false, true, TestChart::ramps}).join('\n');
     QVERIFY(text.contains("not compensated") && text.contains("frozen") && text.contains("ramps"));

@@ -116,6 +116,34 @@ class TestPlayer : public QObject {
     }
   }
 
+  /// However often it is computed, in the seconds after it came too.
+  void aStillPictureHasNoFrameRate() {
+    auto player = playerOf(still());
+    renderer_->restless = true;
+    player->start();
+    QTRY_VERIFY(renderer_->rendered >= 10);
+    QCOMPARE(player->statistics().framesPerSecond, 0.0);
+    renderer_->restless = false;
+    hand_.now += 5s;  // numbers of a film's pictures that no still has
+    player->setContent(std::make_shared<Film>());
+    // One picture in place of another is no film either.
+    QTRY_COMPARE(seen(), Film::greyAt(5s).rgb());
+    QCOMPARE(player->statistics().framesPerSecond, 0.0);
+    for (auto time : {5100ms, 5200ms, 5300ms, 5400ms}) {
+      hand_.now = std::chrono::steady_clock::time_point(time);
+      QTRY_COMPARE(seen(), Film::greyAt(time).rgb());
+    }
+    QVERIFY(player->statistics().framesPerSecond > 0.0);
+    player->setFrozen(true);
+    QCOMPARE(player->statistics().framesPerSecond, 0.0);
+    player->setFrozen(false);
+    QVERIFY(player->statistics().framesPerSecond > 0.0);
+    player->setContent(still());
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    hand_.now += 3s;
+    QCOMPARE(player->statistics().framesPerSecond, 0.0);
+  }
+
   void freezingHoldsPictureAndClock() {
     auto player = playerOf(std::make_shared<Film>());
     player->start();

@@ -7,6 +7,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "wizard/acquire_page.h"
 #include "wizard/threshold_page.h"
 #include "wizard/venue_page.h"
 
@@ -126,6 +127,20 @@ class TestWizard : public QObject {
       QVERIFY(again.isOpen());
       QCOMPARE(again.path(), folder);
     }
+  }
+
+  void acquireSaysHowOftenItChecks_data() {
+    QTest::addColumn<int>("interval");
+    QTest::newRow("as it is delivered") << 40;
+    QTest::newRow("more often") << 15;
+  }
+  void acquireSaysHowOftenItChecks() {
+    QFETCH(int, interval);
+    AcquirePage page(*session_);
+    CalibrateSettings settings;
+    settings.acquisition.checkInterval = interval;
+    session_->begin(std::filesystem::path(folder_.filePath("every%1").arg(interval).toStdString()), settings);
+    QVERIFY2(page.watching().contains(QString::number(interval)), qPrintable(page.watching()));
   }
 
   void decisionsSurviveAndSettingsMakeThemStale() {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QMutex>
+#include <QWaitCondition>
+#include <optional>
+
+#include "acquisition/alarm.h"
+
+namespace relucent {
+
+/// A question of the measuring thread to the user, and its answer.
+class Asking {
+ public:
+  Answer wait() {
+    QMutexLocker lock(&guard_);
+    answer_.reset();
+    while (!answer_ && !closed_) given_.wait(&guard_);
+    return answer_.value_or(Answer::keepAndStop);
+  }
+  /// Closed, it waits for nobody.
+  void setClosed(bool closed) {
+    QMutexLocker lock(&guard_);
+    closed_ = closed;
+    given_.wakeAll();
+  }
+  void give(Answer answer) {
+    QMutexLocker lock(&guard_);
+    answer_ = answer;
+    given_.wakeAll();
+  }
+
+ private:
+  QMutex guard_;
+  QWaitCondition given_;
+  std::optional<Answer> answer_;
+  bool closed_ = false;
+};
+
+}  // namespace relucent

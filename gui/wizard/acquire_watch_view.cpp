@@ -17,16 +17,8 @@ constexpr double leastMinutes = 0.5;
 constexpr int traceHeight = 176;
 constexpr std::size_t linesTakenAgain = 4;
 
-Axis minutes() {
-  return {0.0, leastMinutes, false, AcquirePage::tr("Minutes")};
-}
-Axis roomLight() {
-  return {0.0, percent * reading_limit::roomLight, false, AcquirePage::tr("Room light, % of full light")};
-}
-
 /// All values, and some room above and below.
-Axis roomLight(const std::vector<AcquisitionTrace::Point>& points) {
-  Axis axis = roomLight();
+Axis around(const std::vector<AcquisitionTrace::Point>& points, Axis axis) {
   if (points.empty()) return axis;
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   for (const AcquisitionTrace::Point& point : points) {
@@ -66,14 +58,17 @@ QWidget* traceCard(AcquirePage& model) {
   auto* card = new Card(AcquirePage::tr("During the measurement"));
   card->setSubtitle(AcquirePage::tr("light that would spoil photographs"));
   card->setFixedHeight(traceHeight);
-  auto* chart = new LineChart(minutes(), roomLight());
+  const Axis minutes{0.0, leastMinutes, false, AcquirePage::tr("Minutes")};
+  const Axis light{0.0, percent * reading_limit::roomLight, false,
+                   AcquirePage::tr("Room light, % of full light")};
+  auto* chart = new LineChart(minutes, light);
   chart->setObjectName("room-light-chart");
   chart->setAccessibleName(AcquirePage::tr("Room light during the measurement"));
   card->body()->addWidget(chart, 1);
-  auto refresh = [&model, card, chart] {
+  auto refresh = [&model, card, chart, minutes, light] {
     const AcquisitionTrace& trace = model.trace();
     card->setVisible(model.isMeasuring() || !trace.points().empty());
-    Axis x = minutes(), y = roomLight(trace.points());
+    Axis x = minutes, y = around(trace.points(), light);
     double now = trace.seconds() / minute;
     x.high = std::max(leastMinutes, now + model.secondsLeft().value_or(0.0) / minute);
     chart->setAxes(x, y);

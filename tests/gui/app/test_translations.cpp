@@ -2,6 +2,8 @@
 // Every language says everything that the program says, with nothing lost, and is spoken as soon as it is
 // chosen. The sources' sentences are those that lupdate finds.
 #include <QDir>
+#include <QDirIterator>
+#include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -61,6 +63,22 @@ class TestTranslations : public QObject {
     sources_ = sentencesOf(all);
     QVERIFY(sources_.size() > 500);
     qInfo("%d sentences are to be translated", static_cast<int>(sources_.size()));
+  }
+
+  /// lupdate files some sentences of free functions without their namespace, where the program never looks.
+  void everyContextIsOneThatTheProgramAsksFor() {
+    QRegularExpression declared(R"(Q_DECLARE_TR_FUNCTIONS\((\w+)\))");
+    QSet<QString> known;
+    QDirIterator files(RELUCENT_SOURCE "/gui", {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories);
+    while (files.hasNext()) {
+      QFile file(files.next());
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      auto matches = declared.globalMatch(QString::fromUtf8(file.readAll()));
+      while (matches.hasNext()) known.insert(matches.next().captured(1));
+    }
+    for (const TranslatedSentence& sentence : sources_)
+      QVERIFY2(sentence.context.startsWith("relucent::") || known.contains(sentence.context),
+               qPrintable(sentence.context + ": " + sentence.source));
   }
 
   void everyLanguageIsComplete_data() {

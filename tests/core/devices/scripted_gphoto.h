@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -29,6 +30,8 @@ struct StillScript {
   int shown = 0;  // what the venue shows now: the value of photographs
   int opened = 0, closed = 0, triggered = 0, busyFor = 0;
   double exposed = 0.0;  // seconds, the last photograph
+  /// The content of a photograph's file, by its exposure; none: what scriptedRaw() reads.
+  std::function<std::vector<std::uint8_t>(double seconds)> file{};
   std::vector<std::string> changes{};
   std::optional<std::chrono::microseconds> bulbSince{};
   std::map<std::string, std::vector<std::uint8_t>> files{};  // in the camera
@@ -52,7 +55,7 @@ struct StillScript {
   }
   void make(const std::string& ending, std::uint8_t kind, std::chrono::microseconds at, int value) {
     const std::string name = "capt" + std::to_string(made++) + ending;
-    files[name] = {static_cast<std::uint8_t>(value), kind};
+    files[name] = file ? file(exposed) : std::vector<std::uint8_t>{static_cast<std::uint8_t>(value), kind};
     pending.push_back({at, name});
   }
 };

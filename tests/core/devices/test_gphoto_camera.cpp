@@ -91,6 +91,27 @@ class TestGphotoCamera : public QObject {
     QCOMPARE(venue.script->closed, venue.script->opened);
   }
 
+  /// A mode may decide what other settings can be.
+  void settingsGoBackTheLastOneFirst() {
+    Venue venue;
+    venue.open();
+    auto changed = [&](std::size_t from) {
+      std::vector<std::string> names;
+      for (std::size_t i = from; i < venue.script->changes.size(); ++i) {
+        const std::string& change = venue.script->changes[i];
+        const std::string name = change.substr(0, change.find('='));
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      }
+      return names;
+    };
+    std::vector<std::string> there = changed(0);
+    QVERIFY(there.size() > 5);
+    const std::size_t changes = venue.script->changes.size();
+    venue.camera.reset();
+    std::reverse(there.begin(), there.end());
+    QCOMPARE(changed(changes), there);
+  }
+
   void photographsAreLinearAndSayTheirTime() {
     Venue venue;
     venue.open();
@@ -258,6 +279,7 @@ class TestGphotoCamera : public QObject {
     QCOMPARE(venue.photograph(), 3);
     QCOMPARE(venue.camera->repeats(), repeats);
     QCOMPARE(venue.camera->reconnections(), reconnections);
+    QVERIFY(venue.script->files.empty());
     venue.camera.reset();
     QVERIFY(venue.script->values() == before);
   }
@@ -301,9 +323,9 @@ class TestGphotoCamera : public QObject {
     Venue venue;
     venue.open();
     QCOMPARE(venue.photograph(), 1);
-    venue.script->make(".CR2", 0, venue.script->clock, 99);
+    for (int i = 0; i < 3; ++i) venue.script->make(".CR2", 0, venue.script->clock, 99);
     QCOMPARE(venue.photograph(), 2);
-    QCOMPARE(venue.script->files.size(), std::size_t{1});  // whose owner wants it
+    QCOMPARE(venue.script->files.size(), std::size_t{3});  // whose owner wants them
   }
 
   /// A battery is changed, a card emptied, a cable plugged in again: the measurement waits and goes on.

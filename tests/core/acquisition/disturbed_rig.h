@@ -115,6 +115,7 @@ class DisturbedPort : public ScriptedPort {
     if (venue_->isWithin20Shots(Fault::flatBattery)) script_->settings["batterylevel"].value = "8%";
     if (venue_->strikes(Fault::fullCard))
       script_->be(StillScript::Trouble::full, venue_->disturbance().lasts);
+    if (venue_->strikes(Fault::lateFile)) script_->answers.push_back(StillScript::Answer::late);
     ScriptedPort::trigger();
     if (venue_->strikes(Fault::flatBattery))
       script_->be(StillScript::Trouble::flat, venue_->disturbance().lasts);

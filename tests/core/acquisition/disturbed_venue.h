@@ -26,6 +26,7 @@ enum class Fault {
   cutUnseen,        // ... to four fifths of it, but reads back and takes the time that was asked for
   flatBattery,      // it was low for some shots, and dies while a photograph is exposed
   fullCard,         // no photograph is taken
+  lateFile,         // a still camera writes it when nobody waits for it any more
   vanishingScreen,  // loses its picture in the middle of a frame
 };
 

@@ -18,7 +18,8 @@ Q_DECLARE_METATYPE(Fault)
 namespace {
 
 CameraKind kindFor(Fault fault) {
-  return fault == Fault::flatBattery || fault == Fault::fullCard ? CameraKind::still : CameraKind::network;
+  const bool isStill = fault == Fault::flatBattery || fault == Fault::fullCard || fault == Fault::lateFile;
+  return isStill ? CameraKind::still : CameraKind::network;
 }
 
 /// Runs of acquisition in a traced venue, each with devices of its own.
@@ -137,6 +138,7 @@ class TestFaultyDevices : public QObject {
     row("unplugged", Fault::unplugged, 1, 20, 3, 3, 0);
     row("dead battery", Fault::flatBattery, 1, 100, 3, 3, 0);
     row("full card", Fault::fullCard, 1, 100, 3, 3, 0);
+    row("late file", Fault::lateFile, 1, 0, 3, 0, 0);
     row("vanishing screen", Fault::vanishingScreen, 1, 0, 0, 0, 0);
     row("vanishing screen, again and again", Fault::vanishingScreen, 19, 0, 0, 0, 0);
   }

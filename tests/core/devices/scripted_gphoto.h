@@ -16,7 +16,7 @@ namespace relucent::test {
 /// A still camera that follows a script. Its clock moves only when something is waited for.
 struct StillScript {
   /// What the camera makes of being asked for a photograph.
-  enum class Answer { good, nothing, jpeg, jpegAndRaw, damaged, small, noFocus, refused };
+  enum class Answer { good, nothing, late, jpeg, jpegAndRaw, damaged, small, noFocus, refused };
   /// What is wrong with it from now on, until a time.
   enum class Trouble { none, unplugged, asleep, claimed, full, flat };
 
@@ -56,7 +56,10 @@ struct StillScript {
   void make(const std::string& ending, std::uint8_t kind, std::chrono::microseconds at, int value) {
     const std::string name = "capt" + std::to_string(made++) + ending;
     files[name] = file ? file(exposed) : std::vector<std::uint8_t>{static_cast<std::uint8_t>(value), kind};
-    pending.push_back({at, name});
+    const auto isBefore = [](std::chrono::microseconds time, const Pending& other) {
+      return time < other.at;
+    };
+    pending.insert(std::upper_bound(pending.begin(), pending.end(), at, isBefore), {at, name});
   }
 };
 
@@ -221,6 +224,9 @@ class ScriptedPort : public GphotoPort {
       case Answer::nothing:
         script_->pending.push_back({end, ""});
         return;
+      case Answer::late:
+        script_->make(".jpg", 0, end + std::chrono::seconds(20), 99);
+        return script_->make(".CR2", 0, end + std::chrono::seconds(21), script_->shown);
       case Answer::jpeg:
         return script_->make(".jpg", 0, end, script_->shown);
       case Answer::jpegAndRaw:

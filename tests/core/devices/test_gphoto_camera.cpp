@@ -284,6 +284,22 @@ class TestGphotoCamera : public QObject {
     QVERIFY(venue.script->values() == before);
   }
 
+  /// It comes while one of the next is waited for, which it is not.
+  void aPhotographThatComesTooLateIsNotTakenForAnother() {
+    Venue venue;
+    venue.open();
+    QCOMPARE(venue.photograph(), 1);
+    venue.script->answers = {Answer::late};
+    for (int i = 2; i < 20; ++i) QCOMPARE(venue.photograph(), i);
+    QCOMPARE(venue.camera->repeats(), 1);
+    QVERIFY(venue.script->files.empty());
+    // Nothing is waited for once it has come.
+    const auto begun = venue.script->clock;
+    venue.script->answers = {Answer::damaged};
+    QCOMPARE(venue.photograph(), 20);
+    QVERIFY(venue.script->clock - begun < 5s);
+  }
+
   void whatIsNotMendedIsTold_data() {
     QTest::addColumn<int>("answer");
     QTest::addColumn<QString>("part");

@@ -95,6 +95,19 @@ bool isSame(const Measurements::Outcome& outcome, const Acquisition& b) {
          a.exposures == b.exposures;
 }
 
+/// A journal as it was left: writing each shot through to the disk takes most of this test's time.
+class JournalToRead : public ShotLog {
+ public:
+  explicit JournalToRead(const fs::path& folder) : journal_(folder) {}
+  std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override {
+    return journal_.find(id, fingerprint);
+  }
+  void keep(const Shot&) override {}
+
+ private:
+  ShotJournal journal_;
+};
+
 int shotsIn(const fs::path& journal) {
   return static_cast<int>(std::distance(fs::directory_iterator(journal), fs::directory_iterator()));
 }
@@ -185,7 +198,7 @@ class TestFaultyDevices : public QObject {
     QFETCH(QString, sentence);
     const CameraKind kind = kindFor(fault);
     const Acquisition& sound = measurements_->sound(kind);
-    const int shot = sound.patterns / 2;
+    const int shot = sound.patterns / 3;
     const Disturbance disturbance{fault, {shot}, 1 << 30, std::chrono::hours(1)};
     QTemporaryDir folder;
     const fs::path path = folder.path().toStdString();
@@ -200,7 +213,7 @@ class TestFaultyDevices : public QObject {
       QVERIFY(kept >= shot && kept < sound.patterns);
       QCOMPARE(shotsIn(path), kept);
     }
-    ShotJournal journal(path);
+    JournalToRead journal(path);
     DisturbedRig rig = measurements_->rig(kind);
     QVERIFY(isSame(measurements_->run(rig, journal), sound));
     QCOMPARE(static_cast<int>(rig.venue().photographed().size()), sound.patterns - kept);
@@ -245,7 +258,7 @@ class TestFaultyDevices : public QObject {
   /// Read back as it was asked for, it is found by the light: the journal forgets what may be wrong.
   void anExposureThatIsCutUnseenIsFoundByTheSentinels() {
     const Acquisition& sound = measurements_->sound(CameraKind::network);
-    const int shot = sound.patterns / 2;
+    const int shot = sound.patterns / 3;
     QTemporaryDir folder;
     const fs::path path = folder.path().toStdString();
     {
@@ -257,7 +270,7 @@ class TestFaultyDevices : public QObject {
       QVERIFY2(shotsIn(path) <= shot, said.c_str());
       QVERIFY2(shotsIn(path) > shot - 45, said.c_str());  // the checks are 40 shots apart
     }
-    ShotJournal journal(path);
+    JournalToRead journal(path);
     DisturbedRig rig = measurements_->rig(CameraKind::network);
     QVERIFY(isSame(measurements_->run(rig, journal), sound));
   }

@@ -132,7 +132,8 @@ class GphotoDriver : public CameraDriver {
     });
   }
 
-  /// Files have no numbers that would tell a late one from the next: it has to come first.
+  /// Files have no numbers that would tell a late one from the next: it has to come first, or the camera to
+  /// be connected anew.
   void restart() override {
     guarded([&] {
       const microseconds deadline = port_->now() + latestTime;
@@ -143,6 +144,7 @@ class GphotoDriver : public CameraDriver {
         isOwed_ = !isRawName(event.file->name);
         discard(*event.file);
       }
+      if (isOwed_) throw CameraLost("a photograph was asked for and none came");
       listenToTheEnd();
     });
   }

@@ -24,6 +24,7 @@ struct StillScript {
   std::map<std::string, GphotoSetting> settings{};
   std::vector<std::string> stubborn{}, refusing{};  // settings that do not change: silently, with an error
   std::deque<Answer> answers{};                     // to the next requests; then only good ones
+  std::chrono::seconds lateBy{20};                  // of Answer::late
   Trouble trouble = Trouble::none;
   std::chrono::microseconds troubleUntil{};
   std::chrono::microseconds clock{1'000'000'000};
@@ -225,8 +226,8 @@ class ScriptedPort : public GphotoPort {
         script_->pending.push_back({end, ""});
         return;
       case Answer::late:
-        script_->make(".jpg", 0, end + std::chrono::seconds(20), 99);
-        return script_->make(".CR2", 0, end + std::chrono::seconds(21), script_->shown);
+        script_->make(".jpg", 0, end + script_->lateBy, 99);
+        return script_->make(".CR2", 0, end + script_->lateBy + std::chrono::seconds(1), script_->shown);
       case Answer::jpeg:
         return script_->make(".jpg", 0, end, script_->shown);
       case Answer::jpegAndRaw:

@@ -16,6 +16,8 @@ using std::chrono::microseconds;
 /// Of the photograph that tells the size: neither slow nor at the end of any list.
 constexpr double trialSeconds = 1.0 / 60.0;
 constexpr microseconds trialTime = 20s;
+/// A photograph that did not come in time may still be written for so long.
+constexpr microseconds latestTime = 20s;
 /// Between two looks whether anything else is left to be heard.
 constexpr microseconds oneListening = 1ms;
 /// Words that a camera may have left from before; a camera that never falls silent is left talking.
@@ -62,6 +64,7 @@ class GphotoDriver : public CameraDriver {
       seen_ = camera.model;
       port_->open(camera);
       isOpen_ = true;
+      isOwed_ = false;
       if (camera.model != model_) borrowed_.forget();
       model_ = camera.model;
       CameraTraits traits;
@@ -99,6 +102,7 @@ class GphotoDriver : public CameraDriver {
   void trigger() override {
     guarded([&] {
       listenToTheEnd();
+      isOwed_ = true;
       if (bulbSeconds_)
         exposeBulb(*bulbSeconds_);
       else
@@ -115,7 +119,10 @@ class GphotoDriver : public CameraDriver {
             port_->waitEvent(std::clamp(deadline - port_->now(), oneListening, microseconds(1s)));
         if (!event.file) continue;
         const microseconds arrived = port_->now();
-        if (isRawName(event.file->name)) return frameOf(*event.file, arrived);
+        if (isRawName(event.file->name)) {
+          isOwed_ = false;
+          return frameOf(*event.file, arrived);
+        }
         developed = event.file->name;  // its raw file may come next
         discard(*event.file);
       } while (port_->now() < deadline);
@@ -125,8 +132,21 @@ class GphotoDriver : public CameraDriver {
     });
   }
 
+  /// Files have no numbers that would tell a late one from the next: it has to come first, or the camera to
+  /// be connected anew.
   void restart() override {
-    guarded([&] { listenToTheEnd(); });
+    guarded([&] {
+      const microseconds deadline = port_->now() + latestTime;
+      while (isOwed_ && port_->now() < deadline) {
+        const GphotoPort::Event event =
+            port_->waitEvent(std::clamp(deadline - port_->now(), oneListening, microseconds(1s)));
+        if (!event.file) continue;
+        isOwed_ = !isRawName(event.file->name);
+        discard(*event.file);
+      }
+      if (isOwed_) throw CameraLost("a photograph was asked for and none came");
+      listenToTheEnd();
+    });
   }
 
   microseconds now() const override { return port_->now(); }
@@ -251,6 +271,7 @@ class GphotoDriver : public CameraDriver {
   std::string seen_;   // model of the camera that was last connected to
   std::string model_;  // whose settings are borrowed
   bool isOpen_ = false;
+  bool isOwed_ = false;  // a photograph was asked for and has not come
   std::optional<double> bulbSeconds_;
   std::optional<int> battery_;
   std::uint64_t count_ = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -15,7 +16,7 @@ namespace relucent::test {
 /// A still camera that follows a script. Its clock moves only when something is waited for.
 struct StillScript {
   /// What the camera makes of being asked for a photograph.
-  enum class Answer { good, nothing, jpeg, jpegAndRaw, damaged, small, noFocus, refused };
+  enum class Answer { good, nothing, late, jpeg, jpegAndRaw, damaged, small, noFocus, refused };
   /// What is wrong with it from now on, until a time.
   enum class Trouble { none, unplugged, asleep, claimed, full, flat };
 
@@ -23,12 +24,15 @@ struct StillScript {
   std::map<std::string, GphotoSetting> settings{};
   std::vector<std::string> stubborn{}, refusing{};  // settings that do not change: silently, with an error
   std::deque<Answer> answers{};                     // to the next requests; then only good ones
+  std::chrono::seconds lateBy{20};                  // of Answer::late
   Trouble trouble = Trouble::none;
   std::chrono::microseconds troubleUntil{};
   std::chrono::microseconds clock{1'000'000'000};
   int shown = 0;  // what the venue shows now: the value of photographs
   int opened = 0, closed = 0, triggered = 0, busyFor = 0;
   double exposed = 0.0;  // seconds, the last photograph
+  /// The content of a photograph's file, by its exposure; none: what scriptedRaw() reads.
+  std::function<std::vector<std::uint8_t>(double seconds)> file{};
   std::vector<std::string> changes{};
   std::optional<std::chrono::microseconds> bulbSince{};
   std::map<std::string, std::vector<std::uint8_t>> files{};  // in the camera
@@ -52,8 +56,11 @@ struct StillScript {
   }
   void make(const std::string& ending, std::uint8_t kind, std::chrono::microseconds at, int value) {
     const std::string name = "capt" + std::to_string(made++) + ending;
-    files[name] = {static_cast<std::uint8_t>(value), kind};
-    pending.push_back({at, name});
+    files[name] = file ? file(exposed) : std::vector<std::uint8_t>{static_cast<std::uint8_t>(value), kind};
+    const auto isBefore = [](std::chrono::microseconds time, const Pending& other) {
+      return time < other.at;
+    };
+    pending.insert(std::upper_bound(pending.begin(), pending.end(), at, isBefore), {at, name});
   }
 };
 
@@ -218,6 +225,9 @@ class ScriptedPort : public GphotoPort {
       case Answer::nothing:
         script_->pending.push_back({end, ""});
         return;
+      case Answer::late:
+        script_->make(".jpg", 0, end + script_->lateBy, 99);
+        return script_->make(".CR2", 0, end + script_->lateBy + std::chrono::seconds(1), script_->shown);
       case Answer::jpeg:
         return script_->make(".jpg", 0, end, script_->shown);
       case Answer::jpegAndRaw:

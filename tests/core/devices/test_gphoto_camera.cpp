@@ -91,6 +91,27 @@ class TestGphotoCamera : public QObject {
     QCOMPARE(venue.script->closed, venue.script->opened);
   }
 
+  /// A mode may decide what other settings can be.
+  void settingsGoBackTheLastOneFirst() {
+    Venue venue;
+    venue.open();
+    auto changed = [&](std::size_t from) {
+      std::vector<std::string> names;
+      for (std::size_t i = from; i < venue.script->changes.size(); ++i) {
+        const std::string& change = venue.script->changes[i];
+        const std::string name = change.substr(0, change.find('='));
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      }
+      return names;
+    };
+    std::vector<std::string> there = changed(0);
+    QVERIFY(there.size() > 5);
+    const std::size_t changes = venue.script->changes.size();
+    venue.camera.reset();
+    std::reverse(there.begin(), there.end());
+    QCOMPARE(changed(changes), there);
+  }
+
   void photographsAreLinearAndSayTheirTime() {
     Venue venue;
     venue.open();
@@ -237,8 +258,8 @@ class TestGphotoCamera : public QObject {
     auto row = [](const char* name, Answer answer, int repeats, int reconnections) {
       QTest::newRow(name) << static_cast<int>(answer) << repeats << reconnections;
     };
-    row("no photograph", Answer::nothing, 1, 0);
-    row("only a JPEG", Answer::jpeg, 1, 0);
+    row("no photograph", Answer::nothing, 1, 1);
+    row("only a JPEG", Answer::jpeg, 1, 1);
     row("a JPEG beside", Answer::jpegAndRaw, 0, 0);
     row("damaged file", Answer::damaged, 1, 0);
     row("another size", Answer::small, 1, 1);
@@ -258,8 +279,34 @@ class TestGphotoCamera : public QObject {
     QCOMPARE(venue.photograph(), 3);
     QCOMPARE(venue.camera->repeats(), repeats);
     QCOMPARE(venue.camera->reconnections(), reconnections);
+    QVERIFY(venue.script->files.empty());
     venue.camera.reset();
     QVERIFY(venue.script->values() == before);
+  }
+
+  void aPhotographThatComesTooLateIsNotTakenForAnother_data() {
+    QTest::addColumn<int>("seconds");
+    QTest::addColumn<int>("reconnections");
+    QTest::newRow("late") << 20 << 0;
+    QTest::newRow("very late") << 41 << 1;
+  }
+  /// It would come while one of the next is waited for.
+  void aPhotographThatComesTooLateIsNotTakenForAnother() {
+    QFETCH(int, seconds);
+    Venue venue;
+    venue.open();
+    QCOMPARE(venue.photograph(), 1);
+    venue.script->answers = {Answer::late};
+    venue.script->lateBy = std::chrono::seconds(seconds);
+    for (int i = 2; i < 20; ++i) QCOMPARE(venue.photograph(), i);
+    QCOMPARE(venue.camera->repeats(), 1);
+    QTEST(venue.camera->reconnections(), "reconnections");
+    // Nothing is waited for once it has come.
+    const auto begun = venue.script->clock;
+    venue.script->answers = {Answer::damaged};
+    QCOMPARE(venue.photograph(), 20);
+    QVERIFY(venue.script->clock - begun < 5s);
+    if (venue.camera->reconnections() == 0) QVERIFY(venue.script->files.empty());
   }
 
   void whatIsNotMendedIsTold_data() {
@@ -301,9 +348,9 @@ class TestGphotoCamera : public QObject {
     Venue venue;
     venue.open();
     QCOMPARE(venue.photograph(), 1);
-    venue.script->make(".CR2", 0, venue.script->clock, 99);
+    for (int i = 0; i < 3; ++i) venue.script->make(".CR2", 0, venue.script->clock, 99);
     QCOMPARE(venue.photograph(), 2);
-    QCOMPARE(venue.script->files.size(), std::size_t{1});  // whose owner wants it
+    QCOMPARE(venue.script->files.size(), std::size_t{3});  // whose owner wants them
   }
 
   /// A battery is changed, a card emptied, a cable plugged in again: the measurement waits and goes on.

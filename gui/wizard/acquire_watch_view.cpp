@@ -14,20 +14,29 @@ namespace {
 
 constexpr double percent = 100.0, minute = 60.0;
 constexpr double leastMinutes = 0.5;
-constexpr int traceHeight = 176;
+constexpr int traceHeight = 196;
+constexpr std::size_t mostMarked = 12;  // readings, beyond which their marks would touch
 constexpr std::size_t linesTakenAgain = 4;
 
-/// All values, and some room above and below.
+/// Below which it is an alarm, too; room light is never below nothing.
+double lowest(const Reading& reading) {
+  return std::max(0.0, reading.roomLightExpected - reading_limit::roomLight);
+}
+double highest(const Reading& reading) {
+  return reading.roomLightExpected + reading_limit::roomLight;
+}
+
+/// All values and limits, and room above them for the legend.
 Axis around(const std::vector<AcquisitionTrace::Point>& points, Axis axis) {
+  constexpr double legend = 0.5;
   if (points.empty()) return axis;
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  double low = std::numeric_limits<double>::max(), high = 0.0;
   for (const AcquisitionTrace::Point& point : points) {
-    const Reading& reading = point.reading;
-    low = std::min({low, reading.roomLight, reading.roomLightExpected - reading_limit::roomLight});
-    high = std::max({high, reading.roomLight, reading.roomLightExpected + reading_limit::roomLight});
+    low = std::min({low, point.reading.roomLight, lowest(point.reading)});
+    high = std::max({high, point.reading.roomLight, highest(point.reading)});
   }
-  axis.low = percent * (low - 0.25 * reading_limit::roomLight);
-  axis.high = percent * (high + 0.25 * reading_limit::roomLight);
+  axis.low = percent * low;
+  axis.high = percent * (high + legend * (high - low));
   return axis;
 }
 
@@ -39,10 +48,16 @@ std::vector<Curve> curvesOf(const AcquisitionTrace& trace, double low) {
     const Reading& reading = point.reading;
     double x = point.seconds / minute;
     light.line.emplace_back(x, percent * reading.roomLight);
-    above.line.emplace_back(x, percent * (reading.roomLightExpected + reading_limit::roomLight));
-    below.line.emplace_back(x, percent * (reading.roomLightExpected - reading_limit::roomLight));
+    above.line.emplace_back(x, percent * highest(reading));
+    if (lowest(reading) > 0.0) below.line.emplace_back(x, percent * lowest(reading));
   }
-  light.points = light.line;
+  if (light.line.size() <= mostMarked) light.points = light.line;
+  // Limits stand from the beginning until now.
+  for (Curve* limit : {&above, &below}) {
+    if (limit->line.empty()) continue;
+    limit->line.insert(limit->line.begin(), {0.0, limit->line.front().y()});
+    limit->line.emplace_back(trace.seconds() / minute, limit->line.back().y());
+  }
   Curve again{AcquirePage::tr("taken again"), amberColour, Marker::triangle, {}, {}};
   for (const AcquisitionTrace::Mark& mark : trace.marks())
     again.points.emplace_back(mark.seconds / minute, low);

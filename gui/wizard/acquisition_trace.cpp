@@ -8,6 +8,11 @@
 namespace relucent {
 namespace {
 
+/// Hundredths of a percent: limits are tenths.
+QString fineShare(double share) {
+  return isolated(decimalText(100.0 * share, 2) + QString::fromUtf8("\u202f%"));
+}
+
 bool isOf(const Reading& reading, std::initializer_list<AlarmKind> kinds) {
   return reading.alarm && std::find(kinds.begin(), kinds.end(), *reading.alarm) != kinds.end();
 }
@@ -116,16 +121,15 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
                           AlarmKind::wrongScreen, AlarmKind::coveredLens});
   bool lamp = !isOf(now, {AlarmKind::lampChanged, AlarmKind::projectorAsleep});
   bool even = now.flicker < reading_limit::flicker;
-  return {
-      {{true, room, room ? tr("Room light steady") : tr("Room light changed"),
-        tr("%1 of full light, changed by %2 since the start.")
-            .arg(percentText(now.roomLight), percentText(std::abs(now.roomLight - now.roomLightAtFirst)))},
-       {true, view, view ? tr("Camera still") : tr("The view changed"),
-        tr("The view differs by %1 from the first.").arg(percentText(now.view))},
-       {true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
-        tr("Its light drifted by %1 and is corrected.").arg(percentText(std::abs(now.lamp - 1.0)))},
-       {true, even, even ? tr("No flicker") : tr("The light flickers"),
-        tr("Photographs of one pattern agree within %1.").arg(percentText(now.flicker))}}};
+  return {{{true, room, room ? tr("Room light steady") : tr("Room light changed"),
+            tr("%1 of full light, changed by %2 since the start.")
+                .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
+           {true, view, view ? tr("Camera still") : tr("The view changed"),
+            tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
+           {true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
+            tr("Its light drifted by %1 and is corrected.").arg(fineShare(std::abs(now.lamp - 1.0)))},
+           {true, even, even ? tr("No flicker") : tr("The light flickers"),
+            tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))}}};
 }
 
 std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {

@@ -113,8 +113,10 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   until([&] { return wizard.linearize().result() && !wizard.linearize().isMeasuring(); });
   wizard.wizard().go(3);
   wizard.acquire().primary().run();
-  until([&] { return wizard.acquire().trace().points().size() > 12; });
+  wizard.session().live().setLeastInterval(25);  // as real devices would be, and longer
+  until([&] { return wizard.acquire().trace().points().size() > 40; });
   photographs.take("04-measuring");
+  wizard.session().live().setLeastInterval(0);
   wizard.acquire().finish();
   until([&] { return !wizard.acquire().isMeasuring(); });
 }

@@ -103,8 +103,9 @@ class TestAcquisitionTrace : public QObject {
       QVERIFY(states[static_cast<std::size_t>(i)].isKnown);
       QCOMPARE(states[static_cast<std::size_t>(i)].isSteady, i != state);
     }
-    QVERIFY2(states[0].figure.contains(percentText(0.0085)) && states[0].figure.contains(percentText(0.0055)),
-             qPrintable(states[0].figure));
+    QVERIFY2(
+        states[0].figure.contains(decimalText(0.85, 2)) && states[0].figure.contains(decimalText(0.55, 2)),
+        qPrintable(states[0].figure));
     // Tried again, it is well.
     trace.checked(readingAt(40));
     QCoreApplication::processEvents();

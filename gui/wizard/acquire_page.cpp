@@ -21,6 +21,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     : PageModel(parent), session_(session), asking_(std::make_shared<Asking>()) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
+    trace_.clear();
     forecast_.reset();
     left_ = {};
     kept_ = session_.isOpen() ? session_.photographsKept(Step::acquisition) : 0;
@@ -35,6 +36,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     left_.expect(left, Clock::now());
   });
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
+  connect(&trace_, &AcquisitionTrace::changed, this, &AcquirePage::changed);
   second_.setInterval(1000);
   connect(&second_, &QTimer::timeout, this, &AcquirePage::tick);
 }
@@ -172,8 +174,7 @@ void AcquirePage::setWhite(bool white) {
 
 QString AcquirePage::watching() const {
   return tr(
-      "Every %n pattern(s) the room light, the lamp and the camera's place are compared with the start. If "
-      "something moved, the measurement pauses and asks.",
+      "Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.",
       nullptr, session_.settings().acquisition.checkInterval);
 }
 
@@ -207,20 +208,21 @@ void AcquirePage::start() {
   lastCount_ = session_.live().pictures().photographs;
   rate_ = 0.0;
   left_ = {};
+  trace_.begin();
   second_.start();
   AlarmHandler handler = [this, asking = asking_](const Alarm& alarm) {
     QMetaObject::invokeMethod(
         this, [this, alarm] { askAbout(alarm); }, Qt::QueuedConnection);
     return asking->wait();
   };
-  job_.start([work = workOf(session_), handler](Progress& progress) {
+  job_.start([work = workOf(session_), handler, &trace = trace_](Progress& progress) {
     Progress opening = progress.part(0.05, tr("Opening the devices").toStdString());
     Rig& rig = work.devices->open(opening);
     CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
     Progress reading = progress.part(0.0, tr("Reading the response").toStdString());
     Linearization linearization = measureLinearization(folder, rig, reading);
     Progress measuring = progress.part(0.95, tr("Measuring the light transport").toStdString());
-    measureAcquisition(folder, rig, linearization, handler, measuring);
+    measureAcquisition(folder, rig, linearization, handler, trace, measuring);
   });
   Q_EMIT changed();
 }
@@ -250,6 +252,7 @@ void AcquirePage::answer(Answer answer) {
 
 void AcquirePage::ended() {
   second_.stop();
+  trace_.end();
   if (session_.isOpen()) {
     session_.reload();
     kept_ = session_.photographsKept(Step::acquisition);

@@ -6,6 +6,7 @@
 
 #include "jobs/job.h"
 #include "jobs/time_left.h"
+#include "wizard/acquisition_trace.h"
 #include "wizard/asking.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
@@ -55,6 +56,8 @@ class AcquirePage : public PageModel {
   void setFineness(Fineness fineness);
   bool isWhite() const { return session_.settings().acquisition.colours == LitColours::white; }
   void setWhite(bool white);
+  /// What the checks of this measurement said, or of the last one.
+  const AcquisitionTrace& trace() const { return trace_; }
   /// How often light and view are compared, and what follows.
   QString watching() const;
   /// What was measured, as far as the folder tells: "patterns", "seconds", ...
@@ -78,14 +81,15 @@ class AcquirePage : public PageModel {
   void tick();
 
   Session& session_;
-  Job job_;
   std::shared_ptr<Asking> asking_;
+  AcquisitionTrace trace_;
   TimeLeft left_;
   std::optional<WorkLeft> forecast_;
   int kept_ = 0;
   QTimer second_;
   double rate_ = 0.0;
   int lastCount_ = 0;
+  Job job_;  // the last: it ends before what its work uses
 };
 
 }  // namespace relucent

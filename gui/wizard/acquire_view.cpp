@@ -4,6 +4,7 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/acquire_page.h"
+#include "wizard/acquire_watch_view.h"
 #include "wizard/flash_consent.h"
 #include "wizard/page_view.h"
 
@@ -12,9 +13,13 @@ namespace {
 
 QWidget* stageOf(AcquirePage& model) {
   auto* stage = new QWidget;
-  auto* row = new QHBoxLayout(stage);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* column = new QVBoxLayout(stage);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(space::gap);
+  auto* row = new QHBoxLayout;
   row->setSpacing(space::gap);
+  column->addLayout(row, 1);
+  column->addWidget(traceCard(model));
   auto* sent = new Card(AcquirePage::tr("Sent to the projector"));
   auto* seen = new Card(AcquirePage::tr("Seen by the camera"));
   auto* pattern = new ImageView;
@@ -93,11 +98,8 @@ QWidget* runOf(AcquirePage& model) {
   auto* disk = new ValueRow(AcquirePage::tr("Disk still needed"));
   for (ValueRow* row : {rate, taken, ahead, disk}) column->addWidget(row);
   column->addWidget(lineOf());
-  column->addWidget(labelOf(AcquirePage::tr("Watching"), "section"));
-  auto* watch = new Remark;
-  column->addWidget(watch);
-  auto refresh = [&model, left, counts, rate, taken, ahead, disk, watch] {
-    watch->show(Remark::Kind::good, AcquirePage::tr("Light and view are watched"), model.watching());
+  column->addWidget(watchPart(model));
+  auto refresh = [&model, left, counts, rate, taken, ahead, disk] {
     if (!model.isMeasuring()) return;
     if (model.isPaused())
       left->setText(AcquirePage::tr("Paused"));

@@ -59,6 +59,68 @@ class Photographs {
   QDir folder_;
 };
 
+/// Cameras as a desk with three of them would list them.
+DeviceList someCameras() {
+  ListedCamera industrial, webcam, taken;
+  industrial.address = "genicam:40012345";
+  industrial.model = "Industrial camera, 12 bit";
+  industrial.usable = true;
+  industrial.traits.size = {1632, 1224};
+  industrial.traits.format.bits = 12;
+  industrial.traits.exposures = {1e-4, 4.0};
+  webcam.address = "v4l2:/dev/video0";
+  webcam.model = "Webcam";
+  webcam.usable = true;
+  webcam.traits.size = {1280, 720};
+  webcam.traits.format.bits = 8;
+  webcam.traits.exposures = {1e-3, 0.3};
+  webcam.traits.remarks = {"its exposure times are believed as far as they can be read back"};
+  taken.address = "gphoto2:usb:001,012";
+  taken.model = "Photo camera";
+  taken.problem = "the desktop's file manager holds it; unmount it there, then look again";
+  return {{}, {industrial, webcam, taken}};
+}
+
+/// The choice of cameras for a screen of the desktop.
+void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporaryDir& own) {
+  wizard.camera().setLister(someCameras);
+  CalibrateSettings settings;
+  ScreenRigSettings rig;
+  rig.display.connector = "HDMI-1";
+  rig.projector = {1024, 768};
+  settings.rig = rig;
+  wizard.session().begin(own.filePath("Chapel niche").toStdString(), settings);
+  wizard.wizard().go(1);
+  until([&] { return !wizard.camera().isListing() && !wizard.camera().cameras().cameras.empty(); });
+  photographs.take("02-cameras");
+}
+
+/// The measurement of a small rehearsal under way.
+void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTemporaryDir& own) {
+  CalibrateSettings settings;
+  VenueSettings venue;
+  venue.projector = {128, 96};
+  venue.camera = {96, 72};
+  venue.pathsPerPixel = 64;
+  settings.rig = venue;
+  settings.acquisition.checkInterval = 10;
+  wizard.session().begin(own.filePath("Rehearsal").toStdString(), settings);
+  wizard.wizard().go(1);
+  until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
+  wizard.camera().primary().run();
+  until([&] { return wizard.session().busy().isEmpty() && wizard.wizard().current() == 2; });
+  wizard.linearize().primary().run();
+  until([&] { return wizard.linearize().result() && !wizard.linearize().isMeasuring(); });
+  wizard.wizard().go(3);
+  wizard.acquire().primary().run();
+  wizard.session().live().setLeastInterval(25);  // as real devices would be, and longer
+  until([&] { return wizard.acquire().trace().points().size() > 40; });
+  photographs.take("04-measuring");
+  wizard.session().live().setLeastInterval(0);
+  wizard.acquire().finish();
+  until([&] { return !wizard.acquire().isMeasuring(); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -83,6 +145,8 @@ int main(int argc, char** argv) {
   wizard.venue().setMode(VenuePage::Mode::devices);
   photographs.take("01-devices");
 
+  takeCameras(wizard, photographs, own);
+  takeMeasuring(wizard, photographs, own);
   wizard.venue().open(argv[2]);
   wizard.wizard().go(0);
   photographs.take("00-start");

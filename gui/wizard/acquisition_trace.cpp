@@ -129,7 +129,9 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
            {true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
             tr("Its light drifted by %1 and is corrected.").arg(fineShare(std::abs(now.lamp - 1.0)))},
            {true, even, even ? tr("No flicker") : tr("The light flickers"),
-            tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))}}};
+            // One exposure alone has nothing to differ from.
+            now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
+                              : tr("No difference between photographs of one pattern was found.")}}};
 }
 
 std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {

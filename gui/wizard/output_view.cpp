@@ -27,7 +27,7 @@ class PlaybackCard : public Card {
  public:
   explicit PlaybackCard(OutputPage& page) : Card(OutputPage::tr("Playback")), page_(page) {
     auto* row = new QHBoxLayout;
-    row->setSpacing(space::page);
+    row->setSpacing(space::gap);
     for (auto [readout, what] :
          {std::pair(&rate_, OutputPage::tr("frames a second")),
           std::pair(&time_, OutputPage::tr("frame time")), std::pair(&late_, OutputPage::tr("frames late"))})

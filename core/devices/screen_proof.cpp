@@ -189,20 +189,16 @@ ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others
           sightThrough(*other, camera, exposure, settings, progress).share >= settings.leastShare)
         proof.instead = other->name();
     proof.verdicts.push_back(
-        proof.instead.empty() ? fmt::format("The camera does not see {}.", screen.name())
-                              : fmt::format("The camera sees {} and not {}.", proof.instead, screen.name()));
+        {.finding = proof.instead.empty() ? Finding::screenNotSeen : Finding::otherScreenSeen,
+         .screen = screen.name(),
+         .instead = proof.instead});
     return proof;
   }
-  proof.verdicts.push_back(fmt::format("The camera sees {}: {:.0f} % of its view follow the test pattern.",
-                                       screen.name(), 100.0 * proof.sight.share));
-  if (proof.sight.mirrored)
-    proof.verdicts.push_back(
-        "The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in "
-        "the projector's menu.");
+  proof.verdicts.push_back(
+      {.finding = Finding::screenSeen, .share = proof.sight.share, .screen = screen.name()});
+  if (proof.sight.mirrored) proof.verdicts.push_back({Finding::screenMirrored});
   if (proof.sight.late > 0)
-    proof.verdicts.push_back(
-        fmt::format("Pictures come late, by {} {}: the latency has to be measured and waited for.",
-                    proof.sight.late, proof.sight.late == 1 ? "photograph" : "photographs"));
+    proof.verdicts.push_back({.finding = Finding::picturesLate, .count = proof.sight.late});
   return proof;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "devices/check_verdict.h"
 #include "devices/latency.h"
 #include "rig/rig.h"
 
@@ -29,8 +30,8 @@ struct ScreenSight {
 struct ScreenProof {
   ScreenSight sight;
   bool isSeen = false;
-  std::string instead{};                // the name of another screen that the camera sees; empty: none
-  std::vector<std::string> verdicts{};  // sentences
+  std::string instead{};  // the name of another screen that the camera sees; empty: none
+  std::vector<CheckVerdict> verdicts{};
 };
 
 /// The code: in each quarter of the picture (top left, top right, bottom left, bottom right) the maximal

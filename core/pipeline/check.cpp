@@ -15,6 +15,13 @@ std::vector<std::string> problems(const CheckSettings& settings) {
   return found;
 }
 
+std::vector<CheckVerdict> verdictsOf(const RigCheck& check) {
+  std::vector<CheckVerdict> all;
+  for (const auto* part : {&check.proof.verdicts, &check.latency.verdicts, &check.light.verdicts})
+    all.insert(all.end(), part->begin(), part->end());
+  return all;
+}
+
 RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress) {
   Progress opening = progress.part(0.2, "Preparing the devices");
   OpenedRig devices = openRig(settings.rig, cache, opening);

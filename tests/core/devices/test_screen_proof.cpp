@@ -122,7 +122,7 @@ class TestScreenProof : public QObject {
       QCOMPARE(proof.isSeen, seen);
       QCOMPARE(proof.sight.mirrored, mirrored);
       QCOMPARE(proof.instead, instead.toStdString());
-      QCOMPARE(mentions(proof.verdicts.back(), "mirrored"), mirrored);
+      QCOMPARE(mentions(sentence(proof.verdicts.back()), "mirrored"), mirrored);
       if (seen) {
         requireSeen(proof, *rig.projectors[0], *rig.cameras[0]);
         continue;
@@ -146,7 +146,7 @@ class TestScreenProof : public QObject {
     const ScreenProof proof = proved(rig, settings);
     QVERIFY(proof.isSeen);
     QCOMPARE(proof.sight.late, late);
-    QCOMPARE(mentions(proof.verdicts.back(), "come late"), late > 0);
+    QCOMPARE(mentions(sentence(proof.verdicts.back()), "come late"), late > 0);
   }
 
   /// Nothing that blinks, moves or stands still is taken for the code.

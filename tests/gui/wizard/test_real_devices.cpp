@@ -328,9 +328,7 @@ class TestRealDevices : public QObject {
     QVERIFY2(found.usable, found.problem.c_str());
     camera.chooseCamera(found.address, wantedSizes().camera);
     QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value() && camera.check().has_value(), 30000);
-    for (const auto* part : {&camera.check()->proof.verdicts, &camera.check()->latency.verdicts,
-                             &camera.check()->light.verdicts})
-      for (const std::string& verdict : *part) qInfo("%s", verdict.c_str());
+    for (const CheckVerdict& verdict : verdictsOf(*camera.check())) qInfo("%s", sentence(verdict).c_str());
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
     QVERIFY(camera.primary().enabled);
     camera.primary().run();

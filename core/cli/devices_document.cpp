@@ -51,8 +51,7 @@ std::string textOf(const DeviceList& devices) {
 
 Json toJson(const RigCheck& check) {
   Json verdicts = Json::array();
-  for (const auto* part : {&check.proof.verdicts, &check.latency.verdicts, &check.light.verdicts})
-    for (const std::string& verdict : *part) verdicts.push_back(verdict);
+  for (const CheckVerdict& verdict : verdictsOf(check)) verdicts.push_back(sentence(verdict));
   return {{"latency_frames", check.latency.frames},
           {"latency_seconds", check.latency.seconds},
           {"step", check.latency.step},
@@ -74,8 +73,7 @@ Json toJson(const RigCheck& check) {
 
 std::string textOf(const RigCheck& check) {
   std::string text;
-  for (const auto* part : {&check.proof.verdicts, &check.latency.verdicts, &check.light.verdicts})
-    for (const std::string& verdict : *part) text += verdict + "\n";
+  for (const CheckVerdict& verdict : verdictsOf(check)) text += sentence(verdict) + "\n";
   return text + fmt::format("Calibrate with --latency {:.3g}\n", check.latency.seconds);
 }
 

@@ -96,13 +96,10 @@ class LatencyMeasurement {
 
   void speak(Latency& latency) const {
     latency.verdicts.push_back(
-        fmt::format("A picture is out {} {} after it is sent: {:.0f} ms are waited for.", latency.frames,
-                    latency.frames == 1 ? "frame" : "frames", 1000.0 * latency.seconds));
+        {.finding = Finding::pictureOut, .count = latency.frames, .seconds = latency.seconds});
     if (latency.flicker > settings_.flicker)
       latency.verdicts.push_back(
-          fmt::format("White changes by {:.1f} % from photograph to photograph: expose whole frames of the "
-                      "projector, multiples of {:.2f} ms, and switch its dynamic brightness off.",
-                      100.0 * latency.flicker, 1000.0 * settings_.frame));
+          {.finding = Finding::whiteChanges, .share = latency.flicker, .frame = settings_.frame});
   }
 
   Projector& projector_;

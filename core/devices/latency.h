@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "devices/check_verdict.h"
 #include "rig/rig.h"
 
 namespace relucent {
@@ -22,11 +23,11 @@ std::vector<std::string> problems(const LatencySettings& settings);
 
 /// How long after Projector::show() a photograph sees the new picture and nothing older.
 struct Latency {
-  int frames = 0;                     // least delay that sufficed every time
-  double seconds = 0.0;               // to be waited for: that delay and one frame of margin
-  double step = 0.0;                  // mean signal of white less black
-  double flicker = 0.0;               // relative standard deviation of white between photographs
-  std::vector<std::string> verdicts;  // plain words
+  int frames = 0;        // least delay that sufficed every time
+  double seconds = 0.0;  // to be waited for: that delay and one frame of margin
+  double step = 0.0;     // mean signal of white less black
+  double flicker = 0.0;  // relative standard deviation of white between photographs
+  std::vector<CheckVerdict> verdicts{};
 };
 
 /// Lets time pass. Seconds.

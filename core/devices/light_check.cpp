@@ -247,42 +247,25 @@ class LightMeasurement {
   }
 
   void speak(LightCheck& check) const {
-    auto say = [&](bool seen, const std::string& sentence) {
-      if (seen) check.verdicts.push_back(sentence);
+    auto say = [&](bool seen, const CheckVerdict& verdict) {
+      if (seen) check.verdicts.push_back(verdict);
       return seen;
     };
-    const double milliseconds = 1000.0 * settings_.frame;
-    bool any =
-        say(check.unsteady > settings_.flicker,
-            fmt::format("The light changes by {:.1f} % between exposures of whole frames: let the lamp "
-                        "warm up, and switch dynamic brightness and lamps in the room off.",
-                        100.0 * check.unsteady));
+    bool any = say(check.unsteady > settings_.flicker, {Finding::lightUnsteady, check.unsteady});
     if (!(check.brief > 0.0)) {
-      check.verdicts.push_back(
-          "The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame "
-          "cannot be told.");
+      say(true, {Finding::noBriefExposure});
       return;
     }
-    any |= say(check.flicker > settings_.flicker && check.flicker > 2.0 * check.unsteady,
-               fmt::format("The lamp flickers within a frame, by {:.0f} % in {:.1f} ms: expose whole frames, "
-                           "multiples of {:.2f} ms.",
-                           100.0 * check.flicker, 1000.0 * check.brief, milliseconds));
-    any |= say(check.colours > settings_.colours,
-               fmt::format("The colours come one after the other, as through a colour wheel ({:.0f} % in "
-                           "{:.1f} ms): expose whole frames, multiples of {:.2f} ms.",
-                           100.0 * check.colours, 1000.0 * check.brief, milliseconds));
-    any |=
-        say(check.bands > settings_.bands,
-            fmt::format("The camera exposes its rows one after the other (rolling shutter): brief exposures "
-                        "have bands of {:.0f} %. Expose whole frames, multiples of {:.2f} ms.",
-                        100.0 * check.bands, milliseconds));
-    any |=
-        say(check.dither > settings_.dither,
-            fmt::format("The projector mixes greys in time, pixel by pixel ({:.0f} %): expose several whole "
-                        "frames, and switch its smoothing and 3D modes off.",
-                        100.0 * check.dither));
-    if (!any)
-      check.verdicts.push_back("The light is even: no flicker, colour wheel, bands or dithering is seen.");
+    auto sayBriefly = [&](bool seen, Finding finding, double share) {
+      any |=
+          say(seen, {.finding = finding, .share = share, .seconds = check.brief, .frame = settings_.frame});
+    };
+    sayBriefly(check.flicker > settings_.flicker && check.flicker > 2.0 * check.unsteady,
+               Finding::lampFlickers, check.flicker);
+    sayBriefly(check.colours > settings_.colours, Finding::colourWheel, check.colours);
+    sayBriefly(check.bands > settings_.bands, Finding::rollingShutter, check.bands);
+    sayBriefly(check.dither > settings_.dither, Finding::dithering, check.dither);
+    say(!any, {Finding::lightEven});
   }
 
   Projector& projector_;

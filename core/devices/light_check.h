@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "devices/check_verdict.h"
 #include "devices/latency.h"
 #include "rig/rig.h"
 
@@ -32,7 +33,7 @@ struct LightCheck {
   double bands = 0.0;     // of S_kcg / S_kc under b: rows that are exposed one after the other
   double dither = 0.0;    // of single pixels of even grey against their band, beyond those of white
   double brief = 0.0;     // seconds of a brief exposure; 0: the camera can do none
-  std::vector<std::string> verdicts{};  // plain words: what was seen, and what to do
+  std::vector<CheckVerdict> verdicts{};
 };
 
 /// Photographs flat fields of white and grey at drifting phases of the projector's frame: with whole frames,

@@ -11,6 +11,9 @@ namespace relucent {
 namespace {
 
 constexpr int length = screenCodeLength, quarters = 4, apart = 8;
+/// From here on, seconds, it pays to look first whether there is any light: a camera that sees none is given
+/// the longest exposure that it has.
+constexpr double longExposure = 0.5;
 using Quarters = std::array<double, quarters>;
 
 std::array<int, length> maximalLengthSequence() {
@@ -119,8 +122,43 @@ ScreenSight sightAt(const std::vector<Image>& brightness, int late, const Screen
   return sight;
 }
 
+/// Mean of the channels.
+Image brightnessOf(const Image& photograph) {
+  Image one(photograph.size(), 1, 0.0f);
+  for (int y = 0; y < photograph.height(); ++y)
+    for (int x = 0; x < photograph.width(); ++x)
+      for (int c = 0; c < photograph.channels(); ++c)
+        one.at(x, y, 0) += photograph.at(x, y, c) / static_cast<float>(photograph.channels());
+  return one;
+}
+
+/// Whether as many pixels tell white from black as have to see the code, which changes less than all of it.
+bool tellsWhiteFromBlack(Projector& screen, Camera& camera, double exposure,
+                         const ScreenProofSettings& settings, Progress& progress) {
+  int number = 0;
+  auto photographOf = [&](float level) {
+    Image last;
+    for (int late = 0; late <= settings.mostLate; ++late) {
+      progress.checkpoint();
+      screen.show(Image(screen.size(), 3, level));
+      last = brightnessOf(camera.capture({{"light", number++}, 0, exposure}).signal);
+    }
+    return last;
+  };
+  const Image white = photographOf(1.0f), black = photographOf(0.0f);
+  int lit = 0;
+  for (std::size_t i = 0; i < white.data().size(); ++i) {
+    const double step = static_cast<double>(white.data()[i] - black.data()[i]);
+    // Noise goes both ways.
+    if (std::abs(step) >= settings.leastStep) lit += step > 0.0 ? 1 : -1;
+  }
+  return lit >= settings.leastShare * static_cast<double>(white.data().size());
+}
+
 ScreenSight sightThrough(Projector& screen, Camera& camera, double exposure,
                          const ScreenProofSettings& settings, Progress& progress) {
+  if (exposure >= longExposure && !tellsWhiteFromBlack(screen, camera, exposure, settings, progress))
+    return {};
   std::vector<Image> photographs;
   const int count = length + settings.mostLate;
   for (int number = 0; number < count; ++number) {
@@ -163,12 +201,7 @@ ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSett
   std::vector<Image> brightness;
   for (const Image& photograph : photographs) {
     require(photograph.size() == photographs.front().size(), "photographs of different sizes");
-    Image one(photograph.size(), 1, 0.0f);
-    for (int y = 0; y < photograph.height(); ++y)
-      for (int x = 0; x < photograph.width(); ++x)
-        for (int c = 0; c < photograph.channels(); ++c)
-          one.at(x, y, 0) += photograph.at(x, y, c) / static_cast<float>(photograph.channels());
-    brightness.push_back(std::move(one));
+    brightness.push_back(brightnessOf(photograph));
   }
   ScreenSight best;
   for (int late = 0; late <= settings.mostLate; ++late) {
@@ -179,30 +212,28 @@ ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSett
 }
 
 ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others, Camera& camera,
-                        double exposure, const ScreenProofSettings& settings, Progress& progress) {
+                        const ScreenExposure& exposure, const ScreenProofSettings& settings,
+                        Progress& progress) {
   ScreenProof proof;
-  proof.sight = sightThrough(screen, camera, exposure, settings, progress);
+  proof.exposure = exposure(screen);
+  proof.sight = sightThrough(screen, camera, proof.exposure, settings, progress);
   proof.isSeen = proof.sight.share >= settings.leastShare;
   if (!proof.isSeen) {
     for (Projector* other : others)
       if (proof.instead.empty() &&
-          sightThrough(*other, camera, exposure, settings, progress).share >= settings.leastShare)
+          sightThrough(*other, camera, exposure(*other), settings, progress).share >= settings.leastShare)
         proof.instead = other->name();
     proof.verdicts.push_back(
-        proof.instead.empty() ? fmt::format("The camera does not see {}.", screen.name())
-                              : fmt::format("The camera sees {} and not {}.", proof.instead, screen.name()));
+        {.finding = proof.instead.empty() ? Finding::screenNotSeen : Finding::otherScreenSeen,
+         .screen = screen.name(),
+         .instead = proof.instead});
     return proof;
   }
-  proof.verdicts.push_back(fmt::format("The camera sees {}: {:.0f} % of its view follow the test pattern.",
-                                       screen.name(), 100.0 * proof.sight.share));
-  if (proof.sight.mirrored)
-    proof.verdicts.push_back(
-        "The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in "
-        "the projector's menu.");
+  proof.verdicts.push_back(
+      {.finding = Finding::screenSeen, .share = proof.sight.share, .screen = screen.name()});
+  if (proof.sight.mirrored) proof.verdicts.push_back({Finding::screenMirrored});
   if (proof.sight.late > 0)
-    proof.verdicts.push_back(
-        fmt::format("Pictures come late, by {} {}: the latency has to be measured and waited for.",
-                    proof.sight.late, proof.sight.late == 1 ? "photograph" : "photographs"));
+    proof.verdicts.push_back({.finding = Finding::picturesLate, .count = proof.sight.late});
   return proof;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
+#include "devices/check_verdict.h"
 #include "devices/latency.h"
 #include "rig/rig.h"
 
@@ -29,8 +31,9 @@ struct ScreenSight {
 struct ScreenProof {
   ScreenSight sight;
   bool isSeen = false;
-  std::string instead{};                // the name of another screen that the camera sees; empty: none
-  std::vector<std::string> verdicts{};  // sentences
+  double exposure = 0.0;  // seconds, of the photographs that saw it
+  std::string instead{};  // the name of another screen that the camera sees; empty: none
+  std::vector<CheckVerdict> verdicts{};
 };
 
 /// The code: in each quarter of the picture (top left, top right, bottom left, bottom right) the maximal
@@ -48,10 +51,16 @@ Image screenCode(Size size, int number);
 /// Shapes: screenCodeLength + mostLate photographs of one size.
 ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSettings& settings);
 
-/// Shows the code on `screen` and photographs it. If the camera does not see it, tries `others`.
+/// At which a screen's white is well exposed, seconds: see devices/test_exposure.h.
+using ScreenExposure = std::function<double(Projector&)>;
+
+/// Shows the code on `screen` and photographs it. If the camera does not see it, tries `others`, each with an
+/// exposure of its own: where no light is seen, the first one's may be so long that any other screen dazzles.
+/// At long exposures a screen whose white cannot be told from its black is not shown the code.
 /// Throws: Cancelled; as the devices.
 ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others, Camera& camera,
-                        double exposure, const ScreenProofSettings& settings, Progress& progress);
+                        const ScreenExposure& exposure, const ScreenProofSettings& settings,
+                        Progress& progress);
 
 /// Throws: Error{device} that says what the camera sees instead, unless it sees the screen.
 void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera);

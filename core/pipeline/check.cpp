@@ -15,6 +15,13 @@ std::vector<std::string> problems(const CheckSettings& settings) {
   return found;
 }
 
+std::vector<CheckVerdict> verdictsOf(const RigCheck& check) {
+  std::vector<CheckVerdict> all;
+  for (const auto* part : {&check.proof.verdicts, &check.latency.verdicts, &check.light.verdicts})
+    all.insert(all.end(), part->begin(), part->end());
+  return all;
+}
+
 RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress) {
   Progress opening = progress.part(0.2, "Preparing the devices");
   OpenedRig devices = openRig(settings.rig, cache, opening);
@@ -24,12 +31,15 @@ RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& ca
 
   RigCheck check;
   Progress proving = progress.part(0.2, "Looking for the projector's picture");
-  const double exposure = testExposure(projector, camera, settings.latency, sleepFor, proving);
+  const ScreenExposure exposureOf = [&](Projector& screen) {
+    return testExposure(screen, camera, settings.latency, sleepFor, proving);
+  };
   std::vector<Projector*> others;
   for (std::size_t i = 1; i < devices.rig.projectors.size(); ++i)
     others.push_back(devices.rig.projectors[i].get());
-  check.proof = proveScreen(projector, others, camera, exposure, settings.proof, proving);
+  check.proof = proveScreen(projector, others, camera, exposureOf, settings.proof, proving);
   requireSeen(check.proof, projector, camera);
+  const double exposure = check.proof.exposure;
 
   Progress measuring = progress.part(0.4, "Measuring the latency");
   check.latency = measureLatency(projector, camera, exposure, settings.latency, sleepFor, measuring);

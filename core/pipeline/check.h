@@ -23,6 +23,8 @@ struct RigCheck {
   Latency latency;
   LightCheck light;
 };
+/// All that was found, in this order.
+std::vector<CheckVerdict> verdictsOf(const RigCheck& check);
 
 /// Opens the first projector and camera, and finds with an exposure at which white is well exposed: whether
 /// the camera sees that projector (devices/screen_proof.h), how long a picture takes from one to the other

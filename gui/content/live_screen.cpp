@@ -6,27 +6,16 @@
 
 #include <QRect>
 #include <QStringList>
-#include <cstdlib>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "content/still_image.h"
+#include "content/xcb_answer.h"
 
 namespace relucent {
 namespace {
-
-/// The server's answers are ours to free.
-struct Free {
-  void operator()(void* reply) const { std::free(reply); }
-};
-template <typename Reply>
-using Answer = std::unique_ptr<Reply, Free>;
-template <typename Reply>
-Answer<Reply> owned(Reply* reply) {
-  return Answer<Reply>(reply);
-}
 
 using Connection = std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)>;
 

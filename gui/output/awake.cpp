@@ -37,6 +37,15 @@ Awake::Awake(const QString& why) {
     screenSaver_ = cookie.value();
   else
     problems_.append("a screen saver may appear: " + cookie.error().message());
+
+  displays_.keepAwake();
+  if (!displays_.problem().isEmpty()) problems_.append(displays_.problem());
+}
+
+bool Awake::wakeDisplays() {
+  if (!displays_.hasSlept()) return false;
+  displays_.wake();
+  return true;
 }
 
 Awake::~Awake() {

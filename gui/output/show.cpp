@@ -80,7 +80,12 @@ void Show::open() {
   connect(player_.get(), &Player::failed, this, &Show::tryAgain, Qt::QueuedConnection);
 }
 
+void Show::wakeDisplays() {
+  if (awake_.wakeDisplays()) log_.warn("the displays were asleep and have been woken");
+}
+
 void Show::start() {
+  wakeDisplays();
   for (const auto& window : windows_) window->shine();
   health_.start();
   isTime() ? play() : rest();
@@ -112,6 +117,7 @@ void Show::look() {
     for (const auto& window : windows_) window->shine();
   }
   slept_ = slept;
+  wakeDisplays();
   if (state_ == playing && !isTime()) return rest();
   if (state_ == resting && isTime()) return play();
   tellHealth(state_);

@@ -33,13 +33,14 @@ class Show : public QObject {
   /// Black, windows gone, the last word in log and health file.
   void stop();
   Player& player() { return *player_; }
-  /// Looks at the clock, and writes the health file. Done by itself every ten seconds.
+  /// Looks at the clock and at the displays, and writes the health file. Done by itself every ten seconds.
   void look();
 
  private:
   void open();
   void play();
   void rest();
+  void wakeDisplays();
   bool isTime() const;
   void tryAgain(const QString& sentence);
   void tellHealth(std::string_view state);

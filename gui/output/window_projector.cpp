@@ -22,9 +22,11 @@ struct Words {
 };
 
 /// Looks at whether the waiting thread is asked to end, milliseconds.
-constexpr unsigned long patience = 20;
+constexpr int patience = 20;
 /// A screen may have another size for so long, milliseconds.
 constexpr qint64 longestChange = 2000;
+/// And be asleep for so many times as long as it needs to wake.
+constexpr int longestSleep = 4;
 /// Swaps after the window came up until it is believed to stand where it should: desktops move it about.
 constexpr int swapsUntilSettled = 3;
 
@@ -77,18 +79,25 @@ struct WindowProjector::Shared {
   bool stands = false;   // the last one, ever since
   quint64 answered = 0;  // questions
   QSize wrongSize;       // of the screen, if it is not the projector's
+  bool asleep = false;   // the display
 };
 
 /// The window's side. All but the constructor runs on the interface's thread.
 class WindowProjector::Stage : public QObject {
  public:
-  Stage(ScreenIdentity display, QSize size, std::shared_ptr<Shared> shared, std::function<void(bool)> waiting)
-      : display_(std::move(display)), size_(size), shared_(std::move(shared)), waiting_(std::move(waiting)) {}
+  Stage(ScreenIdentity display, QSize size, std::shared_ptr<Shared> shared, std::function<void(bool)> waiting,
+        std::chrono::milliseconds waking)
+      : display_(std::move(display)),
+        size_(size),
+        shared_(std::move(shared)),
+        waiting_(std::move(waiting)),
+        waking_(waking) {}
 
   void present(quint64 number, const QImage& drive) {
     if (!window_) build();
     asked_ = number;
     if (!window_->isShining()) shownAgain();
+    wake();
     window_->present(drive);
     if (!window_->isShining()) window_->shine();
     tellWaiting(!window_->isShining());
@@ -97,6 +106,7 @@ class WindowProjector::Stage : public QObject {
   /// Answers after all that the display server knew when it was asked.
   void answer(quint64 question) {
     meetDisplayServer(window_ ? window_->screen() : nullptr);
+    if (awake_ && wake()) broken();
     QTimer::singleShot(0, this, [this, question] {
       QMutexLocker lock(&shared_->guard);
       shared_->answered = question;
@@ -132,6 +142,18 @@ class WindowProjector::Stage : public QObject {
     if (!awake_) awake_ = std::make_unique<Awake>(Words::tr("A venue is being measured"));
   }
 
+  /// Wakes displays that are asleep or have been since this was asked last: whether there were any.
+  bool wake() {
+    const bool slept = awake_->wakeDisplays();
+    if (slept) woken_.start();
+    QMutexLocker lock(&shared_->guard);
+    shared_->asleep = slept;
+    return slept;
+  }
+
+  /// Whether light is back after displays were woken.
+  bool isAwake() { return !wake() && (!woken_.isValid() || woken_.hasExpired(waking_.count())); }
+
   /// Of another size than the projector's nothing is pixel for pixel.
   bool hasWrongSize() {
     const QSize now = window_->displaySize();
@@ -147,6 +169,11 @@ class WindowProjector::Stage : public QObject {
         window_->geometry() != screen->geometry())
       return;
     if (hasWrongSize()) return;
+    if (!isAwake()) {
+      swaps_ = 0;
+      QTimer::singleShot(patience, window_.get(), [this] { window_->update(); });
+      return;
+    }
     if (++swaps_ < swapsUntilSettled) return window_->update();
     meetDisplayServer(screen);
     tellWaiting(false);
@@ -170,6 +197,8 @@ class WindowProjector::Stage : public QObject {
   QSize size_;
   std::shared_ptr<Shared> shared_;
   std::function<void(bool)> waiting_;
+  std::chrono::milliseconds waking_;
+  QElapsedTimer woken_;  // invalid: the displays were awake from the beginning
   std::unique_ptr<ProjectorWindow> window_;
   std::unique_ptr<Awake> awake_;
   quint64 asked_ = 0;
@@ -177,12 +206,14 @@ class WindowProjector::Stage : public QObject {
   bool waits_ = false;
 };
 
-WindowProjector::WindowProjector(ScreenIdentity display, Size size, std::function<void(bool)> waiting)
+WindowProjector::WindowProjector(ScreenIdentity display, Size size, std::function<void(bool)> waiting,
+                                 std::chrono::milliseconds waking)
     : name_((display.model.isEmpty() ? display.connector : display.model + " (" + display.connector + ")")
                 .toStdString()),
       size_(size),
+      waking_(waking),
       shared_(std::make_shared<Shared>()),
-      stage_(new Stage(std::move(display), {size.width, size.height}, shared_, std::move(waiting))) {
+      stage_(new Stage(std::move(display), {size.width, size.height}, shared_, std::move(waiting), waking)) {
   stage_->moveToThread(qGuiApp->thread());
 }
 
@@ -196,20 +227,29 @@ WindowProjector::~WindowProjector() {
 template <typename Done>
 void WindowProjector::waitFor(Done done) {
   require(QThread::currentThread() != stage_->thread(), "the interface would wait for itself");
-  QElapsedTimer wrong;  // desktops pass through other sizes when a screen is plugged in
+  // Desktops pass through other sizes when a screen is plugged in, and displays take their time to wake.
+  QElapsedTimer wrong, asleep;
+  auto lasts = [](QElapsedTimer& timer, bool holds, qint64 longest) {
+    if (!holds)
+      timer.invalidate();
+    else if (!timer.isValid())
+      timer.start();
+    return timer.isValid() && timer.hasExpired(longest);
+  };
   QMutexLocker lock(&shared_->guard);
   while (!done()) {
     if (QThread::currentThread()->isInterruptionRequested()) throw Cancelled();
-    if (shared_->wrongSize.isEmpty())
-      wrong.invalidate();
-    else if (!wrong.isValid())
-      wrong.start();
-    if (wrong.isValid() && wrong.hasExpired(longestChange))
+    if (lasts(wrong, !shared_->wrongSize.isEmpty(), longestChange))
       throw Error(
           ErrorKind::device,
           fmt::format("the projector's screen has {}x{} pixels now and {}x{} were calibrated",
                       shared_->wrongSize.width(), shared_->wrongSize.height(), size_.width, size_.height),
           "set its resolution back in the desktop's settings, then try again", name_);
+    if (lasts(asleep, shared_->asleep, longestSleep * waking_.count()))
+      throw Error(
+          ErrorKind::device, "the projector's screen is asleep and does not wake",
+          "switch its saving of energy and the screen saver off in the desktop's settings, then try again",
+          name_);
     shared_->told.wait(&shared_->guard, patience);
   }
 }

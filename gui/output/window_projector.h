@@ -3,6 +3,7 @@
 
 #include <QScreen>
 #include <QString>
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -20,13 +21,18 @@ QString whyNoProjector(const QScreen& screen);
 
 /// A screen of the desktop as a projector for measuring. Used from a worker's thread; its window lives on the
 /// interface's. show() returns once the picture has been swapped onto the screen and the display server has
-/// it, waits while the screen is unplugged, and throws Cancelled when the thread is asked to end
-/// (QThread::requestInterruption), so that nobody waits for anybody. Black before the first picture, hidden
-/// after rest().
+/// it, waits while the screen is unplugged, wakes displays that sleep and waits until their light is back,
+/// and throws Cancelled when the thread is asked to end (QThread::requestInterruption), so that nobody waits
+/// for anybody. Black before the first picture, hidden after rest().
 class WindowProjector : public ScreenProjector {
  public:
+  /// From its signal coming back until a projector shows it.
+  static constexpr std::chrono::milliseconds usualWaking{8000};
+
   /// `waiting`: told on the interface's thread that the screen is gone (true) or back (false).
-  WindowProjector(ScreenIdentity display, Size size, std::function<void(bool)> waiting = {});
+  /// `waking`: how long displays that were woken are waited for.
+  WindowProjector(ScreenIdentity display, Size size, std::function<void(bool)> waiting = {},
+                  std::chrono::milliseconds waking = usualWaking);
   ~WindowProjector() override;
   WindowProjector(const WindowProjector&) = delete;
   WindowProjector& operator=(const WindowProjector&) = delete;
@@ -34,7 +40,7 @@ class WindowProjector : public ScreenProjector {
   std::string name() const override { return name_; }
   Size size() const override { return size_; }
   int bits() const override { return 8; }
-  /// Throws: Error{device} if the screen has another size than the projector; Cancelled.
+  /// Throws: Error{device} if the screen has another size than the projector, or does not wake; Cancelled.
   void show(const Image& encodedDrive) override;
   bool hasStood() override;
   void rest() override;
@@ -47,6 +53,7 @@ class WindowProjector : public ScreenProjector {
 
   std::string name_;
   Size size_;
+  std::chrono::milliseconds waking_;
   std::shared_ptr<Shared> shared_;
   Stage* stage_;  // on the interface's thread; deletes itself there
 };

@@ -302,8 +302,7 @@ void CameraPage::keepLook() {
   if (check_) {
     kept["latency_seconds"] = check_->latency.seconds;
     kept["verdicts"] = Json::array();
-    for (const auto* part : {&check_->proof.verdicts, &check_->latency.verdicts, &check_->light.verdicts})
-      for (const std::string& verdict : *part) kept["verdicts"].push_back(verdict);
+    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept["verdicts"].push_back(sentence(verdict));
   }
   try {
     session_.decide(Step::camera, std::move(kept));

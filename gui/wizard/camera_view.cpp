@@ -11,6 +11,7 @@
 #include "wizard/camera_choice_view.h"
 #include "wizard/camera_page.h"
 #include "wizard/page_view.h"
+#include "wizard/verdict_text.h"
 
 namespace relucent {
 namespace {
@@ -63,11 +64,10 @@ double tallest(const PhotographCheck& check) {
 }
 
 /// How the devices work together, a line each.
-QString verdictsOf(const std::optional<RigCheck>& check) {
+QString verdictLines(const std::optional<RigCheck>& check) {
   QStringList lines;
   if (check)
-    for (const auto* part : {&check->proof.verdicts, &check->latency.verdicts, &check->light.verdicts})
-      for (const std::string& verdict : *part) lines << QString::fromStdString(verdict);
+    for (const CheckVerdict& verdict : verdictsOf(*check)) lines << verdictText(verdict);
   return lines.join('\n');
 }
 
@@ -181,7 +181,7 @@ class CameraInspector {
     column->addStretch(1);
 
     auto refresh = [&model, histogram, focus, meter, group, sees, bright, dark, together] {
-      together->setText(verdictsOf(model.check()));
+      together->setText(verdictLines(model.check()));
       bool seen = model.look().has_value();
       if (seen) {
         histogram->setAxes({0.0, 1.0, false, CameraPage::tr("Signal, share of full")},

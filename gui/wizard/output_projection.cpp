@@ -107,6 +107,7 @@ void OutputProjection::play() {
     Q_EMIT failed({ErrorKind::device, sentence, tr("Open the output again."), sentence});
   });
   awake_.emplace(tr("Relucent is projecting"));
+  awake_->wakeDisplays();
   frameTimes_.clear();
   window_->shine();
   player_->start();

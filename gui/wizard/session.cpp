@@ -10,6 +10,7 @@
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
 #include "rig/watched_rig.h"
+#include "wizard/other_screens.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
@@ -48,8 +49,16 @@ void SessionDevices::prove(Progress& progress) {
   Camera& camera = *opened_->rig.cameras.front();
   LatencySettings settling;
   settling.mostFrames = 1;  // show() waits long enough
-  exposure_ = testExposure(projector, camera, settling, sleepFor, proving);
-  proof_ = proveScreen(projector, {}, camera, exposure_, {}, proving);
+  Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
+  for (const ScreenRigSettings& other : askForOtherScreens(std::get<ScreenRigSettings>(settings_)))
+    beside.projectors.push_back(delayed(screens_(other), unmeasuredLatency(), sleepFor));
+  beside = watched(std::move(beside), live_);
+  std::vector<Projector*> others;
+  for (const std::unique_ptr<Projector>& other : beside.projectors) others.push_back(other.get());
+  const ScreenExposure exposureOf = [&](Projector& screen) {
+    return testExposure(screen, camera, settling, sleepFor, proving);
+  };
+  proof_ = proveScreen(projector, others, camera, exposureOf, {}, proving);
   requireSeen(proof_, projector, camera);
 }
 
@@ -68,7 +77,7 @@ RigCheck SessionDevices::check(Progress& progress) {
   latency.mostFrames = patience_.mostFrames;
   screen()->setLatency(0.0);
   try {
-    check.latency = measureLatency(projector, camera, exposure_, latency, sleepFor, measuring);
+    check.latency = measureLatency(projector, camera, proof_.exposure, latency, sleepFor, measuring);
   } catch (...) {
     screen()->setLatency(unmeasuredLatency());
     throw;
@@ -83,7 +92,7 @@ RigCheck SessionDevices::check(Progress& progress) {
   // Within a frame: that is what is judged.
   screen()->setWholeFrames(false);
   try {
-    check.light = checkLight(projector, camera, exposure_, light, sleepFor, judging);
+    check.light = checkLight(projector, camera, proof_.exposure, light, sleepFor, judging);
   } catch (...) {
     screen()->setWholeFrames(true);
     throw;

@@ -36,8 +36,9 @@ class SessionDevices {
         screens_(std::move(screens)),
         patience_(patience) {}
 
-  /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used.
-  /// Throws: as openRig() and requireSeen().
+  /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used;
+  /// where it does not, other screens light up too, to tell which one it sees: see other_screens.h. Throws:
+  /// as openRig() and requireSeen().
   Rig& open(Progress& progress);
   /// Of an open screen: how long a picture takes, waited for from now on, and how steady its light is.
   /// Called on a worker's thread.  Throws: as measureLatency() and checkLight().
@@ -63,7 +64,6 @@ class SessionDevices {
   std::mutex guard_;
   std::optional<OpenedRig> opened_;
   ScreenProof proof_;
-  double exposure_ = 0.0;  // at which white is well exposed
   // Held for an instant only: the interface asks for it while a worker opens the devices.
   mutable std::mutex screenGuard_;
   std::shared_ptr<ScreenControl> screen_;

@@ -50,7 +50,8 @@ class WaywardProjector : public Projector {
 };
 
 /// A camera before two projectors, "left" and "right".
-Rig rigOf(Way left, Way right, double flicker = 0.0, std::uint64_t seed = 1) {
+Rig rigOf(Way left, Way right, double flicker = 0.0, std::uint64_t seed = 1,
+          std::function<void(const CaptureRequest&)> beforeCapture = {}) {
   SyntheticSettings synthetic;
   synthetic.projectors = {{30, 22}, {17, 13}};
   synthetic.cameras = {{41, 29}};
@@ -60,6 +61,7 @@ Rig rigOf(Way left, Way right, double flicker = 0.0, std::uint64_t seed = 1) {
   ScriptedSettings scripted;
   scripted.flicker = flicker;
   scripted.seed = seed;
+  scripted.beforeCapture = std::move(beforeCapture);
   const Stack black = syntheticBlack(transport);
   Rig rig = ScriptedVenue(std::move(transport), black, scripted).rig();
   rig.projectors[0] = std::make_unique<WaywardProjector>(std::move(rig.projectors[0]), left, "left");
@@ -68,7 +70,9 @@ Rig rigOf(Way left, Way right, double flicker = 0.0, std::uint64_t seed = 1) {
   return rig;
 }
 
-constexpr double exposure = 0.02;
+double exposure(Projector&) {
+  return 0.02;
+}
 
 ScreenProof proved(Rig& rig, const ScreenProofSettings& settings = {}) {
   Progress silent;
@@ -122,7 +126,7 @@ class TestScreenProof : public QObject {
       QCOMPARE(proof.isSeen, seen);
       QCOMPARE(proof.sight.mirrored, mirrored);
       QCOMPARE(proof.instead, instead.toStdString());
-      QCOMPARE(mentions(proof.verdicts.back(), "mirrored"), mirrored);
+      QCOMPARE(mentions(sentence(proof.verdicts.back()), "mirrored"), mirrored);
       if (seen) {
         requireSeen(proof, *rig.projectors[0], *rig.cameras[0]);
         continue;
@@ -146,7 +150,38 @@ class TestScreenProof : public QObject {
     const ScreenProof proof = proved(rig, settings);
     QVERIFY(proof.isSeen);
     QCOMPARE(proof.sight.late, late);
-    QCOMPARE(mentions(proof.verdicts.back(), "come late"), late > 0);
+    QCOMPARE(mentions(sentence(proof.verdicts.back()), "come late"), late > 0);
+  }
+
+  /// A camera that sees no light is given the longest exposure: so few of these as can be. Another screen has
+  /// one of its own.
+  void noCodeIsPhotographedInTheDarkForLong() {
+    int longOnes = 0, shortOnes = 0;
+    Rig rig = rigOf({false, false, true, 0}, {}, 0.0, 1,
+                    [&](const CaptureRequest& request) { ++(request.seconds > 0.5 ? longOnes : shortOnes); });
+    Progress silent;
+    const ScreenProof proof = proveScreen(
+        *rig.projectors[0], {rig.projectors[1].get()}, *rig.cameras[0],
+        [](Projector& screen) { return screen.name() == "left" ? 1.0 : 0.02; }, {}, silent);
+    QVERIFY(!proof.isSeen);
+    QCOMPARE(proof.instead, std::string("right"));
+    QCOMPARE(longOnes, 2 * (ScreenProofSettings().mostLate + 1));
+    QCOMPARE(shortOnes, screenCodeLength + ScreenProofSettings().mostLate);
+  }
+
+  /// Light that comes late or is dim is still light.
+  void longExposuresSeeTheCodeToo_data() { picturesThatComeLateAreRecognised_data(); }
+  void longExposuresSeeTheCodeToo() {
+    QFETCH(int, late);
+    Rig rig = rigOf({false, false, false, late}, {});
+    ScreenProofSettings settings;
+    settings.mostLate = 5;
+    Progress silent;
+    const ScreenProof proof = proveScreen(
+        *rig.projectors[0], {}, *rig.cameras[0], [](Projector&) { return 0.5; }, settings, silent);
+    QVERIFY(proof.isSeen);
+    QCOMPARE(proof.sight.late, late);
+    QCOMPARE(proof.exposure, 0.5);
   }
 
   /// Nothing that blinks, moves or stands still is taken for the code.

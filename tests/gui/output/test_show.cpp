@@ -103,6 +103,24 @@ class TestShow : public QObject {
     QVERIFY(log().contains("display back: DUMMY1"));
   }
 
+  void displaysThatSleepAreWokenAndItIsTold_data() { addWaysToSleep(); }
+  void displaysThatSleepAreWokenAndItIsTold() {
+    QFETCH(QStringList, sleep);
+    if (QString why = whyNoSleep(sleep); !why.isEmpty()) QSKIP(qPrintable(why));
+    const DisplayPower power;
+    xset(sleep);
+    auto show = showOf(settings({picture("a.png", 3)}));
+    show->start();
+    QVERIFY(power.state() == DisplayPower::State::awake);
+    QCOMPARE(log().count("have been woken"), 1);
+    show->look();
+    QCOMPARE(log().count("have been woken"), 1);
+    xset(sleep);
+    show->look();
+    QVERIFY(power.state() == DisplayPower::State::awake);
+    QCOMPARE(log().count("have been woken"), 2);
+  }
+
   void playsAtItsHoursAndIsBlackBetweenThem() {
     ShowSettings wanted = settings({picture("a.png", 3)});
     wanted.hours = DailyHours{{18, 0}, {2, 30}};

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "gui/output/two_screens.h"
+#include "output/display_power.h"
 #include "support/screen_light.h"
 
 using namespace relucent;
@@ -23,6 +24,23 @@ Image noiseOf(quint32 seed) {
   for (float& value : image.data()) value = static_cast<float>(random.bounded(256)) / 255.0f;
   return image;
 }
+
+/// Something happens during its first photograph.
+class DisturbedCamera : public Camera {
+ public:
+  explicit DisturbedCamera(std::function<void()> disturb) : disturb_(std::move(disturb)) {}
+  std::string name() const override { return "disturbed camera"; }
+  Size size() const override { return {2, 2}; }
+  ExposureRange exposures() const override { return {0.001, 1.0}; }
+  RawFrame capture(const CaptureRequest& request) override {
+    if (photographs_++ == 0) disturb_();
+    return {Image(size(), 3, static_cast<float>(photographs_)), 0, request.seconds};
+  }
+
+ private:
+  std::function<void()> disturb_;
+  int photographs_ = 0;
+};
 
 }  // namespace
 
@@ -51,10 +69,15 @@ class TestWindowProjector : public QObject {
   static WindowProjector made(std::function<void(bool)> waiting = {}, Size pixels = size) {
     return WindowProjector(identityOf(displayOf(*screenOn("DUMMY1"))), pixels, std::move(waiting));
   }
+  static std::unique_ptr<WindowProjector> waking(std::chrono::milliseconds time) {
+    return std::make_unique<WindowProjector>(identityOf(displayOf(*screenOn("DUMMY1"))), size,
+                                             std::function<void(bool)>(), time);
+  }
 
  private slots:
   void cleanup() {
     if (screenOn("DUMMY1") == nullptr) plug();
+    xset({"s", "reset"});
   }
 
   /// show() returns when the light is out: whoever looks then sees this picture and nothing older.
@@ -99,6 +122,70 @@ class TestWindowProjector : public QObject {
         });
     QCOMPARE(thrown, std::string());
     QVERIFY(stoodBefore && !stoodAfter && rightAgain && !waits);
+  }
+
+  void displaysThatSleepAreWokenAndGivenTheirTime_data() { addWaysToSleep(); }
+  void displaysThatSleepAreWokenAndGivenTheirTime() {
+    QFETCH(QStringList, sleep);
+    if (QString why = whyNoSleep(sleep); !why.isEmpty()) QSKIP(qPrintable(why));
+    const auto projector = waking(std::chrono::milliseconds(300));
+    const DisplayPower power;
+    std::vector<qint64> dark;  // milliseconds
+    bool stood = true, awake = true;
+    auto showAfterSleep = [&](bool shownBefore) {
+      xset(sleep);
+      QElapsedTimer timer;
+      timer.start();
+      if (shownBefore) stood = projector->hasStood();
+      projector->show(noiseOf(6));
+      dark.push_back(timer.elapsed());
+      awake = awake && power.state() == DisplayPower::State::awake && projector->hasStood();
+    };
+    QCOMPARE(onWorker([&] {
+               showAfterSleep(false);
+               showAfterSleep(true);
+             }),
+             std::string());
+    QVERIFY(awake && !stood);
+    for (qint64 milliseconds : dark) QVERIFY2(milliseconds >= 300, qPrintable(QString::number(milliseconds)));
+  }
+
+  void aPhotographDuringWhichTheDisplaySleptIsTakenAgain_data() { addWaysToSleep(); }
+  void aPhotographDuringWhichTheDisplaySleptIsTakenAgain() {
+    QFETCH(QStringList, sleep);
+    QFETCH(QStringList, wake);
+    if (QString why = whyNoSleep(sleep); !why.isEmpty()) QSKIP(qPrintable(why));
+    ScreenLight light("DUMMY1");
+    for (const bool wokenMeanwhile : {false, true}) {
+      ScreenRig devices =
+          screenRig(waking(std::chrono::milliseconds(1)), std::make_unique<DisturbedCamera>([&] {
+                      xset(sleep);
+                      if (wokenMeanwhile) xset(wake);
+                    }),
+                    {}, sleepFor);
+      const Image picture = noiseOf(7);
+      float taken = 0.0f;
+      bool isOut = false;
+      const std::string thrown = onWorker([&] {
+        devices.rig.projectors[0]->show(picture);
+        taken = devices.rig.cameras[0]->capture({{"asleep", 0}, 0, 0.01}).signal.at(0, 0, 0);
+        isOut = light.look(size).data() == picture.data();
+      });
+      QCOMPARE(thrown, std::string());
+      QCOMPARE(taken, 2.0f);  // not the first
+      QVERIFY(isOut && DisplayPower().state() == DisplayPower::State::awake);
+    }
+  }
+
+  void displaysThatDoNotWakeAreTold() {
+    const auto projector = waking(std::chrono::milliseconds(100));
+    QProcess rival;
+    rival.start("sh", {"-c", "while xset s activate; do :; done"});
+    QVERIFY(rival.waitForStarted());
+    const std::string thrown = onWorker([&] { projector->show(noiseOf(8)); });
+    rival.kill();
+    rival.waitForFinished();
+    QVERIFY2(QString::fromStdString(thrown).contains("is asleep and does not wake"), thrown.c_str());
   }
 
   void whoWaitsForAScreenCanBeStopped() {

@@ -30,6 +30,27 @@ inline void plug() {
   QTRY_VERIFY(screenOn("DUMMY1") != nullptr);
 }
 
+inline void xset(const QStringList& arguments) {
+  QCOMPARE(QProcess::execute("xset", arguments), 0);
+}
+/// Ways to put displays to sleep, for xset: by the screen saver, and by DPMS where the server has it.
+inline void addWaysToSleep() {
+  QTest::addColumn<QStringList>("sleep");
+  QTest::addColumn<QStringList>("wake");
+  QTest::newRow("screen saver") << QStringList{"s", "activate"} << QStringList{"s", "reset"};
+  for (const char* level : {"standby", "suspend", "off"})
+    QTest::newRow(level) << QStringList{"dpms", "force", level} << QStringList{"dpms", "force", "on"};
+}
+/// Why the displays cannot be put to sleep so; empty: they can.
+inline QString whyNoSleep(const QStringList& sleep) {
+  if (sleep.front() != "dpms") return {};
+  QProcess query;
+  query.start("xset", {"q"});
+  if (!query.waitForFinished() || query.readAllStandardOutput().contains("not have the DPMS Extension"))
+    return "the X server's driver has no DPMS";
+  return {};
+}
+
 /// How often a test unplugs the projector: $RELUCENT_UNPLUG_CYCLES, or as often as there is time for usually.
 inline int unplugCycles(int usually) {
   bool given = false;

@@ -3,6 +3,7 @@
 // pixels are read from that screen; the camera is a GigE Vision one on a loopback network.
 // $RELUCENT_REAL_SIZES "256x192 160x120" and $RELUCENT_UNPLUG_CYCLES make it as large as wanted.
 #include <QGuiApplication>
+#include <QRasterWindow>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QThread>
@@ -23,6 +24,7 @@
 #include "wizard/acquire_page.h"
 #include "wizard/camera_page.h"
 #include "wizard/linearize_page.h"
+#include "wizard/other_screens.h"
 #include "wizard/venue_page.h"
 
 using namespace relucent;
@@ -163,6 +165,18 @@ void switchScreen(bool on) {
     xrandr({"--output", "DUMMY1", "--off"});
 }
 
+/// A screen of the projector's size right of the projector's.
+void switchThirdScreen(bool on) {
+  const Size size = wantedSizes().projector;
+  const QString mode = QString("relucent-%1x%2").arg(size.width).arg(size.height);
+  xrandr({"--addmode", "DUMMY2", mode});
+  if (on)
+    xrandr({"--output", "DUMMY2", "--mode", mode, "--right-of", "DUMMY1"});
+  else
+    xrandr({"--output", "DUMMY2", "--off"});
+  QTRY_VERIFY((screenOn("DUMMY2") != nullptr) == on);
+}
+
 }  // namespace
 
 class TestRealDevices : public QObject {
@@ -289,6 +303,50 @@ class TestRealDevices : public QObject {
     QVERIFY(transportBytes("real") == transportBytes("disturbed"));
   }
 
+  /// The projector hangs on another output than the one that was chosen.
+  void anotherScreenThatLightsUpIsNamed() {
+    switchThirdScreen(true);
+    const auto unplugged = qScopeGuard([] { switchThirdScreen(false); });
+    ScreenRigSettings wrong = devices();
+    wrong.display = displayOf(*screenOn("DUMMY2"));
+    CalibrateSettings settings = simulatedSettings();
+    settings.rig = wrong;
+    Session session(cache());
+    session.setPatience({4, 8});
+    session.begin(root() / "wrong", settings);
+    session.setRoomClear(true);
+    CameraPage camera(session);
+    QString told;
+    connect(&camera, &PageModel::failed, this, [&told](const FailureReport& report) {
+      told = report.failure.what + ' ' + report.failure.advice;
+    });
+    camera.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(!told.isEmpty(), 60000);
+    QCOMPARE(told,
+             QString("The camera sees DUMMY1, not DUMMY2. Choose DUMMY1, or aim the camera at DUMMY2."));
+    QTRY_VERIFY(session.busy().isEmpty());
+  }
+
+  /// Patterns never cover the wizard, wherever it stands.
+  void noScreenThatTheOperatorWorksOnLightsUp() {
+    auto mayLightUp = [] {
+      QStringList connectors;
+      for (const ScreenRigSettings& other : otherScreens(devices()))
+        connectors << QString::fromStdString(other.display.connector);
+      return connectors;
+    };
+    QCOMPARE(mayLightUp(), QStringList());
+    switchThirdScreen(true);
+    const auto unplugged = qScopeGuard([] { switchThirdScreen(false); });
+    QCOMPARE(mayLightUp(), QStringList("DUMMY2"));
+    QCOMPARE((otherScreens(devices()).front().projector), wantedSizes().projector);
+    QRasterWindow wizard;
+    wizard.setGeometry(screenOn("DUMMY2")->geometry());
+    wizard.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&wizard));
+    QCOMPARE(mayLightUp(), QStringList());
+  }
+
   /// As a person does it, page by page.
   void theWizardCalibratesWithThem() {
     if (wantedSizes().projector.width > 64) QSKIP("a test of the pages, not of size");
@@ -328,9 +386,7 @@ class TestRealDevices : public QObject {
     QVERIFY2(found.usable, found.problem.c_str());
     camera.chooseCamera(found.address, wantedSizes().camera);
     QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value() && camera.check().has_value(), 30000);
-    for (const auto* part : {&camera.check()->proof.verdicts, &camera.check()->latency.verdicts,
-                             &camera.check()->light.verdicts})
-      for (const std::string& verdict : *part) qInfo("%s", verdict.c_str());
+    for (const CheckVerdict& verdict : verdictsOf(*camera.check())) qInfo("%s", sentence(verdict).c_str());
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
     QVERIFY(camera.primary().enabled);
     camera.primary().run();

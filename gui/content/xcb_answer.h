@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+
+namespace relucent {
+
+struct FreeAnswer {
+  void operator()(void* answer) const { std::free(answer); }
+};
+/// What the X server answered; ours to free. nullptr: nothing.
+template <typename Reply>
+using Answer = std::unique_ptr<Reply, FreeAnswer>;
+template <typename Reply>
+Answer<Reply> owned(Reply* reply) {
+  return Answer<Reply>(reply);
+}
+
+}  // namespace relucent

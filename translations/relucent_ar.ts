@@ -13,6 +13,79 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>ترى الكاميرا ⁨%1⁩: يتبع ⁨%2⁩ من مجال رؤيتها نمط الاختبار.</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>تظهر الصورة معكوسة. إن لم يكن ذلك مقصودًا (عرض خلفي أو مرآة)، فأوقفه من قائمة جهاز العرض.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>تصل الصور دون تأخر: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار صورة واحدة: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار صورتين: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار %n صور: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار %n صورة: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار %n صورة: يجب قياس زمن التأخير وانتظاره.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>ترى الكاميرا ⁨%1⁩ وليس ⁨%2⁩.</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>لا ترى الكاميرا ⁨%1⁩.</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>تظهر الصورة فور إرسالها: يُنتظر ⁨%1⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد إطار واحد من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد إطارين من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد %n إطارات من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد %n إطارًا من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد %n إطار من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>يتغيّر الأبيض بمقدار ⁨%1⁩ من صورة إلى أخرى: عرّض إطارات كاملة لجهاز العرض، مضاعفات ⁨%2⁩، وأوقف السطوع الديناميكي.</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>يتغيّر الضوء بمقدار ⁨%1⁩ بين تعريضات إطارات كاملة: دع المصباح يسخن، وأوقف السطوع الديناميكي ومصابيح القاعة.</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>لا تستطيع الكاميرا التعريض لجزء من إطار، أو ترى القليل جدًا عندئذ: لا يمكن تمييز الارتعاش داخل الإطار.</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>يرتعش المصباح داخل الإطار بمقدار ⁨%1⁩ خلال ⁨%2⁩: عرّض إطارات كاملة، مضاعفات ⁨%3⁩.</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>تظهر الألوان واحدًا بعد آخر كما في عجلة ألوان (⁨%1⁩ خلال ⁨%2⁩): عرّض إطارات كاملة، مضاعفات ⁨%3⁩.</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>تعرّض الكاميرا صفوفها واحدًا بعد آخر (غالق متدحرج): في التعريضات القصيرة أشرطة بمقدار ⁨%1⁩. عرّض إطارات كاملة، مضاعفات ⁨%2⁩.</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>يمزج جهاز العرض درجات الرمادي زمنيًا، بكسلًا بكسلًا (⁨%1⁩): عرّض عدة إطارات كاملة، وأوقف التنعيم وأوضاع ثلاثية الأبعاد.</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>الضوء متجانس: لا يُرى ارتعاش ولا عجلة ألوان ولا أشرطة ولا تدرّج نقطي.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -89,6 +162,10 @@
             <numerusform>مع تعويض، %n خطوة، خارج المدى: ⁨%1 %⁩</numerusform>
             <numerusform>مع تعويض، %n خطوة، خارج المدى: ⁨%1 %⁩</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>صورة ثابتة</translation>
     </message>
 </context>
 <context>
@@ -691,14 +768,6 @@
         <translation>المراقبة</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>الإضاءة والمشهد تحت المراقبة</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>كل 40 لقطة تُقارن إضاءة القاعة والمصباح ومكان الكاميرا بما كانت عليه في البداية. إذا تحرّك شيء، يتوقف القياس مؤقتًا ويسألك.</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>متوقف مؤقتًا</translation>
     </message>
@@ -713,6 +782,168 @@
     <message>
         <source>about %1</source>
         <translation>نحو %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>لا تُجرى مقارنة بالبداية.</numerusform>
+            <numerusform>يُقارَن بالبداية بعد كل نمط. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل نمطين. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل %n أنماط. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل %n نمطًا. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل %n نمط. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>إنذار بعد هذا الحد</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>أُعيد التقاطه</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>أثناء القياس</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>ضوء قد يفسد الصور</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>الدقائق</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>إضاءة القاعة، % من الإضاءة الكاملة</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>إضاءة القاعة أثناء القياس</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>أُعيد التقاطه</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>ارتعش الضوء</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>تغيّرت إضاءة القاعة</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>تغيّر ضوء جهاز العرض</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>تحرّكت الكاميرا أو جهاز العرض</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>وقف شيء في مجال الرؤية</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>لم تكن الصورة المُرسَلة</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>لم ترَ الكاميرا شيئًا</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>لم يعرض جهاز العرض شيئًا</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>ساطعة جدًا، تعريض أقصر</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>لا تطابق ما سبق</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>رقم ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>من رقم ⁨%1⁩ إلى ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>إضاءة القاعة</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>الكاميرا ومجال الرؤية</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>الارتعاش</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>إضاءة القاعة ثابتة</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>تغيّرت إضاءة القاعة</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>⁨%1⁩ من الإضاءة الكاملة، تغيّرت بمقدار ⁨%2⁩ منذ البداية.</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>الكاميرا ثابتة</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>تغيّر مجال الرؤية</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>يختلف مجال الرؤية عن الأول بمقدار ⁨%1⁩.</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>جهاز العرض ثابت</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>تغيّر ضوء جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>انحرف ضوؤه بمقدار ⁨%1⁩ ويجري تصحيحه.</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>لا ارتعاش</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>الضوء يرتعش</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>تتطابق صور النمط الواحد في حدود ⁨%1⁩.</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>لم يوجد فرق بين صور النمط الواحد.</translation>
     </message>
 </context>
 <context>
@@ -1031,10 +1262,6 @@
         <translation>خريطة الخطأ، الوسيط %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>الوسيط %1، و95 % تحت %2</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>الحد الأقصى %1</translation>
     </message>
@@ -1168,6 +1395,10 @@
             <numerusform>خريطة التجمّعات، %n تجمّعًا، الأكبر %1</numerusform>
             <numerusform>خريطة التجمّعات، %n تجمّع، الأكبر %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>95 % من البكسلات دون</translation>
     </message>
 </context>
 <context>

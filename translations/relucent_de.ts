@@ -13,6 +13,71 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>Die Kamera sieht %1: %2 ihres Bildes folgen dem Testmuster.</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>Das Bild erscheint gespiegelt. Ist das nicht gewollt (Rückprojektion, Spiegel), im Menü des Projektors ausschalten.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>Bilder kommen ein Foto zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
+            <numerusform>Bilder kommen %n Fotos zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>Die Kamera sieht %1 und nicht %2.</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>Die Kamera sieht %1 nicht.</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>Ein Bild erscheint ein Einzelbild nach dem Senden: %1 werden abgewartet.</numerusform>
+            <numerusform>Ein Bild erscheint %n Einzelbilder nach dem Senden: %1 werden abgewartet.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>Weiß ändert sich von Foto zu Foto um %1: ganze Bilder des Projektors belichten, Vielfache von %2, und seine dynamische Helligkeit ausschalten.</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>Das Licht ändert sich zwischen Belichtungen ganzer Bilder um %1: Lampe warm werden lassen, dynamische Helligkeit und Lampen im Raum ausschalten.</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>Die Kamera kann nicht kürzer als ein Einzelbild belichten oder sieht dann zu wenig: Flackern innerhalb eines Einzelbilds ist nicht zu erkennen.</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>Die Lampe flackert innerhalb eines Einzelbilds, um %1 in %2: ganze Bilder belichten, Vielfache von %3.</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>Die Farben kommen nacheinander, wie durch ein Farbrad (%1 in %2): ganze Bilder belichten, Vielfache von %3.</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>Die Kamera belichtet ihre Zeilen nacheinander (Rolling Shutter): Kurze Belichtungen haben Streifen von %1. Ganze Bilder belichten, Vielfache von %2.</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>Der Projektor mischt Grautöne zeitlich, Pixel für Pixel (%1): mehrere ganze Bilder belichten, seine Glättung und 3D-Modi ausschalten.</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>Das Licht ist gleichmäßig: kein Flackern, kein Farbrad, keine Streifen, kein Dithering.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -85,6 +150,10 @@
             <numerusform>kompensiert, %n Schritt, %1 % unerreichbar</numerusform>
             <numerusform>kompensiert, %n Schritte, %1 % unerreichbar</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>Standbild</translation>
     </message>
 </context>
 <context>
@@ -663,14 +732,6 @@
         <translation>Überwachung</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>Licht und Kamerabild werden überwacht</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>Alle 40 Fotos werden Raumlicht, Lampe und Kamerastandort mit dem Beginn verglichen. Hat sich etwas verändert, hält die Messung an und fragt.</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>Pausiert</translation>
     </message>
@@ -685,6 +746,164 @@
     <message>
         <source>about %1</source>
         <translation>etwa %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Nach jedem Muster mit dem Beginn verglichen. Hat sich etwas verändert, hält die Messung an und fragt.</numerusform>
+            <numerusform>Alle %n Muster mit dem Beginn verglichen. Hat sich etwas verändert, hält die Messung an und fragt.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>Alarm ab hier</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>wiederholt</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>Während der Messung</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>Licht, das Fotos verderben würde</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>Minuten</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>Raumlicht, % des Volllichts</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>Raumlicht während der Messung</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>Wiederholt</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>das Licht flackerte</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>das Raumlicht änderte sich</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>das Licht des Projektors änderte sich</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>Kamera oder Projektor bewegt</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>etwas stand im Bild</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>es war nicht das gesendete Bild</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>die Kamera sah nichts</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>der Projektor zeigte nichts</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>zu hell, kürzer belichtet</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>passt nicht zu Früherem</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>Nr. %1</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>Nr. %1 bis %2</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Raumlicht</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>Kamera und Bild</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projektor</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>Flackern</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>Raumlicht stabil</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>Raumlicht verändert</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>%1 des Volllichts, seit Beginn um %2 verändert.</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>Kamera unbewegt</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>Das Bild hat sich verändert</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>Das Bild weicht um %1 vom ersten ab.</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>Projektor stabil</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>Das Licht des Projektors hat sich verändert</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>Sein Licht driftete um %1 und wird korrigiert.</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>Kein Flackern</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>Das Licht flackert</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>Fotos eines Musters stimmen auf %1 überein.</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>Zwischen Fotos eines Musters zeigte sich kein Unterschied.</translation>
     </message>
 </context>
 <context>
@@ -999,10 +1218,6 @@
         <translation>Fehlerkarte, Median %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>Median %1, 95 % unter %2</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>max. %1</translation>
     </message>
@@ -1116,6 +1331,10 @@
             <numerusform>Clusterkarte, %n Cluster, größter %1</numerusform>
             <numerusform>Clusterkarte, %n Cluster, größter %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>95 % der Pixel unter</translation>
     </message>
 </context>
 <context>

@@ -2,6 +2,23 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en" sourcelanguage="en">
 <context>
+    <name>CheckVerdict</name>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>Pictures come late, by %n photograph: the latency has to be measured and waited for.</numerusform>
+            <numerusform>Pictures come late, by %n photographs: the latency has to be measured and waited for.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>A picture is out %n frame after it is sent: %1 are waited for.</numerusform>
+            <numerusform>A picture is out %n frames after it is sent: %1 are waited for.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message numerus="yes">
         <source>compensated, %n step(s), %1 % out of reach</source>
@@ -56,6 +73,13 @@
         <translation>
             <numerusform>%n photograph is on the disk. The one being taken is not counted.</numerusform>
             <numerusform>All %n photographs are on the disk. The one being taken is not counted.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Compared with the start after every pattern. If something changed, the measurement pauses and asks.</numerusform>
+            <numerusform>Compared with the start every %n patterns. If something changed, the measurement pauses and asks.</numerusform>
         </translation>
     </message>
 </context>

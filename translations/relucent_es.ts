@@ -13,6 +13,71 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>La cámara ve %1: el %2 de su imagen sigue el patrón de prueba.</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>La imagen aparece reflejada. Si no es intencionado (retroproyección, un espejo), desactívelo en el menú del proyector.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>Las imágenes llegan %n fotografía tarde: hay que medir la latencia y esperarla.</numerusform>
+            <numerusform>Las imágenes llegan %n fotografías tarde: hay que medir la latencia y esperarla.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>La cámara ve %1 y no %2.</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>La cámara no ve %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>Una imagen aparece %n fotograma después de enviarse: se esperan %1.</numerusform>
+            <numerusform>Una imagen aparece %n fotogramas después de enviarse: se esperan %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>El blanco cambia un %1 de una fotografía a otra: exponga fotogramas enteros del proyector, múltiplos de %2, y desactive su brillo dinámico.</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>La luz cambia un %1 entre exposiciones de fotogramas enteros: deje que la lámpara se caliente y apague el brillo dinámico y las lámparas de la sala.</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>La cámara no puede exponer menos de un fotograma, o entonces ve demasiado poco: no se puede detectar el parpadeo dentro de un fotograma.</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>La lámpara parpadea dentro de un fotograma, un %1 en %2: exponga fotogramas enteros, múltiplos de %3.</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>Los colores llegan uno tras otro, como por una rueda de color (%1 en %2): exponga fotogramas enteros, múltiplos de %3.</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>La cámara expone sus filas una tras otra (obturador rodante): las exposiciones breves tienen bandas del %1. Exponga fotogramas enteros, múltiplos de %2.</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>El proyector mezcla los grises en el tiempo, píxel a píxel (%1): exponga varios fotogramas enteros y desactive el suavizado y los modos 3D.</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>La luz es uniforme: no se ven parpadeo, rueda de color, bandas ni tramado.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -85,6 +150,10 @@
             <numerusform>compensado, %n paso, %1 % fuera de alcance</numerusform>
             <numerusform>compensado, %n pasos, %1 % fuera de alcance</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>imagen fija</translation>
     </message>
 </context>
 <context>
@@ -663,14 +732,6 @@
         <translation>Vigilancia</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>Luz y vista vigiladas</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>Cada 40 fotografías se comparan con el inicio la luz de la sala, la lámpara y la posición de la cámara. Si algo se ha movido, la medición se pone en pausa y pregunta.</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>En pausa</translation>
     </message>
@@ -685,6 +746,164 @@
     <message>
         <source>about %1</source>
         <translation>unos %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Se compara con el inicio tras cada patrón. Si algo ha cambiado, la medición se pone en pausa y pregunta.</numerusform>
+            <numerusform>Se compara con el inicio cada %n patrones. Si algo ha cambiado, la medición se pone en pausa y pregunta.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>alarma a partir de aquí</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>repetido</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>Durante la medición</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>luz que estropearía las fotografías</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>Minutos</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>Luz de la sala, % de la luz plena</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>Luz de la sala durante la medición</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>Repetido</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>la luz parpadeó</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>cambió la luz de la sala</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>cambió la luz del proyector</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>se movió la cámara o el proyector</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>algo se interpuso en la imagen</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>la imagen no era la enviada</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>la cámara no vio nada</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>el proyector no mostró nada</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>demasiado claro, exposición más corta</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>no encaja con lo visto antes</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>N.º %1</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>N.º %1 a %2</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Luz de la sala</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>Cámara e imagen</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proyector</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>Parpadeo</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>Luz de la sala estable</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>La luz de la sala ha cambiado</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>%1 de la luz plena, ha cambiado %2 desde el inicio.</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>Cámara inmóvil</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>La imagen ha cambiado</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>La imagen difiere de la primera en %1.</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>Proyector estable</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>La luz del proyector ha cambiado</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>Su luz ha derivado %1 y se corrige.</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>Sin parpadeo</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>La luz parpadea</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>Las fotografías de un mismo patrón coinciden dentro del %1.</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>No hay diferencias entre las fotografías de un mismo patrón.</translation>
     </message>
 </context>
 <context>
@@ -999,10 +1218,6 @@
         <translation>Mapa de error, mediana %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>mediana %1, 95&#xa0;% bajo %2</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>límite %1</translation>
     </message>
@@ -1116,6 +1331,10 @@
             <numerusform>Mapa de clústeres, %n clúster, el mayor %1</numerusform>
             <numerusform>Mapa de clústeres, %n clústeres, el mayor %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>95 % de los píxeles por debajo de</translation>
     </message>
 </context>
 <context>

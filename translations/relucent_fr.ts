@@ -13,6 +13,71 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>La caméra voit %1 : %2 de son champ suivent la mire.</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>L’image apparaît en miroir. Si ce n’est pas voulu (rétroprojection, miroir), désactivez-le dans le menu du projecteur.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>Les images arrivent %n photo trop tard : la latence doit être mesurée et attendue.</numerusform>
+            <numerusform>Les images arrivent %n photos trop tard : la latence doit être mesurée et attendue.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>La caméra voit %1 et non %2.</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>La caméra ne voit pas %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>Une image apparaît %n trame après l’envoi : attente de %1.</numerusform>
+            <numerusform>Une image apparaît %n trames après l’envoi : attente de %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>Le blanc varie de %1 d’une photo à l’autre : exposez des trames entières du projecteur, multiples de %2, et désactivez sa luminosité dynamique.</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>La lumière varie de %1 entre des poses de trames entières : laissez chauffer la lampe, désactivez la luminosité dynamique et éteignez les lampes de la salle.</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>La caméra ne peut pas exposer moins d’une trame, ou voit alors trop peu : un scintillement au sein d’une trame ne peut être décelé.</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>La lampe scintille au sein d’une trame, de %1 en %2 : exposez des trames entières, multiples de %3.</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>Les couleurs se succèdent, comme à travers une roue chromatique (%1 en %2) : exposez des trames entières, multiples de %3.</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>La caméra expose ses lignes l’une après l’autre (obturateur déroulant) : les poses brèves ont des bandes de %1. Exposez des trames entières, multiples de %2.</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>Le projecteur mélange les gris dans le temps, pixel par pixel (%1) : exposez plusieurs trames entières et désactivez son lissage et ses modes 3D.</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>La lumière est régulière : ni scintillement, ni roue chromatique, ni bandes, ni tramage.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -85,6 +150,10 @@
             <numerusform>corrigé, %n itération, %1 % hors d’atteinte</numerusform>
             <numerusform>corrigé, %n itérations, %1 % hors d’atteinte</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>image fixe</translation>
     </message>
 </context>
 <context>
@@ -663,14 +732,6 @@
         <translation>Surveillance</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>Lumière et vue sont surveillées</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>Toutes les 40 photos, la lumière de la salle, la lampe et la position de la caméra sont comparées au début. Si quelque chose a bougé, la mesure se met en pause et vous interroge.</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>En pause</translation>
     </message>
@@ -685,6 +746,164 @@
     <message>
         <source>about %1</source>
         <translation>environ %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Comparé au début après chaque motif. Si quelque chose a changé, la mesure se met en pause et vous interroge.</numerusform>
+            <numerusform>Comparé au début tous les %n motifs. Si quelque chose a changé, la mesure se met en pause et vous interroge.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>alarme au-delà</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>repris</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>Pendant la mesure</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>lumière qui gâcherait les photos</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>Minutes</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>Lumière de la salle, % de la pleine lumière</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>Lumière de la salle pendant la mesure</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>Repris</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>la lumière a vacillé</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>la lumière de la salle a changé</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>la lumière du projecteur a changé</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>la caméra ou le projecteur a bougé</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>quelque chose était dans le champ</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>ce n’était pas l’image envoyée</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>la caméra n’a rien vu</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>le projecteur n’affichait rien</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>trop clair, pose plus courte</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>ne concorde pas avec ce qui précède</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>N° %1</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>N° %1 à %2</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Lumière de la salle</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>Caméra et champ</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>Scintillement</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>Lumière de la salle stable</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>La lumière de la salle a changé</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>%1 de la pleine lumière, variation de %2 depuis le début.</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>Caméra immobile</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>Le champ a changé</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>Le champ diffère du premier de %1.</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>Projecteur stable</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>La lumière du projecteur a changé</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>Sa lumière a dérivé de %1 ; c’est corrigé.</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>Aucun scintillement</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>La lumière vacille</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>Les photos d’un même motif concordent à %1 près.</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>Aucune différence entre les photos d’un même motif.</translation>
     </message>
 </context>
 <context>
@@ -999,10 +1218,6 @@
         <translation>Carte d’erreur, médiane %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>médiane %1, 95&#x202f;% sous %2</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>plafond %1</translation>
     </message>
@@ -1116,6 +1331,10 @@
             <numerusform>Carte des groupes, %n groupe, le plus grand : %1</numerusform>
             <numerusform>Carte des groupes, %n groupes, le plus grand : %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>95 % des pixels sous</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,71 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>La fotocamera vede %1: %2 dell’inquadratura segue il pattern di prova.</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>L’immagine appare specchiata. Se non è voluto (retroproiezione, uno specchio), disattivarlo nel menu del proiettore.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>Le immagini arrivano in ritardo di %n foto: la latenza va misurata e attesa.</numerusform>
+            <numerusform>Le immagini arrivano in ritardo di %n foto: la latenza va misurata e attesa.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>La fotocamera vede %1 e non %2.</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>La fotocamera non vede %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>Un’immagine appare %n fotogramma dopo l’invio: si attendono %1.</numerusform>
+            <numerusform>Un’immagine appare %n fotogrammi dopo l’invio: si attendono %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>Il bianco cambia di %1 da una foto all’altra: esporre fotogrammi interi del proiettore, multipli di %2, e disattivarne la luminosità dinamica.</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>La luce cambia di %1 tra pose di fotogrammi interi: lasciare scaldare la lampada, disattivare la luminosità dinamica e spegnere le lampade della sala.</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>La fotocamera non può esporre per una parte di fotogramma, o allora vede troppo poco: lo sfarfallio entro un fotogramma non è rilevabile.</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>La lampada sfarfalla entro un fotogramma, di %1 in %2: esporre fotogrammi interi, multipli di %3.</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>I colori arrivano uno dopo l’altro, come da una ruota colore (%1 in %2): esporre fotogrammi interi, multipli di %3.</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>La fotocamera espone le righe una dopo l’altra (rolling shutter): le pose brevi hanno bande di %1. Esporre fotogrammi interi, multipli di %2.</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>Il proiettore mescola i grigi nel tempo, pixel per pixel (%1): esporre più fotogrammi interi e disattivarne la levigatura e le modalità 3D.</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>La luce è uniforme: né sfarfallio, né ruota colore, né bande, né dithering.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -85,6 +150,10 @@
             <numerusform>compensata, %n passo, %1 % non raggiungibile</numerusform>
             <numerusform>compensata, %n passi, %1 % non raggiungibile</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>immagine fissa</translation>
     </message>
 </context>
 <context>
@@ -663,14 +732,6 @@
         <translation>Sorveglianza</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>Luce e inquadratura sono sorvegliate</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>Ogni 40 foto la luce della sala, la lampada e la posizione della fotocamera sono confrontate con l’inizio. Se qualcosa si è spostato, la misura va in pausa e chiede cosa fare.</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>In pausa</translation>
     </message>
@@ -685,6 +746,164 @@
     <message>
         <source>about %1</source>
         <translation>circa %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Confronto con l’inizio dopo ogni pattern. Se qualcosa è cambiato, la misura va in pausa e chiede cosa fare.</numerusform>
+            <numerusform>Confronto con l’inizio ogni %n pattern. Se qualcosa è cambiato, la misura va in pausa e chiede cosa fare.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>allarme oltre</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>ripetuto</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>Durante la misura</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>luce che rovinerebbe le foto</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>Minuti</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>Luce della sala, % della piena luce</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>Luce della sala durante la misura</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>Ripetuto</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>la luce ha sfarfallato</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>la luce della sala è cambiata</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>la luce del proiettore è cambiata</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>fotocamera o proiettore spostati</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>qualcosa era nell’inquadratura</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>non era l’immagine inviata</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>la fotocamera non vedeva nulla</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>il proiettore non mostrava nulla</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>troppo chiaro, posa più breve</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>non concorda con quanto visto prima</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>N. %1</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>N. %1–%2</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Luce della sala</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>Fotocamera e inquadratura</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proiettore</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>Sfarfallio</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>Luce della sala stabile</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>La luce della sala è cambiata</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>%1 della piena luce, variata di %2 dall’inizio.</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>Fotocamera ferma</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>L’inquadratura è cambiata</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>L’inquadratura differisce dalla prima di %1.</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>Proiettore stabile</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>La luce del proiettore è cambiata</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>La sua luce è derivata di %1 ed è corretta.</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>Nessuno sfarfallio</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>La luce sfarfalla</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>Le foto di uno stesso pattern concordano entro %1.</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>Nessuna differenza tra le foto di uno stesso pattern.</translation>
     </message>
 </context>
 <context>
@@ -999,10 +1218,6 @@
         <translation>Mappa errori, mediana %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>mediana %1, 95 % sotto %2</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>limite %1</translation>
     </message>
@@ -1116,6 +1331,10 @@
             <numerusform>Mappa cluster, %n cluster, il più grande %1</numerusform>
             <numerusform>Mappa cluster, %n cluster, il più grande %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>95 % dei pixel sotto</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,69 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>カメラに %1 が見えています：視野の %2 がテストパターンに追従しています。</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>画像が反転しています。意図したもの（背面投写、鏡）でなければ、プロジェクターのメニューで反転をオフにしてください。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>画像が写真 %n 枚分遅れて届きます：遅延を測定して待つ必要があります。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>カメラに見えているのは %2 ではなく %1 です。</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>カメラに %1 が見えていません。</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>画像は送信から %n フレーム後に表示されます：%1 待ちます。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>白が写真ごとに %1 変化します：プロジェクターの整数フレーム（%2 の倍数）で露光し、動的輝度をオフにしてください。</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>整数フレームの露光の間に光が %1 変化します：ランプを暖機し、動的輝度と室内の照明をオフにしてください。</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>カメラは 1 フレーム未満の露光ができないか、その場合は暗すぎます：フレーム内のちらつきは判定できません。</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>ランプがフレーム内でちらつきます（%2 で %1）：整数フレーム（%3 の倍数）で露光してください。</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>カラーホイールのように色が順に現れます（%2 で %1）：整数フレーム（%3 の倍数）で露光してください。</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>カメラは行を順に露光します（ローリングシャッター）：短い露光には %1 の縞が出ます。整数フレーム（%2 の倍数）で露光してください。</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>プロジェクターは画素ごとに灰色を時間的に混ぜています（%1）：複数の整数フレームで露光し、スムージングと 3D モードをオフにしてください。</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>光は均一です：ちらつき、カラーホイール、縞、ディザリングは見られません。</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -84,6 +147,10 @@
         <translation>
             <numerusform>補正あり、反復 %n 回、再現不可 %1 %</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>静止画</translation>
     </message>
 </context>
 <context>
@@ -656,14 +723,6 @@
         <translation>監視</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>光と視野を監視しています</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>40 枚撮影するごとに、室内光、ランプ、カメラの位置を開始時と比較します。何かが動いた場合は、測定を一時停止して確認します。</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>一時停止中</translation>
     </message>
@@ -678,6 +737,163 @@
     <message>
         <source>about %1</source>
         <translation>約 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>パターン %n 枚ごとに開始時と比較します。変化があった場合は、測定を一時停止して確認します。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>ここを超えると警告</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>撮り直し</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>測定中</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>写真を損なう光</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>分</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>室内光、全点灯に対する %</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>測定中の室内光</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>撮り直し</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>光がちらつきました</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>室内光が変わりました</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>プロジェクターの光が変わりました</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>カメラかプロジェクターが動きました</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>視野に何かがありました</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>送った画像ではありませんでした</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>カメラに何も写りませんでした</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>プロジェクターに何も映りませんでした</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>明るすぎ、露光を短縮</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>以前の結果と合いません</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>%1 番</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>%1～%2 番</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>室内光</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>カメラと視野</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>ちらつき</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>室内光は安定</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>室内光が変わりました</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>全点灯の %1、開始時から %2 変化。</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>カメラは静止</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>視野が変わりました</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>最初の視野との差は %1 です。</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>プロジェクターは安定</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>プロジェクターの光が変わりました</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>光のずれ %1 は補正されます。</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>ちらつきなし</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>光がちらついています</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>同じパターンの写真の差は %1 以内です。</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>同じパターンの写真に差はありませんでした。</translation>
     </message>
 </context>
 <context>
@@ -991,10 +1207,6 @@
         <translation>誤差マップ、中央値 %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>中央値 %1、95 % が %2 未満</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>上限 %1</translation>
     </message>
@@ -1103,6 +1315,10 @@
         <translation>
             <numerusform>クラスターマップ、クラスター %n 個、最大 %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>画素の 95 % が以下</translation>
     </message>
 </context>
 <context>

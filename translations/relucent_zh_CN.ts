@@ -13,6 +13,69 @@
     </message>
 </context>
 <context>
+    <name>CheckVerdict</name>
+    <message>
+        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
+        <translation>相机看到了 %1：画面的 %2 跟随测试图案。</translation>
+    </message>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>图像呈镜像。如非有意（背投、镜子），请在投影机菜单中关闭镜像。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
+        <translation>
+            <numerusform>图像晚到 %n 张照片：必须测量延迟并等待。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The camera sees %1 and not %2.</source>
+        <translation>相机看到的是 %1，而不是 %2。</translation>
+    </message>
+    <message>
+        <source>The camera does not see %1.</source>
+        <translation>相机没有看到 %1。</translation>
+    </message>
+    <message numerus="yes">
+        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
+        <translation>
+            <numerusform>图像在发送 %n 帧后显示：等待 %1。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
+        <translation>各张照片的白场变化 %1：请按投影机的整帧曝光（%2 的倍数），并关闭其动态亮度。</translation>
+    </message>
+    <message>
+        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>整帧曝光之间光线变化 %1：请让灯预热，并关闭动态亮度和室内的灯。</translation>
+    </message>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>相机无法按不足一帧曝光，或此时看到的太少：无法判断帧内闪烁。</translation>
+    </message>
+    <message>
+        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
+        <translation>灯在一帧内闪烁，%2 内变化 %1：请按整帧曝光（%3 的倍数）。</translation>
+    </message>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
+        <translation>颜色依次出现，如经过色轮（%2 内 %1）：请按整帧曝光（%3 的倍数）。</translation>
+    </message>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
+        <translation>相机逐行曝光（卷帘快门）：短曝光有 %1 的条纹。请按整帧曝光（%2 的倍数）。</translation>
+    </message>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>投影机逐像素按时间混合灰阶（%1）：请按多个整帧曝光，并关闭其平滑和 3D 模式。</translation>
+    </message>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>光线均匀：未见闪烁、色轮、条纹或抖动。</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -84,6 +147,10 @@
         <translation>
             <numerusform>已补偿，迭代 %n 步，不可达 %1 %</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>still picture</source>
+        <translation>静止图像</translation>
     </message>
 </context>
 <context>
@@ -656,14 +723,6 @@
         <translation>监测</translation>
     </message>
     <message>
-        <source>Light and view are watched</source>
-        <translation>正在监测光线和视野</translation>
-    </message>
-    <message>
-        <source>Every 40 photographs the room light, the lamp and the camera&apos;s place are compared with the start. If something moved, the measurement pauses and asks.</source>
-        <translation>每拍 40 张照片，就将环境光、灯和相机位置与开始时比较。如有变动，测量会暂停并询问。</translation>
-    </message>
-    <message>
         <source>Paused</source>
         <translation>已暂停</translation>
     </message>
@@ -678,6 +737,163 @@
     <message>
         <source>about %1</source>
         <translation>约 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>每 %n 个图案与开始时比较一次。如有变化，测量会暂停并询问。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>alarm beyond</source>
+        <translation>超出即报警</translation>
+    </message>
+    <message>
+        <source>taken again</source>
+        <translation>重拍</translation>
+    </message>
+    <message>
+        <source>During the measurement</source>
+        <translation>测量期间</translation>
+    </message>
+    <message>
+        <source>light that would spoil photographs</source>
+        <translation>会破坏照片的光</translation>
+    </message>
+    <message>
+        <source>Minutes</source>
+        <translation>分钟</translation>
+    </message>
+    <message>
+        <source>Room light, % of full light</source>
+        <translation>环境光，占全亮的 %</translation>
+    </message>
+    <message>
+        <source>Room light during the measurement</source>
+        <translation>测量期间的环境光</translation>
+    </message>
+    <message>
+        <source>Taken again</source>
+        <translation>重拍</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::AcquisitionTrace</name>
+    <message>
+        <source>the light flickered</source>
+        <translation>光线闪烁</translation>
+    </message>
+    <message>
+        <source>the room light changed</source>
+        <translation>环境光变化</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed</source>
+        <translation>投影机的光变化</translation>
+    </message>
+    <message>
+        <source>the camera or the projector moved</source>
+        <translation>相机或投影机移动</translation>
+    </message>
+    <message>
+        <source>something stood in the view</source>
+        <translation>画面中有遮挡</translation>
+    </message>
+    <message>
+        <source>the picture was not the one sent</source>
+        <translation>不是发送的图像</translation>
+    </message>
+    <message>
+        <source>the camera saw nothing</source>
+        <translation>相机什么也没看到</translation>
+    </message>
+    <message>
+        <source>the projector showed nothing</source>
+        <translation>投影机没有显示</translation>
+    </message>
+    <message>
+        <source>too bright, shorter exposure</source>
+        <translation>过亮，缩短曝光</translation>
+    </message>
+    <message>
+        <source>does not fit what was seen before</source>
+        <translation>与之前所见不符</translation>
+    </message>
+    <message>
+        <source>No. %1</source>
+        <translation>第 %1 个</translation>
+    </message>
+    <message>
+        <source>No. %1 to %2</source>
+        <translation>第 %1 至 %2 个</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>环境光</translation>
+    </message>
+    <message>
+        <source>Camera and view</source>
+        <translation>相机与画面</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>闪烁</translation>
+    </message>
+    <message>
+        <source>Room light steady</source>
+        <translation>环境光稳定</translation>
+    </message>
+    <message>
+        <source>Room light changed</source>
+        <translation>环境光已变化</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed by %2 since the start.</source>
+        <translation>占全亮的 %1，自开始以来变化 %2。</translation>
+    </message>
+    <message>
+        <source>Camera still</source>
+        <translation>相机静止</translation>
+    </message>
+    <message>
+        <source>The view changed</source>
+        <translation>画面已变化</translation>
+    </message>
+    <message>
+        <source>The view differs by %1 from the first.</source>
+        <translation>画面与最初相差 %1。</translation>
+    </message>
+    <message>
+        <source>Projector steady</source>
+        <translation>投影机稳定</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changed</source>
+        <translation>投影机的光已变化</translation>
+    </message>
+    <message>
+        <source>Its light drifted by %1 and is corrected.</source>
+        <translation>其光漂移了 %1，已校正。</translation>
+    </message>
+    <message>
+        <source>No flicker</source>
+        <translation>无闪烁</translation>
+    </message>
+    <message>
+        <source>The light flickers</source>
+        <translation>光线闪烁</translation>
+    </message>
+    <message>
+        <source>Photographs of one pattern agree within %1.</source>
+        <translation>同一图案的照片相差不超过 %1。</translation>
+    </message>
+    <message>
+        <source>No difference between photographs of one pattern was found.</source>
+        <translation>同一图案的照片之间没有差异。</translation>
     </message>
 </context>
 <context>
@@ -991,10 +1207,6 @@
         <translation>误差图，中位数 %1</translation>
     </message>
     <message>
-        <source>median %1, 95 % below %2</source>
-        <translation>中位数 %1，95 % 低于 %2</translation>
-    </message>
-    <message>
         <source>cap %1</source>
         <translation>上限 %1</translation>
     </message>
@@ -1103,6 +1315,10 @@
         <translation>
             <numerusform>簇图，%n 个簇，最大 %1</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>95 % of pixels below</source>
+        <translation>95 % 的像素低于</translation>
     </message>
 </context>
 <context>

@@ -116,21 +116,19 @@ class Grouper::Work {
 
   /// Returns the light of what is cut.
   double cutBetweenClusters() {
-    result_.kept.resize(patches_.kept().size());
-    keptOfRow_.resize(graph_.rows());
+    result_.kept = patches_.kept();
+    keptOfRow_ = patches_.keptOfRow();
     std::vector<double> light(parts, 0.0);
     parallelChunks(0, graph_.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         std::span<const Connection> row = graph_.row(i);
-        const std::uint8_t* before = patches_.kept().data() + graph_.placeOf(i);
         std::uint8_t* kept = result_.kept.data() + graph_.placeOf(i);
-        std::uint32_t left = 0;
-        for (std::size_t k = 0; k < row.size(); ++k) {
-          kept[k] = before[k] && result_.projectorCluster[row[k].pixel] == result_.cameraCluster[i] ? 1 : 0;
-          left += kept[k];
-          if (kept[k] != before[k]) light[part] += static_cast<double>(row[k].luminance);
-        }
-        keptOfRow_[i] = left;
+        forKept(kept, row.size(), [&](std::size_t k) {
+          if (result_.projectorCluster[row[k].pixel] == result_.cameraCluster[i]) return;
+          kept[k] = 0;
+          --keptOfRow_[i];
+          light[part] += static_cast<double>(row[k].luminance);
+        });
       }
     });
     return std::accumulate(light.begin(), light.end(), 0.0);

@@ -75,13 +75,12 @@ void PatchCut::cutRow(std::size_t i, const ClusteringSettings& settings, std::si
   });
 
   std::uint32_t joined = row.front().pixel;
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (!kept[k]) continue;
+  forKept(kept, row.size(), [&](std::size_t k) {
     ++keptOfRow_[i];
     lightOfPart_[part] += static_cast<double>(row[k].luminance);
     brightest_[row[k].pixel].raise(row[k].luminance, static_cast<std::uint32_t>(i));
     joined = sets_.join(joined, row[k].pixel);
-  }
+  });
 }
 
 /// Line 20.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
 #include "clustering/clustering.h"
 
 namespace relucent {
@@ -39,6 +43,17 @@ class PatchFinder {
 
 /// A row's connections that are bright enough to take part.
 std::span<const Connection> bright(std::span<const Connection> row, const ClusteringSettings& settings);
+
+/// Calls visit(k) for every k below `count` where kept[k] is 1, not 0: eight at a time are passed over.
+template <typename Visit>
+void forKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
+  static_assert(std::endian::native == std::endian::little);
+  for (std::size_t k = 0; k < count; k += 8) {
+    std::uint64_t flags = 0;
+    std::memcpy(&flags, kept + k, std::min<std::size_t>(8, count - k));
+    for (; flags != 0; flags &= flags - 1) visit(k + static_cast<std::size_t>(std::countr_zero(flags)) / 8);
+  }
+}
 
 template <typename Join>
 std::size_t PatchFinder::visit(std::span<const Connection> row, double radius, const Join& join) {

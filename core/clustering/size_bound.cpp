@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clustering/size_bound.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,27 +11,23 @@
 namespace relucent {
 namespace {
 
-constexpr std::size_t chunks = 64;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-/// Connections are ranked in levels of these least strengths. Where they lie makes no difference to the
-/// result; after the first one or two, most clusters are full.
-constexpr std::array<float, 3> levels{0.5f, 0.2f, 0.0f};
 
 }  // namespace
 
 void SizeBound::join(const CutGraph& cut, std::uint32_t most, Progress& progress) {
   most_ = most;
   joinBrightest(cut);
-  progress.report(0.2);
-  findStrongest(cut);
-  float below = std::numeric_limits<float>::infinity();
-  for (float least : levels) {
-    rank(cut, least, below);
-    progress.checkpoint();
+  progress.report(0.1);
+  collect(cut);
+  progress.report(0.5);
+  for (std::size_t level = 0; level < levels; ++level) {
+    rank(level);
     joinRanked();
-    below = least;
     progress.checkpoint();
   }
+  parallelFor(0, root_.size(), 4096,
+              [&](std::size_t pixel) { root_[pixel] = sets_.find(static_cast<std::uint32_t>(pixel)); });
   progress.report(1.0);
 }
 
@@ -59,53 +55,51 @@ void SizeBound::joinBrightest(const CutGraph& cut) {
   }
 }
 
-/// A camera pixel that is no projector pixel's brightest goes along with the strongest connection that it
-/// has: it adds nothing to a cluster's size, so the first connection that is looked at always takes it in.
-void SizeBound::findStrongest(const CutGraph& cut) {
-  parallelFor(0, cut.graph.rows(), 1024, [&](std::size_t i) {
-    std::span<const Connection> row = cut.graph.row(i);
-    if (seen_[i] != none || row.empty()) return;
-    const std::uint8_t* kept = cut.kept.data() + cut.graph.placeOf(i);
-    float rowRoot = std::sqrt(row.front().luminance), highest = -1.0f;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      if (!kept[k]) continue;
-      float here = strength(rowRoot, row[k]);
-      if (here < highest || (here == highest && row[k].pixel > seen_[i])) continue;
-      highest = here;
-      seen_[i] = row[k].pixel;
+/// The connections that can still join something, by level.
+void SizeBound::collect(const CutGraph& cut) {
+  parallelChunks(0, cut.graph.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    auto& found = collected_[part];
+    for (std::vector<Ranked>& level : found) level.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      std::span<const Connection> row = cut.graph.row(i);
+      if (row.empty()) continue;
+      const std::uint8_t* kept = cut.kept.data() + cut.graph.placeOf(i);
+      float rootHighest = std::sqrt(row.front().luminance);
+      auto strengthOf = [&](const Connection& connection) {
+        return connection.luminance / (rootHighest * rootBrightest_[connection.pixel]);
+      };
+      if (seen_[i] == none) {
+        // It is no projector pixel's brightest and adds nothing to a cluster's size: the strongest connection
+        // that it has takes it in, whatever joined before.
+        float highest = -1.0f;
+        forKept(kept, row.size(), [&](std::size_t k) {
+          float strength = strengthOf(row[k]);
+          if (strength < highest || (strength == highest && row[k].pixel > seen_[i])) return;
+          highest = strength;
+          seen_[i] = row[k].pixel;
+        });
+      }
+      std::uint32_t own = root_[seen_[i]];
+      forKept(kept, row.size(), [&](std::size_t k) {
+        if (!canJoin(own, root_[row[k].pixel])) return;
+        float strength = strengthOf(row[k]);
+        // No connection is stronger than one, but for rounding.
+        auto level = static_cast<std::size_t>(static_cast<float>(levels) * std::max(0.0f, 1.0f - strength));
+        found[std::min(level, levels - 1)].push_back({strength, static_cast<std::uint32_t>(i), row[k].pixel});
+      });
     }
   });
 }
 
-/// The connections of a level that can still join something, the strongest first.
-void SizeBound::rank(const CutGraph& cut, float least, float below) {
-  parts_.resize(chunks);
-  parallelChunks(0, cut.graph.rows(), chunks, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    std::vector<Ranked>& found = parts_[part];
-    found.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      if (seen_[i] == none) continue;
-      std::uint32_t own = root_[seen_[i]], room = most_ - size_[own];
-      if (room == 0) continue;
-      std::span<const Connection> row = cut.graph.row(i);
-      const std::uint8_t* kept = cut.kept.data() + cut.graph.placeOf(i);
-      float rowRoot = std::sqrt(row.front().luminance);
-      // No connection is stronger than the square root of its share of the row's brightest. The margin is
-      // for rounding.
-      double dimmest = 0.999 * static_cast<double>(least) * static_cast<double>(least) *
-                       static_cast<double>(row.front().luminance);
-      for (std::size_t k = 0; k < row.size() && static_cast<double>(row[k].luminance) >= dimmest; ++k) {
-        if (!kept[k]) continue;
-        std::uint32_t other = root_[row[k].pixel];
-        if (other == own || size_[other] > room) continue;
-        float here = strength(rowRoot, row[k]);
-        if (here >= least && here < below)
-          found.push_back({here, static_cast<std::uint32_t>(i), row[k].pixel});
-      }
-    }
+/// Those of a level that can join something now, the strongest first.
+void SizeBound::rank(std::size_t level) {
+  parallelFor(0, parts, 1, [&](std::size_t part) {
+    std::erase_if(collected_[part][level], [&](const Ranked& connection) {
+      return !canJoin(sets_.find(seen_[connection.row]), sets_.find(connection.pixel));
+    });
   });
   ranked_.clear();
-  for (const std::vector<Ranked>& part : parts_) ranked_.insert(ranked_.end(), part.begin(), part.end());
+  for (const auto& part : collected_) ranked_.insert(ranked_.end(), part[level].begin(), part[level].end());
   parallelSort(ranked_, [](const Ranked& a, const Ranked& b) {
     if (a.strength != b.strength) return a.strength > b.strength;
     return a.row != b.row ? a.row < b.row : a.pixel < b.pixel;
@@ -115,12 +109,10 @@ void SizeBound::rank(const CutGraph& cut, float least, float below) {
 void SizeBound::joinRanked() {
   for (const Ranked& connection : ranked_) {
     std::uint32_t a = sets_.find(seen_[connection.row]), b = sets_.find(connection.pixel);
-    if (a == b || size_[a] + size_[b] > most_) continue;
+    if (!canJoin(a, b)) continue;
     std::uint32_t together = size_[a] + size_[b];
     size_[sets_.join(a, b)] = together;
   }
-  parallelFor(0, root_.size(), 4096,
-              [&](std::size_t pixel) { root_[pixel] = sets_.find(static_cast<std::uint32_t>(pixel)); });
 }
 
 }  // namespace relucent

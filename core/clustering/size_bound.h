@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "clustering/brightest.h"
@@ -17,10 +18,10 @@ struct CutGraph {
 };
 
 /// The largest clusters along the strongest connections that hold at most `most` projector pixels; see
-/// clustered() for their order. As Kruskal's algorithm it takes connections in descending order, and like
-/// its filtering variant (Osipov, Sanders & Singler 2009) sorts the strongest first and of weaker ones only
-/// those that can still join something: a connection within a cluster, or between two that are too large
-/// together, never can again. That leaves the result as it is. Memory is kept from one call to the next.
+/// clustered() for their order. As Kruskal's algorithm it takes connections in descending order; and like
+/// its filtering variant (Osipov, Sanders & Singler 2009), level by level, it ranks only those that can still
+/// join something: a connection within a cluster, or between two that are too large together, never can
+/// again. That leaves the result as it is. Memory is kept from one call to the next.
 class SizeBound {
  public:
   /// Throws: Cancelled.
@@ -36,21 +37,23 @@ class SizeBound {
     float strength;
     std::uint32_t row, pixel;
   };
+  /// By strength, the strongest first.
+  static constexpr std::size_t levels = 16;
+  static constexpr std::size_t parts = 64;
+
   void joinBrightest(const CutGraph& cut);
-  void findStrongest(const CutGraph& cut);
-  void rank(const CutGraph& cut, float least, float below);
+  void collect(const CutGraph& cut);
+  void rank(std::size_t level);
   void joinRanked();
-  float strength(float rowRoot, const Connection& connection) const {
-    return connection.luminance / (rowRoot * rootBrightest_[connection.pixel]);
-  }
+  bool canJoin(std::uint32_t a, std::uint32_t b) const { return a != b && size_[a] + size_[b] <= most_; }
 
   std::uint32_t most_ = 0;
   DisjointSets sets_;                 // of projector pixels
-  std::vector<std::uint32_t> root_;   // of each, as it was after the last level
+  std::vector<std::uint32_t> root_;   // of each, in the end
   std::vector<std::uint32_t> size_;   // per root
   std::vector<std::uint32_t> seen_;   // per camera pixel a projector pixel of its cluster
   std::vector<float> rootBrightest_;  // square root of each projector pixel's highest luminance
-  std::vector<std::vector<Ranked>> parts_;
+  std::array<std::array<std::vector<Ranked>, levels>, parts> collected_;
   std::vector<Ranked> ranked_;
 };
 

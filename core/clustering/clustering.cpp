@@ -21,18 +21,15 @@ std::vector<std::string> problems(const ClusteringSettings& settings) {
 
 Clustering clustered(const ConnectionGraph& graph, const ClusteringSettings& settings, Progress& progress) {
   Progress grouping = progress.part(0.7, "Joining clusters");
-  Grouper grouper(graph);
-  const Grouping& groups = grouper.group(settings, grouping);
+  // What the grouper keeps for a next time is not held beside T~.
+  Grouping groups = Grouper(graph).group(settings, grouping);
 
   Progress scaling = progress.part(0.3, "Scaling to the flood image");
   Approximation approximation = scaledToFloodlight(graph, groups, settings, scaling);
-  Clustering result{groups.cameraCluster,
-                    groups.projectorCluster,
-                    groups.sizes,
-                    std::move(approximation.transport),
-                    std::move(approximation.error),
-                    groups.statistics};
-  summariseErrors(groups, result.error, result.statistics);
+  summariseErrors(groups, approximation.error, groups.statistics);
+  Clustering result{std::move(groups.cameraCluster), std::move(groups.projectorCluster),
+                    std::move(groups.sizes),         std::move(approximation.transport),
+                    std::move(approximation.error),  std::move(groups.statistics)};
   progress.report(1.0);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "clustering/clustering.h"
 
@@ -48,11 +49,14 @@ std::span<const Connection> bright(std::span<const Connection> row, const Cluste
 template <typename Visit>
 void forKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
   static_assert(std::endian::native == std::endian::little);
-  for (std::size_t k = 0; k < count; k += 8) {
+  std::size_t k = 0;
+  for (; k + 8 <= count; k += 8) {
     std::uint64_t flags = 0;
-    std::memcpy(&flags, kept + k, std::min<std::size_t>(8, count - k));
+    std::memcpy(&flags, kept + k, 8);
     for (; flags != 0; flags &= flags - 1) visit(k + static_cast<std::size_t>(std::countr_zero(flags)) / 8);
   }
+  for (; k < count; ++k)
+    if (kept[k]) visit(k);
 }
 
 template <typename Join>
@@ -63,24 +67,35 @@ std::size_t PatchFinder::visit(std::span<const Connection> row, double radius, c
     std::int64_t dx = a.x - b.x, dy = a.y - b.y;
     return dx * dx + dy * dy <= reach;
   };
+  if (row.empty()) return 0;
   place_.resize(row.size());
   unlabelled_.resize(row.size());
+  // Rows are sorted: the first unlabelled connection is the brightest. Most belong to the first patch.
+  std::size_t left = 0;
+  Pixel centre = places_->of(row.front().pixel);
   for (std::size_t i = 0; i < row.size(); ++i) {
-    place_[i] = places_->of(row[i].pixel);
-    unlabelled_[i] = static_cast<std::uint32_t>(i);
-  }
-  std::size_t patch = 0;
-  for (std::size_t count = row.size(); count > 0; ++patch) {
-    // Rows are sorted: the first unlabelled connection is the brightest.
-    std::size_t centre = unlabelled_.front(), left = 0;
-    for (std::size_t u = 0; u < count; ++u) {
-      std::uint32_t i = unlabelled_[u];
-      if (isNear(place_[centre], place_[i]))
-        join(i, patch, centre);
-      else
-        unlabelled_[left++] = i;
+    Pixel place = places_->of(row[i].pixel);
+    if (isNear(centre, place)) {
+      join(i, std::size_t{0}, std::size_t{0});
+    } else {
+      place_[left] = place;
+      unlabelled_[left++] = static_cast<std::uint32_t>(i);
     }
-    count = left;
+  }
+  std::size_t patch = 1;
+  for (; left > 0; ++patch) {
+    std::size_t count = std::exchange(left, 0), brightest = unlabelled_.front();
+    centre = place_.front();
+    for (std::size_t u = 0; u < count; ++u) {
+      Pixel place = place_[u];
+      std::uint32_t i = unlabelled_[u];
+      if (isNear(centre, place)) {
+        join(i, patch, brightest);
+      } else {
+        place_[left] = place;
+        unlabelled_[left++] = i;
+      }
+    }
   }
   return patch;
 }

@@ -118,7 +118,7 @@ class TestRefining : public QObject {
     refining.ask([](Progress&, const auto&) -> QString {
       throw Error(ErrorKind::input, "it is wrong", "do it again", {});
     });
-    QTRY_COMPARE(failures_, QStringList({"it is wrong"}));
+    QTRY_COMPARE(failures_, QStringList({"It is wrong."}));
     QVERIFY(!refining.isBusy() && answers_.isEmpty());
     refining.ask([](Progress&, const auto&) { return QString("exactly"); });
     QTRY_COMPARE(answers_, QStringList({"exactly"}));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "clustering/patches.h"
 #include "image/color.h"
 
 namespace relucent {
@@ -19,13 +20,13 @@ constexpr float leastChannelShare = 1e-3f;
 /// One row of T~ as it is made.
 class RowScaler {
  public:
-  RowScaler(const ConnectionGraph& graph, const PixelPlaces& places, const KeptConnections& connections,
+  RowScaler(const ConnectionGraph& graph, const PixelPlaces& places, const Grouping& grouping,
             const ClusteringSettings& settings)
       : graph_(graph),
         leaves_(graph.transport().leaves()),
-        kept_(connections.kept),
+        kept_(grouping.kept),
         settings_(settings),
-        finder_(places, settings.patchRadius) {}
+        finder_(places) {}
 
   struct Entry {
     std::uint32_t pixel;
@@ -62,7 +63,7 @@ class RowScaler {
   const std::vector<double>& patchGains(std::span<const Connection> row, const std::uint8_t* kept) {
     gain_.assign(row.size(), 1.0);
     if (settings_.rescaling == Rescaling::rows) return gain_;
-    const std::vector<std::uint32_t>& patch = finder_.patchesOf(row);
+    const std::vector<std::uint32_t>& patch = finder_.patchesOf(row, settings_.patchRadius);
     whole_.assign(finder_.patches(), 0.0);
     left_.assign(finder_.patches(), 0.0);
     for (std::size_t k = 0; k < row.size(); ++k) {
@@ -121,15 +122,26 @@ float relativeError(const ConnectionGraph& graph, std::size_t row,
   return static_cast<float>(std::sqrt(std::max(0.0, apart) / whole));
 }
 
+/// Calls visit(row, entries) for all rows, on all cores.
+template <typename Visit>
+void visitScaledRows(const ConnectionGraph& graph, const Grouping& grouping,
+                     const ClusteringSettings& settings, const Progress& progress, const Visit& visit) {
+  PixelPlaces places(graph.transport().projectors());
+  parallelChunks(0, graph.rows(), chunks, [&](std::size_t, std::size_t begin, std::size_t end) {
+    progress.checkpoint();
+    RowScaler scaler(graph, places, grouping, settings);
+    for (std::size_t i = begin; i < end; ++i) visit(i, scaler.scaled(i));
+  });
+}
+
 }  // namespace
 
-Approximation scaledToFloodlight(const ConnectionGraph& graph, const PixelPlaces& places,
-                                 const KeptConnections& connections, const ClusteringSettings& settings,
-                                 Progress& progress) {
+Approximation scaledToFloodlight(const ConnectionGraph& graph, const Grouping& grouping,
+                                 const ClusteringSettings& settings, Progress& progress) {
   std::size_t rows = graph.rows();
   std::vector<std::size_t> start(rows + 1, 0);
   parallelFor(0, rows, 256, [&](std::size_t i) {
-    const std::uint8_t* kept = connections.kept.data() + graph.placeOf(i);
+    const std::uint8_t* kept = grouping.kept.data() + graph.placeOf(i);
     start[i + 1] = static_cast<std::size_t>(
         std::count_if(kept, kept + graph.row(i).size(), [](std::uint8_t k) { return k != 0; }));
   });
@@ -140,20 +152,17 @@ Approximation scaledToFloodlight(const ConnectionGraph& graph, const PixelPlaces
   std::vector<std::uint32_t> column(start.back());
   std::vector<BlockSparseWriter::Code> code(start.back());
   std::vector<float> scale(rows, 0.0f);
-  parallelChunks(0, rows, chunks, [&](std::size_t, std::size_t begin, std::size_t end) {
-    RowScaler scaler(graph, places, connections, settings);
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::vector<RowScaler::Entry>& entries = scaler.scaled(i);
-      for (const RowScaler::Entry& entry : entries)
-        scale[i] = std::max(scale[i], entry.scaled.cwiseAbs().maxCoeff() / largestCode);
-      std::size_t next = start[i];
-      for (const RowScaler::Entry& entry : entries) {
-        column[next] = entry.pixel;
-        code[next++] = codeOf(entry.scaled, scale[i]);
-      }
-      result.error[i] = relativeError(graph, i, entries);
-    }
-  });
+  visitScaledRows(graph, grouping, settings, progress,
+                  [&](std::size_t i, const std::vector<RowScaler::Entry>& entries) {
+                    for (const RowScaler::Entry& entry : entries)
+                      scale[i] = std::max(scale[i], entry.scaled.cwiseAbs().maxCoeff() / largestCode);
+                    std::size_t next = start[i];
+                    for (const RowScaler::Entry& entry : entries) {
+                      column[next] = entry.pixel;
+                      code[next++] = codeOf(entry.scaled, scale[i]);
+                    }
+                    result.error[i] = relativeError(graph, i, entries);
+                  });
   progress.report(0.9);
   const TransportMatrix& transport = graph.transport();
   result.transport =
@@ -162,6 +171,32 @@ Approximation scaledToFloodlight(const ConnectionGraph& graph, const PixelPlaces
                                              std::move(code), std::move(scale)));
   progress.report(1.0);
   return result;
+}
+
+std::vector<float> errorOfScaled(const ConnectionGraph& graph, const Grouping& grouping,
+                                 const ClusteringSettings& settings, Progress& progress) {
+  std::vector<float> error(graph.rows(), 0.0f);
+  visitScaledRows(graph, grouping, settings, progress,
+                  [&](std::size_t i, const std::vector<RowScaler::Entry>& entries) {
+                    error[i] = relativeError(graph, i, entries);
+                  });
+  progress.report(1.0);
+  return error;
+}
+
+void summariseErrors(const Grouping& grouping, const std::vector<float>& error,
+                     ClusteringStatistics& statistics) {
+  std::vector<float> lit;
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (grouping.cameraCluster[i] != noCluster) lit.push_back(error[i]);
+  if (lit.empty()) return;
+  auto ranked = [&lit](std::size_t rank) {
+    auto place = lit.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(lit.begin(), place, lit.end());
+    return static_cast<double>(*place);
+  };
+  statistics.errorMedian = ranked(lit.size() / 2);
+  statistics.errorP95 = ranked(lit.size() * 95 / 100);
 }
 
 }  // namespace relucent

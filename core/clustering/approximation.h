@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "clustering/patches.h"
+#include "clustering/grouping.h"
 
 namespace relucent {
 
@@ -13,8 +13,16 @@ struct Approximation {
 
 /// Line 21: the kept connections, scaled (see clustered()), as a matrix, and its error without expanding T,
 ///   |T_i - T~_i|^2 = |T_i|^2 + sum over kept (|T~_ij|^2 - 2 T_ij . T~_ij).
-Approximation scaledToFloodlight(const ConnectionGraph& graph, const PixelPlaces& places,
-                                 const KeptConnections& connections, const ClusteringSettings& settings,
-                                 Progress& progress);
+/// Throws: Cancelled.
+Approximation scaledToFloodlight(const ConnectionGraph& graph, const Grouping& grouping,
+                                 const ClusteringSettings& settings, Progress& progress);
+
+/// The same error, and nothing stored of T~.  Throws: Cancelled.
+std::vector<float> errorOfScaled(const ConnectionGraph& graph, const Grouping& grouping,
+                                 const ClusteringSettings& settings, Progress& progress);
+
+/// Median and 95th percentile of the lit camera pixels' errors.
+void summariseErrors(const Grouping& grouping, const std::vector<float>& error,
+                     ClusteringStatistics& statistics);
 
 }  // namespace relucent

@@ -2,6 +2,7 @@
 #include "clustering/cluster_map.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "clustering/clustering.h"
@@ -23,15 +24,27 @@ void forNeighbours(const Rasters& rasters, const Visit& visit) {
   }
 }
 
-std::vector<std::vector<std::uint32_t>> neighboursOf(const std::vector<std::uint32_t>& map,
-                                                     const Rasters& rasters, std::size_t clusters) {
-  std::vector<std::vector<std::uint32_t>> neighbours(clusters);
-  forNeighbours(rasters, [&](std::size_t a, std::size_t b) {
-    std::uint32_t one = map[a], other = map[b];
-    if (one == other || one == noCluster || other == noCluster) return;
-    neighbours[one].push_back(other);
-    neighbours[other].push_back(one);
-  });
+/// For every cluster those that it touches, once for each pair of pixels: list[start[c]] to list[start[c +
+/// 1]].
+struct Neighbours {
+  std::vector<std::uint32_t> start, list;
+};
+
+Neighbours neighboursOf(const std::vector<std::uint32_t>& map, const Rasters& rasters, std::size_t clusters) {
+  auto forTouching = [&](const auto& visit) {
+    forNeighbours(rasters, [&](std::size_t a, std::size_t b) {
+      std::uint32_t one = map[a], other = map[b];
+      if (one == other || one == noCluster || other == noCluster) return;
+      visit(one, other);
+      visit(other, one);
+    });
+  };
+  Neighbours neighbours{std::vector<std::uint32_t>(clusters + 1, 0), {}};
+  forTouching([&](std::uint32_t one, std::uint32_t) { ++neighbours.start[one]; });
+  std::partial_sum(neighbours.start.begin(), neighbours.start.end(), neighbours.start.begin());
+  neighbours.list.resize(neighbours.start.back());
+  forTouching(
+      [&](std::uint32_t one, std::uint32_t other) { neighbours.list[--neighbours.start[one]] = other; });
   return neighbours;
 }
 
@@ -41,14 +54,14 @@ std::vector<std::uint8_t> clusterColours(const std::vector<std::uint32_t>& map, 
                                          std::size_t clusters, int colours) {
   require(map.size() == rasters.count(), "{} values for {} pixels", map.size(), rasters.count());
   require(colours > 0 && colours < 256, "{} colours", colours);
-  auto neighbours = neighboursOf(map, rasters, clusters);
+  Neighbours neighbours = neighboursOf(map, rasters, clusters);
   constexpr std::uint8_t none = 255;
   std::vector<std::uint8_t> colour(clusters, none);
-  std::vector<std::size_t> used(static_cast<std::size_t>(colours), 0);
+  std::vector<std::size_t> used(static_cast<std::size_t>(colours), 0), taken(used.size());
   for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
-    std::vector<std::size_t> taken(used.size(), 0);
-    for (std::uint32_t neighbour : neighbours[cluster])
-      if (colour[neighbour] != none) ++taken[colour[neighbour]];
+    std::fill(taken.begin(), taken.end(), 0);
+    for (std::uint32_t k = neighbours.start[cluster]; k < neighbours.start[cluster + 1]; ++k)
+      if (std::uint8_t theirs = colour[neighbours.list[k]]; theirs != none) ++taken[theirs];
     std::size_t best = 0;
     for (std::size_t candidate = 1; candidate < used.size(); ++candidate) {
       auto cost = [&](std::size_t c) { return std::pair(taken[c], used[c]); };

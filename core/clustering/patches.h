@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
 #include "clustering/clustering.h"
 
 namespace relucent {
@@ -9,56 +14,90 @@ namespace relucent {
 class PixelPlaces {
  public:
   explicit PixelPlaces(const Rasters& projectors);
-  bool near(std::uint32_t a, std::uint32_t b, double squaredRadius) const {
-    double dx = place_[a].x - place_[b].x, dy = place_[a].y - place_[b].y;
-    return dx * dx + dy * dy <= squaredRadius;
-  }
+  Pixel of(std::uint32_t pixel) const { return place_[pixel]; }
 
  private:
   std::vector<Pixel> place_;
 };
 
-/// Lines 2 to 11 for one camera pixel: the patch of each of a row's connections; patches are numbered as
-/// they are found, each begins with its brightest.
+/// Lines 2 to 11 for one camera pixel: patches are numbered as they are found, each begins with its
+/// brightest.
 class PatchFinder {
  public:
-  PatchFinder(const PixelPlaces& places, double radius) : places_(places), squaredRadius_(radius * radius) {}
-  /// The result is valid until the next call.
-  const std::vector<std::uint32_t>& patchesOf(std::span<const Connection> row);
+  explicit PatchFinder(const PixelPlaces& places) : places_(&places) {}
+
+  /// Calls join(connection, patch, centre) for each of a row's connections, patch by patch: `centre` is the
+  /// patch's brightest connection. Returns the number of patches.
+  template <typename Join>
+  std::size_t visit(std::span<const Connection> row, double radius, const Join& join);
+
+  /// The patch of each of a row's connections. Valid until the next call.
+  const std::vector<std::uint32_t>& patchesOf(std::span<const Connection> row, double radius);
   std::size_t patches() const { return patches_; }
 
  private:
-  const PixelPlaces& places_;
-  double squaredRadius_;
+  const PixelPlaces* places_;
   std::size_t patches_ = 0;
+  std::vector<Pixel> place_;
   std::vector<std::uint32_t> label_, unlabelled_;
 };
 
 /// A row's connections that are bright enough to take part.
 std::span<const Connection> bright(std::span<const Connection> row, const ClusteringSettings& settings);
 
-/// The brightest of a projector pixel's connections.
-struct Dominant {
-  float luminance = 0.0f;  // 0: none
-  std::uint32_t row = 0;
-  std::size_t place = 0;
-};
+/// Calls visit(k) for every k below `count` where kept[k] is 1, not 0: eight at a time are passed over.
+template <typename Visit>
+void forKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
+  static_assert(std::endian::native == std::endian::little);
+  std::size_t k = 0;
+  for (; k + 8 <= count; k += 8) {
+    std::uint64_t flags = 0;
+    std::memcpy(&flags, kept + k, 8);
+    for (; flags != 0; flags &= flags - 1) visit(k + static_cast<std::size_t>(std::countr_zero(flags)) / 8);
+  }
+  for (; k < count; ++k)
+    if (kept[k]) visit(k);
+}
 
-/// Which connections stay, by place in the graph.
-struct KeptConnections {
-  std::vector<std::uint8_t> kept;
-  std::vector<std::uint8_t> lit;  // per projector pixel: connected before anything was cut
-  std::size_t reinserted = 0;
-};
-
-/// Lines 1 to 20.
-KeptConnections cutPatches(const ConnectionGraph& graph, const PixelPlaces& places,
-                           const ClusteringSettings& settings, Progress& progress);
-
-/// Per projector pixel for which wanted(pixel) the brightest connection for which among(place), of equals the
-/// one to the lower camera pixel.
-std::vector<Dominant> dominantConnections(const ConnectionGraph& graph, const ClusteringSettings& settings,
-                                          const std::vector<std::uint8_t>& wantedPixels,
-                                          const std::vector<std::uint8_t>* amongPlaces);
+template <typename Join>
+std::size_t PatchFinder::visit(std::span<const Connection> row, double radius, const Join& join) {
+  // Squared distances are whole numbers.
+  auto reach = static_cast<std::int64_t>(radius * radius);
+  auto isNear = [reach](Pixel a, Pixel b) {
+    std::int64_t dx = a.x - b.x, dy = a.y - b.y;
+    return dx * dx + dy * dy <= reach;
+  };
+  if (row.empty()) return 0;
+  place_.resize(row.size());
+  unlabelled_.resize(row.size());
+  // Rows are sorted: the first unlabelled connection is the brightest. Most belong to the first patch.
+  std::size_t left = 0;
+  Pixel centre = places_->of(row.front().pixel);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    Pixel place = places_->of(row[i].pixel);
+    if (isNear(centre, place)) {
+      join(i, std::size_t{0}, std::size_t{0});
+    } else {
+      place_[left] = place;
+      unlabelled_[left++] = static_cast<std::uint32_t>(i);
+    }
+  }
+  std::size_t patch = 1;
+  for (; left > 0; ++patch) {
+    std::size_t count = std::exchange(left, 0), brightest = unlabelled_.front();
+    centre = place_.front();
+    for (std::size_t u = 0; u < count; ++u) {
+      Pixel place = place_[u];
+      std::uint32_t i = unlabelled_[u];
+      if (isNear(centre, place)) {
+        join(i, patch, brightest);
+      } else {
+        place_[left] = place;
+        unlabelled_[left++] = i;
+      }
+    }
+  }
+  return patch;
+}
 
 }  // namespace relucent

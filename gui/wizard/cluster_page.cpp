@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "clustering/cluster_map.h"
+#include "clustering/grouping.h"
 #include "pipeline/pictures.h"
 #include "views/number_text.h"
 #include "wizard/cluster_picture.h"
@@ -13,28 +14,31 @@ namespace {
 
 constexpr int paletteColours = 8;
 
-/// `surface`: the first camera's picture in full light.
-std::shared_ptr<const ClusterResult> resultOf(const ConnectionGraph& graph,
-                                              const ClusteringSettings& settings, const QImage& surface) {
-  Progress quiet;
-  Clustering clustering = clustered(graph, settings, quiet);
-  const Rasters& cameras = graph.transport().cameras();
+/// The map and its numbers. `surface`: the first camera's picture in full light.
+std::shared_ptr<const ClusterResult> mapOf(const Grouping& grouping, const Rasters& cameras,
+                                           const QImage& surface) {
   auto result = std::make_shared<ClusterResult>();
   result->camera = cameras.size(0);
   std::size_t pixels = result->camera.count();
-  result->statistics = clustering.statistics;
-  result->colours =
-      clusterColours(clustering.cameraCluster, cameras, clustering.sizes.size(), paletteColours);
-  result->borders = clusterBorders(clustering.cameraCluster, cameras);
-  result->map = std::move(clustering.cameraCluster);
-  result->error = std::move(clustering.error);
-  result->sizes = std::move(clustering.sizes);
-  for (std::size_t i = 0; i < pixels; ++i)
-    if (result->map[i] == noCluster) result->error[i] = std::numeric_limits<float>::quiet_NaN();
+  result->statistics = grouping.statistics;
+  result->colours = clusterColours(grouping.cameraCluster, cameras, grouping.sizes.size(), paletteColours);
+  result->borders = clusterBorders(grouping.cameraCluster, cameras);
+  result->map = grouping.cameraCluster;
+  result->sizes = grouping.sizes;
   result->borders.resize(pixels);
   result->map.resize(pixels);
-  result->error.resize(pixels);
   result->picture = clusterPicture(result->map, result->colours, result->borders, surface);
+  return result;
+}
+
+std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, GroupingError error) {
+  auto result = std::make_shared<ClusterResult>(map);
+  result->exact = true;
+  result->statistics = std::move(error.statistics);
+  result->error = std::move(error.error);
+  result->error.resize(result->map.size());
+  for (std::size_t i = 0; i < result->map.size(); ++i)
+    if (result->map[i] == noCluster) result->error[i] = std::numeric_limits<float>::quiet_NaN();
   double high = std::max(0.1, std::min(1.0, result->statistics.errorP95 * 1.1));
   result->errorScale = {ColourMap::cividis, 0.0, high, false};
   result->errorPicture = mapped(result->error, result->camera, result->errorScale);
@@ -47,6 +51,7 @@ std::shared_ptr<const ClusterResult> resultOf(const ConnectionGraph& graph,
 struct ClusterPage::Prepared {
   TransportMatrix transport;
   std::optional<ConnectionGraph> graph;
+  std::unique_ptr<Grouper> grouper;  // for computing_ alone, which asks it one thing at a time
   QImage surface;
 };
 
@@ -61,16 +66,13 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
           [this](const Failure& failure) {
             Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
           }),
-      computing_(
-          [this](std::shared_ptr<const ClusterResult> result) {
-            result_ = std::move(result);
-            Q_EMIT changed();
-          },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
-          }) {
+      computing_([this](std::shared_ptr<const ClusterResult> result) { show(std::move(result)); },
+                 [this](const Failure& failure) {
+                   Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+                 }) {
   connect(&session_, &Session::opened, this, [this] {
     settings_ = session_.settings().clustering;
+    computing_.drop();
     prepared_ = nullptr;
     result_ = nullptr;
     preparedFor_.clear();
@@ -103,6 +105,7 @@ void ClusterPage::prepare() {
     Progress quiet;
     prepared->graph.emplace(prepared->transport, usablePixels(*acquisition), ConnectionGraphSettings(),
                             quiet);
+    prepared->grouper = std::make_unique<Grouper>(*prepared->graph);
     Image flood = imageFromStack(acquisition->flood, acquisition->transport.cameras(), 0);
     prepared->surface = relucent::pictureOf(flood, displayWhite(flood));
     return prepared;
@@ -111,9 +114,30 @@ void ClusterPage::prepare() {
 
 void ClusterPage::compute() {
   if (prepared_)
-    computing_.ask([prepared = prepared_, settings = settings_] {
-      return resultOf(*prepared->graph, settings, prepared->surface);
+    computing_.ask([prepared = prepared_, settings = settings_](Progress& progress, const auto& tellSoon) {
+      Progress grouping = progress.part(0.4, "Joining clusters");
+      const Grouping& groups = prepared->grouper->group(settings, grouping);
+      std::shared_ptr<const ClusterResult> map =
+          mapOf(groups, prepared->transport.cameras(), prepared->surface);
+      tellSoon(map);
+      Progress scaling = progress.part(0.6, "Scaling to the flood image");
+      return withErrors(*map, errorOf(*prepared->graph, groups, settings, scaling));
     });
+  Q_EMIT changed();
+}
+
+/// Until a map's own errors are known, those of the map before stand in for them.
+void ClusterPage::show(std::shared_ptr<const ClusterResult> result) {
+  if (!result->exact && result_) {
+    auto together = std::make_shared<ClusterResult>(*result);
+    together->error = result_->error;
+    together->errorPicture = result_->errorPicture;
+    together->errorScale = result_->errorScale;
+    together->statistics.errorMedian = result_->statistics.errorMedian;
+    together->statistics.errorP95 = result_->statistics.errorP95;
+    result = std::move(together);
+  }
+  result_ = std::move(result);
   Q_EMIT changed();
 }
 
@@ -150,7 +174,9 @@ QString ClusterPage::sizesText() const {
 
 Command ClusterPage::primary() const {
   auto* self = const_cast<ClusterPage*>(this);
-  return {tr("Preview content"), Icon::next, result_ && !isComputing(), {}, [self] { self->accept(); }};
+  return {tr("Preview content"), Icon::next, result_ && result_->exact && !isComputing(), {}, [self] {
+            self->accept();
+          }};
 }
 
 std::optional<Banner> ClusterPage::banner() const {

@@ -3,19 +3,21 @@
 
 #include "clustering/clustering.h"
 #include "jobs/latest.h"
+#include "jobs/refining.h"
 #include "views/colour_map.h"
 #include "wizard/page_model.h"
 #include "wizard/session.h"
 
 namespace relucent {
 
-/// What one set of sliders gives, for the first camera.
+/// What one set of sliders gives, for the first camera. Its map is known before its errors.
 struct ClusterResult {
+  bool exact = false;  // errors are this map's; until then those of the map before, or none
   ClusteringStatistics statistics;
   std::vector<std::uint32_t> map;     // per camera pixel: cluster or noCluster
   std::vector<std::uint8_t> colours;  // per cluster
   std::vector<std::uint8_t> borders;  // per camera pixel
-  std::vector<float> error;           // per camera pixel; NaN where there is no cluster
+  std::vector<float> error;           // per camera pixel, or empty; NaN where there was no cluster
   std::vector<ClusterSize> sizes;
   Size camera;
   QImage picture, errorPicture;  // the maps to be seen
@@ -43,7 +45,7 @@ class ClusterPage : public PageModel {
 
   const ClusteringSettings& settings() const { return settings_; }
   void setSettings(const ClusteringSettings& settings);
-  /// What the sliders gave last; they may have moved on.
+  /// What the sliders gave last; they may have moved on. Of each set of sliders the map comes first.
   const std::shared_ptr<const ClusterResult>& result() const { return result_; }
   /// "21 480 clusters, median 12 px". Contract: there is a result.
   QString sizesText() const;
@@ -57,6 +59,7 @@ class ClusterPage : public PageModel {
   struct Prepared;
   void prepare();
   void compute();
+  void show(std::shared_ptr<const ClusterResult> result);
   void accept();
 
   Session& session_;
@@ -66,7 +69,7 @@ class ClusterPage : public PageModel {
   std::shared_ptr<const Prepared> prepared_;
   std::shared_ptr<const ClusterResult> result_;
   Latest<std::shared_ptr<const Prepared>> preparing_;
-  Latest<std::shared_ptr<const ClusterResult>> computing_;
+  Refining<std::shared_ptr<const ClusterResult>> computing_;
   bool looked_ = false;
 };
 

@@ -82,8 +82,12 @@ class ClusterStage : public QWidget {
     std::size_t at = indexOf(result->camera, {pixel.x(), pixel.y()});
     if (result->map[at] == noCluster)
       return ClusterPage::tr("%1, %2: in no cluster").arg(pixel.x()).arg(pixel.y());
-    return ClusterPage::tr("%1, %2: %n projector pixel(s), error %3", nullptr,
-                           static_cast<int>(result->sizes[result->map[at]].unknowns))
+    const auto unknowns = static_cast<int>(result->sizes[result->map[at]].unknowns);
+    if (!result->exact)
+      return ClusterPage::tr("%1, %2: %n projector pixel(s)", nullptr, unknowns)
+          .arg(pixel.x())
+          .arg(pixel.y());
+    return ClusterPage::tr("%1, %2: %n projector pixel(s), error %3", nullptr, unknowns)
         .arg(pixel.x())
         .arg(pixel.y())
         .arg(percentText(static_cast<double>(result->error[at])));
@@ -102,17 +106,29 @@ class ClusterStage : public QWidget {
     map_->setAccessibleName(
         groupedText(ClusterPage::tr("Cluster map, %n cluster(s), largest %1", nullptr, clusters), clusters)
             .arg(result->statistics.largest));
-    error_->setScale(result->errorScale, ClusterPage::tr("rel. RMS"), true);
-    error_->setPicture(result->errorPicture);
-    error_->setValues(Image(result->camera, 1, result->error));
-    form_->setEnabled(error_->canRise());
-    QString median = percentText(result->statistics.errorMedian);
-    error_->setAccessibleName(ClusterPage::tr("Error map, median %1").arg(median));
+    showErrors();
     outline();
     sizes_->setBars(barsOf(result->sizes));
     sizes_->setCut(model_.settings().mostUnknowns);
     sizes_->setCutText(ClusterPage::tr("cap %1").arg(model_.settings().mostUnknowns));
     sizeCard_->setSubtitle(model_.sizesText());
+  }
+
+  /// What is known of the map before stays, and says so.
+  void showErrors() {
+    bool any = !shown_->errorPicture.isNull();
+    error_->setBadge(any && !shown_->exact ? ClusterPage::tr("Grouping again") : QString());
+    if (!shown_->exact && any) return;
+    if (!any) {
+      error_->setValues({});
+      return error_->setPicture({});
+    }
+    error_->setScale(shown_->errorScale, ClusterPage::tr("rel. RMS"), true);
+    error_->setPicture(shown_->errorPicture);
+    error_->setValues(Image(shown_->camera, 1, shown_->error));
+    form_->setEnabled(error_->canRise());
+    QString median = percentText(shown_->statistics.errorMedian);
+    error_->setAccessibleName(ClusterPage::tr("Error map, median %1").arg(median));
   }
 
   /// Of the picked pixel's cluster, in both maps.
@@ -221,8 +237,10 @@ QWidget* inspectorOf(ClusterPage& model) {
     clusters->setValue(countText(result->sizes.size()));
     cut->setValue(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap)));
     kept->setValue(percentText(s.keptLight));
-    error->setValue(percentText(s.errorMedian));
-    most->setValue(percentText(s.errorP95));
+    // Of the map before, until its own are known.
+    const char* style = result->exact ? "strong" : "note";
+    error->setValue(result->error.empty() ? QString() : percentText(s.errorMedian), style);
+    most->setValue(result->error.empty() ? QString() : percentText(s.errorP95), style);
     double joined =
         s.litProjectorPixels > 0 ? s.largestBeforeCap / static_cast<double>(s.litProjectorPixels) : 0.0;
     percolated->setVisible(joined > 0.2);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include "clustering/grouping.h"
 #include "inverse/cluster_inverse.h"
 #include "inverse/windows.h"
 #include "synthetic_transport.h"
@@ -111,6 +112,36 @@ void changeThreshold(benchmark::State& state) {
   }
 }
 
+/// What moving a slider costs until its map is known. `most`: the cap, 0: none; `cut`: per cent of a patch's
+/// brightest; `moved`: the slider is the cap's own, else that of the distance.
+void groupAgain(benchmark::State& state) {
+  auto most = static_cast<int>(state.range(0));
+  ClusteringSettings settings;
+  settings.cap = most > 0 ? SizeCap::always : SizeCap::never;
+  settings.mostUnknowns = std::max(1, most);
+  settings.patchCut = 0.01 * static_cast<double>(state.range(1));
+  Grouper grouper(graph());
+  grouper.group(settings, quiet);
+  double before = forgetPeak();
+  for (auto _ : state) {
+    if (state.range(2))
+      settings.mostUnknowns = settings.mostUnknowns == most ? most + 16 : most;
+    else
+      settings.patchRadius = settings.patchRadius == 8.0 ? 9.0 : 8.0;
+    const Grouping& result = grouper.group(settings, quiet);
+    describe(state, result.statistics, result.sizes.size());
+  }
+  state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
+}
+
+/// ... and from then until its errors are.
+void errorsOfGrouping(benchmark::State& state) {
+  ClusteringSettings settings;
+  Grouper grouper(graph());
+  const Grouping& grouping = grouper.group(settings, quiet);
+  for (auto _ : state) benchmark::DoNotOptimize(errorOf(graph(), grouping, settings, quiet));
+}
+
 void cappedClusters(benchmark::State& state) {
   graph();
   double before = forgetPeak();
@@ -172,6 +203,18 @@ BENCHMARK(cappedInverse)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(windows)->Iterations(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(changeThreshold)->ArgName("cap")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
+// Of all threads: on a machine that others use too, it says more than seconds on the wall.
+BENCHMARK(groupAgain)
+    ->ArgNames({"most", "cut", "cap_moved"})
+    ->Args({0, 50, 0})
+    ->Args({128, 50, 0})
+    ->Args({256, 50, 0})
+    ->Args({256, 10, 0})
+    ->Args({256, 50, 1})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(errorsOfGrouping)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(cappedClusters)->ArgName("most")->Arg(256)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(applyInverse)->UseRealTime()->Unit(benchmark::kMillisecond);
 

@@ -236,7 +236,9 @@ class TestWizardWindow : public QObject {
     auto* distance = find<QSlider>("distance");
     distance->setFocus();
     QTest::keyClick(distance, Qt::Key_Left);
+    // The map comes before its errors, and only with these it can be gone on.
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->cluster().result() != before, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->cluster().isComputing(), patience);
     click("primary");
     QTRY_COMPARE(page(), std::size_t{6});
   }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tbb/parallel_sort.h>
+
+namespace relucent {
+
+/// Sorts on all cores. Contract: `less` leaves no two items equal; then the result does not depend on the
+/// number of threads.
+template <typename Items, typename Less>
+void parallelSort(Items& items, const Less& less) {
+  tbb::parallel_sort(items.begin(), items.end(), less);
+}
+
+}  // namespace relucent

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QFutureWatcher>
+#include <QtConcurrent>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "base/progress.h"
+#include "jobs/failure.h"
+
+namespace relucent {
+
+/// Work for sliders that answers twice or more: soon, then exactly. Of many requests the newest is answered
+/// exactly; it cancels the one under way. But never two in a row that had not answered yet: a slider that
+/// moves on and on would be followed by nothing. `Result` is copied or moved to the thread of this object.
+template <typename Result>
+class Refining {
+ public:
+  using Tell = std::function<void(Result)>;
+  /// Tells what it knows soon, any number of times, and returns the exact answer. Called on another thread,
+  /// one at a time; ends with Cancelled when its progress says so.
+  using Work = std::function<Result(Progress& progress, const Tell& tellSoon)>;
+  using Failed = std::function<void(const Failure&)>;
+
+  Refining(Tell told, Failed failed) : told_(std::move(told)), failed_(std::move(failed)) {
+    QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] { finished(); });
+  }
+  /// Cancels the request under way and waits for its end.
+  ~Refining() {
+    watcher_.disconnect();
+    drop();
+    watcher_.waitForFinished();
+  }
+
+  void ask(Work work) {
+    waiting_ = std::move(work);
+    if (!round_)
+      begin();
+    else if (round_->answered || !starved_)
+      round_->cancel();
+  }
+  /// Nothing that was asked for is to be answered any more.
+  void drop() {
+    waiting_ = nullptr;
+    if (!round_) return;
+    round_->cancel();
+    round_->dropped = true;
+  }
+  bool isBusy() const { return waiting_ || (round_ && !round_->dropped); }
+
+ private:
+  struct NoNews : ProgressSink {
+    void progressed(double, std::string_view) override {}
+  };
+  /// One request under way.
+  struct Round {
+    NoNews sink;
+    StopRequest stop;
+    std::optional<Result> result;
+    std::optional<Failure> failure;
+    bool answered = false, cancelled = false, dropped = false;  // touched by this object's thread alone
+    void cancel() {
+      cancelled = true;
+      stop.ask(StopRequest::Kind::cancel);
+    }
+  };
+
+  void begin() {
+    round_ = std::make_shared<Round>();
+    watcher_.setFuture(QtConcurrent::run([this, round = round_, work = std::exchange(waiting_, nullptr)] {
+      try {
+        Progress progress(round->sink, round->stop);
+        round->result.emplace(work(progress, [this, round](Result soon) {
+          auto told = [this, round, soon = std::move(soon)] { answeredSoon(*round, soon); };
+          QMetaObject::invokeMethod(&watcher_, std::move(told), Qt::QueuedConnection);
+        }));
+      } catch (const Cancelled&) {  // NOLINT(bugprone-empty-catch): a newer request is what is wanted
+      } catch (...) {
+        round->failure = failureOf(std::current_exception());
+      }
+    }));
+  }
+  void answeredSoon(Round& round, const Result& soon) {
+    if (round.dropped) return;
+    round.answered = true;
+    if (waiting_) round.cancel();
+    told_(soon);
+  }
+  void finished() {
+    std::shared_ptr<Round> round = std::exchange(round_, nullptr);
+    starved_ = round->cancelled && !round->answered && !round->result;
+    if (waiting_) begin();
+    if (round->dropped) return;
+    if (round->result) told_(std::move(*round->result));
+    if (round->failure) failed_(*round->failure);
+  }
+
+  Tell told_;
+  Failed failed_;
+  Work waiting_;
+  std::shared_ptr<Round> round_;
+  bool starved_ = false;  // the last request was cancelled before it had answered
+  QFutureWatcher<void> watcher_;
+};
+
+}  // namespace relucent

@@ -1400,6 +1400,17 @@
         <source>95 % of pixels below</source>
         <translation>95 % من البكسلات دون</translation>
     </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s)</source>
+        <translation>
+            <numerusform>⁨%1, %2⁩: لا بكسلات لجهاز العرض</numerusform>
+            <numerusform>⁨%1, %2⁩: بكسل واحد لجهاز العرض</numerusform>
+            <numerusform>⁨%1, %2⁩: بكسلان لجهاز العرض</numerusform>
+            <numerusform>⁨%1, %2⁩: %n بكسلات لجهاز العرض</numerusform>
+            <numerusform>⁨%1, %2⁩: %n بكسلًا لجهاز العرض</numerusform>
+            <numerusform>⁨%1, %2⁩: %n بكسل لجهاز العرض</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>

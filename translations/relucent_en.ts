@@ -130,6 +130,13 @@
             <numerusform>Cluster map, %n clusters, largest %1</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s)</source>
+        <translation>
+            <numerusform>%1, %2: %n projector pixel</numerusform>
+            <numerusform>%1, %2: %n projector pixels</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::FlashConsent</name>

@@ -1336,6 +1336,13 @@
         <source>95 % of pixels below</source>
         <translation>95 % de los píxeles por debajo de</translation>
     </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s)</source>
+        <translation>
+            <numerusform>%1, %2: %n píxel de proyector</numerusform>
+            <numerusform>%1, %2: %n píxeles de proyector</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>

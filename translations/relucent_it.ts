@@ -1336,6 +1336,13 @@
         <source>95 % of pixels below</source>
         <translation>95 % dei pixel sotto</translation>
     </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s)</source>
+        <translation>
+            <numerusform>%1, %2: %n pixel del proiettore</numerusform>
+            <numerusform>%1, %2: %n pixel del proiettore</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>

@@ -1320,6 +1320,12 @@
         <source>95 % of pixels below</source>
         <translation>画素の 95 % が以下</translation>
     </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s)</source>
+        <translation>
+            <numerusform>%1, %2：プロジェクター画素 %n</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>

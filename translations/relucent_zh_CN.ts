@@ -1320,6 +1320,12 @@
         <source>95 % of pixels below</source>
         <translation>95 % 的像素低于</translation>
     </message>
+    <message numerus="yes">
+        <source>%1, %2: %n projector pixel(s)</source>
+        <translation>
+            <numerusform>%1, %2：%n 个投影机像素</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>

@@ -67,13 +67,13 @@ class TestTranslations : public QObject {
 
   /// lupdate files some sentences of free functions without their namespace, where the program never looks.
   void everyContextIsOneThatTheProgramAsksFor() {
-    QRegularExpression declared(R"(Q_DECLARE_TR_FUNCTIONS\((\w+)\))");
+    QRegularExpression asked("(?:Q_DECLARE_TR_FUNCTIONS\\(|translate\\(\\s*\")(\\w+)");
     QSet<QString> known;
     QDirIterator files(RELUCENT_SOURCE "/gui", {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories);
     while (files.hasNext()) {
       QFile file(files.next());
       QVERIFY(file.open(QIODevice::ReadOnly));
-      auto matches = declared.globalMatch(QString::fromUtf8(file.readAll()));
+      auto matches = asked.globalMatch(QString::fromUtf8(file.readAll()));
       while (matches.hasNext()) known.insert(matches.next().captured(1));
     }
     for (const TranslatedSentence& sentence : sources_)

@@ -141,9 +141,12 @@ class AravisDriver : public CameraDriver {
     failure.check("size of a photograph");
     // The library's own choice, one photograph, loses packets of small ones. The system grants what it can.
     const int room = std::max(1 << 20, static_cast<int>(std::min<guint>(payload, 1 << 29)) * 2);
+    // Nor is a photograph given up a tenth of a second after its last packet: no other is under way, and on a
+    // busy machine both ends of the cable pause for longer.
+    constexpr guint retention = 500'000;  // microseconds
     if (ARV_IS_GV_STREAM(stream_.get()))
       g_object_set(stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size",
-                   room, nullptr);
+                   room, "frame-retention", retention, nullptr);
     for (int i = 0; i < buffers; ++i) arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
     arv_camera_start_acquisition(camera_.get(), failure);
     failure.check("start");

@@ -4,6 +4,8 @@
 #include <QCoreApplication>
 #include <new>
 
+#include "jobs/core_sentences.h"
+
 namespace relucent {
 namespace {
 
@@ -11,21 +13,13 @@ struct Words {
   Q_DECLARE_TR_FUNCTIONS(Failure)
 };
 
-/// A sentence of core begins small and ends without a stop.
-QString sentence(const std::string& text) {
-  QString line = QString::fromStdString(text).trimmed();
-  if (line.isEmpty()) return line;
-  line[0] = line[0].toUpper();
-  return line.endsWith('.') ? line : line + '.';
-}
-
 }  // namespace
 
 Failure failureOf(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const Error& error) {
-    return {error.kind(), sentence(error.summary()), sentence(error.advice()),
+    return {error.kind(), fullSentence(error.summary()), fullSentence(error.advice()),
             QString::fromStdString(std::string(toString(error.kind())) + ": " + error.what())};
   } catch (const std::bad_alloc&) {
     return {ErrorKind::memory, Words::tr("The computer has no memory left."),

@@ -2,10 +2,10 @@
 #include "jobs/stage_names.h"
 
 #include <QCoreApplication>
-#include <QRegularExpression>
 #include <QStringList>
 #include <array>
-#include <vector>
+
+#include "jobs/sentence_table.h"
 
 namespace relucent {
 namespace {
@@ -86,35 +86,14 @@ constexpr std::array counting{
     Counting{"measuring {} flagged pixels again",
              QT_TRANSLATE_N_NOOP("Stage", "measuring %n flagged pixel(s) again"), 0}};
 
-struct Pattern {
-  const char* stage;
-  QRegularExpression matches;
-};
-
-/// Those with names in them.
-const std::vector<Pattern>& patterns() {
-  static const std::vector<Pattern> all = [] {
-    std::vector<Pattern> found;
-    for (const char* stage : stages) {
-      QString text = QString::fromLatin1(stage);
-      if (!text.contains("{}")) continue;
-      found.push_back({stage, QRegularExpression(
-                                  '^' + QRegularExpression::escape(text).replace("\\{\\}", "(.+)") + '$')});
-    }
-    return found;
-  }();
-  return all;
-}
-
-/// The translation may have the names in another order only if it says so: they are filled in as they come.
 QString filled(const char* stage, QStringList names) {
   QString text = QCoreApplication::translate("Stage", stage);
   for (const Counting& counted : counting)
     if (counted.stage == stage)
       text = QCoreApplication::translate("Stage", counted.sentence, nullptr,
                                          names.takeAt(counted.count).toInt());
-  for (const QString& name : names) text.replace(text.indexOf("{}"), 2, stageText(name.toStdString()));
-  return text;
+  for (QString& name : names) name = stageText(name.toStdString());
+  return filledIn(text, names);
 }
 
 }  // namespace
@@ -125,11 +104,8 @@ std::span<const char* const> knownStages() {
 
 QString stageText(std::string_view stage) {
   QString text = QString::fromUtf8(stage.data(), static_cast<qsizetype>(stage.size()));
-  for (const char* known : stages)
-    if (stage == known) return QCoreApplication::translate("Stage", known);
-  for (const Pattern& pattern : patterns())
-    if (QRegularExpressionMatch match = pattern.matches.match(text); match.hasMatch())
-      return filled(pattern.stage, match.capturedTexts().mid(1));
+  static const SentenceTable table(stages);
+  if (auto known = table.find(text)) return filled(known->sentence, known->parts);
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include "wizard/acquire_page.h"
 
 #include "calibration/results.h"
+#include "jobs/core_sentences.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
 #include "views/number_text.h"
@@ -234,16 +235,11 @@ void AcquirePage::finish() {
 }
 
 void AcquirePage::askAbout(const Alarm& alarm) {
-  auto sentence = [](const std::string& text) {
-    QString line = QString::fromStdString(text);
-    if (!line.isEmpty()) line[0] = line[0].toUpper();
-    return line.endsWith('.') ? line : line + '.';
-  };
-  Failure failure{ErrorKind::device, sentence(alarm.what), sentence(alarm.advice),
+  Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
                   QString::fromStdString(alarm.sentence())};
   Command again{tr("Measure again"), Icon::retry, true, {}, [this] { answer(Answer::retry); }};
   Command keep{tr("Stop and keep"), Icon::save, true, {}, [this] { answer(Answer::keepAndStop); }};
-  Q_EMIT failed({failure, sentence(alarm.safe), again, keep});
+  Q_EMIT failed({failure, fullSentence(alarm.safe), again, keep});
 }
 
 void AcquirePage::answer(Answer answer) {

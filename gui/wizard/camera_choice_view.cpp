@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/camera_choice_view.h"
 
+#include "jobs/core_sentences.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -13,12 +14,6 @@ QString factsOf(const CameraTraits& traits) {
   return CameraPage::tr("%1 pixels, %n bit(s), exposures %2 to %3", nullptr, traits.format.bits)
       .arg(sizeText(traits.size.width, traits.size.height), exposureText(traits.exposures.shortest),
            exposureText(traits.exposures.longest));
-}
-
-QString sentenceOf(const std::string& text) {
-  QString line = QString::fromStdString(text);
-  if (!line.isEmpty()) line[0] = line[0].toUpper();
-  return line.endsWith('.') ? line : line + '.';
 }
 
 class CameraRow : public QFrame {
@@ -37,9 +32,10 @@ class CameraRow : public QFrame {
     if (camera.usable) {
       texts->addWidget(labelOf(factsOf(camera.traits), "note"));
       for (const std::string& remark : camera.traits.remarks)
-        texts->addWidget(labelOf(sentenceOf(remark), "note"));
+        texts->addWidget(labelOf(fullSentence(remark), "note"));
     } else {
-      texts->addWidget(labelOf(CameraPage::tr("Cannot be used: %1").arg(sentenceOf(camera.problem)), "note"));
+      texts->addWidget(
+          labelOf(CameraPage::tr("Cannot be used: %1").arg(fullSentence(camera.problem)), "note"));
     }
     row->addLayout(texts, 1);
     QPushButton* choose = buttonOf(CameraPage::tr("Choose"));
@@ -77,7 +73,7 @@ class CameraChoice : public Card {
                                     : CameraPage::tr("No camera answers. Check its cable and its power."),
                                 "secondary"));
     for (const DeviceSupport& kind : devices.support)
-      if (!kind.available) body()->addWidget(labelOf(sentenceOf(kind.sentence), "note"));
+      if (!kind.available) body()->addWidget(labelOf(fullSentence(kind.sentence), "note"));
     static_cast<QBoxLayout*>(body())->addStretch(1);
   }
 

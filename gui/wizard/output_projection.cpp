@@ -4,6 +4,7 @@
 #include <QImageReader>
 
 #include "base/error.h"
+#include "jobs/core_sentences.h"
 #include "wizard/output_playlist.h"
 #include "wizard/output_tap.h"
 
@@ -104,7 +105,8 @@ void OutputProjection::play() {
   });
   connect(player_.get(), &Player::failed, this, [this, closeLater](const QString& sentence) {
     closeLater();
-    Q_EMIT failed({ErrorKind::device, sentence, tr("Open the output again."), sentence});
+    Q_EMIT failed(
+        {ErrorKind::device, fullSentence(sentence.toStdString()), tr("Open the output again."), sentence});
   });
   awake_.emplace(tr("Relucent is projecting"));
   awake_->wakeDisplays();

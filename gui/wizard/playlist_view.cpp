@@ -10,6 +10,7 @@
 #include <QUrl>
 #include <cmath>
 
+#include "jobs/core_sentences.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -171,7 +172,8 @@ QWidget* playlistPart(OutputPage& page) {
     remove->setEnabled(!settings.items.isEmpty());
     QStringList wrong = page.projection().skipped();
     skipped->setVisible(!wrong.isEmpty());
-    if (!wrong.isEmpty()) skipped->setText(OutputPage::tr("Skipped: %1").arg(wrong.last()));
+    if (!wrong.isEmpty())
+      skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.last().toStdString())));
   };
   QObject::connect(&page, &OutputPage::changed, part, refresh);
   refresh();

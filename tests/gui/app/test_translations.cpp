@@ -116,6 +116,11 @@ class TestTranslations : public QObject {
     QTest::newRow("lost placeholder") << "%1 of %2" << QStringList{"%1"} << true << 1;
     QTest::newRow("twice the same") << "%1 of %2" << QStringList{"%1 %1"} << true << 1;
     QTest::newRow("core's placeholder") << "Reading {}" << QStringList{"Lesen"} << true << 1;
+    QTest::newRow("core's in another order")
+        << "{} sees {}" << QStringList{"{1} wird von {0} gesehen"} << true << 0;
+    QTest::newRow("core's twice the same") << "{} sees {}" << QStringList{"{0} sieht {0}"} << true << 1;
+    QTest::newRow("core's half in order") << "{} sees {}" << QStringList{"{0} sieht {}"} << true << 1;
+    QTest::newRow("core's from one") << "{} sees {}" << QStringList{"{1} sieht {2}"} << true << 1;
     QTest::newRow("accelerator") << "&Open" << QStringList{"Öffnen"} << true << 1;
     QTest::newRow("accelerator in brackets") << "&Open" << QStringList{"開く(&O)"} << true << 0;
     QTest::newRow("an ampersand is none") << "Black && white" << QStringList{"Schwarz und weiß"} << true << 0;

@@ -56,10 +56,19 @@ inline QList<TranslatedSentence> sentencesOf(const QString& path) {
   return sentences;
 }
 
+/// A sentence of core may have its gaps in another order: {1} {0} for {} {}, each of them once and all
+/// of them so.
+inline QString withoutOrder(QString text) {
+  if (text.contains("{}")) return text;
+  for (int gap = 0; text.count(QString("{%1}").arg(gap)) == 1; ++gap)
+    text.replace(QString("{%1}").arg(gap), "{}");
+  return text;
+}
+
 /// How often each %1, {}, file pattern and keyboard accelerator stands in a text. `%n` counts apart: a form
 /// for one or two may say it in a word.
 inline QMap<QString, int> marksOf(const QString& text) {
-  static const QRegularExpression mark(R"(%L?[0-9]+|\{[a-z]*\}|\*\.[a-z0-9]+|&&|&(?=\S))");
+  static const QRegularExpression mark(R"(%L?[0-9]+|\{[a-z0-9]*\}|\*\.[a-z0-9]+|&&|&(?=\S))");
   QMap<QString, int> marks;
   for (auto match = mark.globalMatch(text); match.hasNext();) {
     QString found = match.next().captured();
@@ -79,7 +88,7 @@ inline QStringList faultsOf(const TranslatedSentence& sentence) {
   for (const QString& form : sentence.forms) {
     if (form.trimmed().isEmpty())
       fault("empty");
-    else if (marksOf(form) != marksOf(sentence.source))
+    else if (marksOf(withoutOrder(form)) != marksOf(sentence.source))
       fault("a placeholder or accelerator is lost or too many in \"" + form + "\"");
   }
   // The last form is the one for many.

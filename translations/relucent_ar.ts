@@ -86,6 +86,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>تحرّكت كاميرا أو جهاز عرض: انزاح مجال رؤية الكاميرا ⁨{}⁩ بمقدار ⁨{}, {}⁩ بكسل واستدار بمقدار ⁨{}⁩ درجة</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>حجم أحد ملفات المعايرة في مرحلة «⁨{}⁩» هو ⁨{}⁩ بايت بدلًا من ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>أحد ملفات المعايرة في مرحلة «⁨{}⁩» مفقود</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>المطلوب كسب مقداره ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>لا تكتمل الصورة الجديدة حتى بعد هذا العدد من الإطارات: ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>يتعذّر نقل لقطة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>يتعذّر حذف لقطة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>لقطة حجمها ⁨{} × {}⁩ بكسل بتنسيق ⁨{}⁩ وصل منها ⁨{}⁩ من أصل ⁨{}⁩ بايت</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>طُلبت لقطة ولم تصل</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>وجّه الكاميرا إلى الصورة المعروضة، وانزع غطاء عدستها، وأطِل التعريض</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>برنامج آخر يحجز الكاميرا</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>برنامج آخر يحجز الكاميرا، وهو غالبًا سطح المكتب الذي يتعامل معها كذاكرة USB</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>اطلب أحد الأحجام المتاحة: يسردها الأمر ⁨v4l2-ctl --list-formats-ext⁩</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>اطلب هذا الحجم أو أصغر منه</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>اطلب الحجم الذي تعطيه الكاميرا</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>يتعذّر إنشاء مجلد مؤقت (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>يتعذّر إنشاء المجلد (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>تتعذّر قراءة محتويات المجلد (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>يتعذّر الفتح (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>يتعذّر فتح المجلد (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>تتعذّر القراءة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>يتعذّر حذف الملف (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>تتعذّر الكتابة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>غيّر بطاقة الذاكرة أو أفرغها</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>اشحن البطارية أو غيّرها، والأفضل استخدام محوّل كهربائي، ثم شغّل الكاميرا مجددًا</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>افحص كابل الكاميرا وتغذيتها</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>افحص كابل الشاشة، وأوقف توفير الطاقة فيها</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>افحص كابل الكاميرا وتغذيتها وعنوانها؛ يسرد ⁨`relucent-cli devices`⁩ الأجهزة الموجودة</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>افحص كابل الكاميرا، وشغّلها، وأوقف إطفاءها التلقائي</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>تحقق من أن مشهد الكاميرا ثابت وأن تعريضها قصير، وأوقف تنعيم الحركة في جهاز العرض</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم تابع</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>تحقق من أن جهاز العرض يعمل ويعرض هذا الخرج، ووجّه الكاميرا إلى صورته، وانزع غطاء عدستها؛ أو اختر شاشة أخرى</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>تحقق من أن الشاشة الصحيحة مختارة وأن لا شيء يحجب الصورة، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>تحقق من أن القراءة مسموحة لك، أو اختر اسمًا آخر</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>افحص كابل الكاميرا وبطاقة الشبكة، وتحقق من أن لا برنامج آخر يستخدم الكاميرا</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>افحص الجهاز، أو امنح الأمر وقتًا أطول: ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>افحص القرص وكابله</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>تحقق من أذونات المجلد</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>تحقق من المسار</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>تحقق من المسار ومن أن القراءة مسموحة لك</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>تحقق من المسار والقرص</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>اختر مجلدًا يمكنك الكتابة فيه، أو اطلب الإذن بذلك</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>اختر مجلدًا يمكنك الكتابة فيه، وفيه مساحة كافية</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>اختر معايرة أخرى، أو انسخ هذه مجددًا من حيث قيست</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>اختر مجلدًا آخر باستخدام ⁨--log⁩</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>اختر ⁨{}⁩، أو وجّه الكاميرا إلى ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>أغلق قوائم الكاميرا ووضع استعراض الصور فيها، وأنهِ المعاينة الحية</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>أغلق قوائم الكاميرا، ثم أطفئها وشغّلها</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>أغلق البرامج الأخرى وحاول مجددًا</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>صِل الكاميرا التي بدأ بها القياس</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>انسخ الملف مجددًا، أو أعد التقاط اللقطة؛ الكاميرا الأحدث من إصدار LibRaw هذا تحتاج إلى ملفات DNG</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>حوّل الملفات تحويلًا خطيًا إلى TIFF بعمق 16 بت، أو استخدم كاميرا أخرى</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>كل اللقطات السابقة لقياس نقل الضوء آمنة</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>كل اللقطات حتى الفحص السابق آمنة</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>أخلِ بعض المساحة</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>أخلِ بعض المساحة هناك أو افحص القرص، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>أخلِ بعض المساحة هناك أو اختر قرصًا آخر، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>أخلِ بعض المساحة هناك، أو اجعل TMPDIR يشير إلى مجلد يمكنك الكتابة فيه</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>أخلِ بعض المساحة، أو سجّل في مكان آخر</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>ثبّت Aravis (⁨libaravis-dev⁩) وأعد بناء البرنامج، أو استخدم نوعًا آخر من الكاميرات</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>ثبّت libgphoto2 وLibRaw (⁨libgphoto2-dev, libraw-dev⁩) وأعد بناء البرنامج، أو استخدم أمرًا</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>ثبّت برنامج تشغيل بطاقة الرسومات، أو دع المعالج المركزي يتولى العمل</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>تتعذّر الإزالة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>القيم المتاحة: ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>التنسيقات المتاحة: ⁨{}⁩؛ تُقرأ تنسيقات Mono وBayer وRGB غير المحزومة (unpacked) بعمق 8 إلى 16 بت</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>الملف فارغ</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>اجعل الأمر يكتب اللقطة في ⁨{output}⁩: ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>اجعل الأمر يكتب بهذا الحجم، أو ابدأ من جديد بالحجم الذي تعطيه الكاميرا</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>حرّر الكاميرا من سطح المكتب بالأمر ⁨`gio mount -s gphoto2`⁩ (أو أخرجها من مدير الملفات) وأغلق برامج الصور</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>دع المعالج المركزي يتولى العمل</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>سجّل الدخول إلى سطح مكتب يعمل على X (اختر «Xorg» عند تسجيل الدخول)، أو شغّل ملفات</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>حدّد إحداها بمنفذها: ⁨gphoto2:{}⁩ أو ⁨gphoto2:{}⁩</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>حدّد هذه الكاميرا: ⁨gphoto2:{}⁩</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>لا تستجيب أي كاميرا GenICam باسم «⁨{}⁩»</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>لا توجد كاميرا موصولة بهذا الاسم، بل ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>لم تصل أي لقطة خلال ⁨{}⁩ ث</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>لا يوجد جهاز فيديو موصول بهذا الاسم</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>لا يمكن قراءة أي من تنسيقات البكسل في الكاميرا</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>أجزاء من الملف مفقودة</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>ضاعت أجزاء من اللقطة أثناء النقل</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>صِل الجهاز، وأغلق البرامج الأخرى التي تستخدمه، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>اضغط زر الغالق في الكاميرا حتى منتصفه أو أطفئها وشغّلها، وأوقف إطفاءها التلقائي</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>لا يعرض جهاز العرض ⁨{}⁩ الصورة المرسلة إليه</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>أعد الجهاز إلى موضعه بفارق لا يتجاوز نصف بكسل، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>احذف الملف يدويًا، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>شغّل الأمر في الطرفية لمعرفة السبب: ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>اضبط الكاميرا على ISO 100 يدويًا</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>اضبط وضع التعريض في الكاميرا على المؤقّت واليدوي، أو حدّث برنامجها الثابت</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>أعد دقة الشاشة إلى ما كانت عليه في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>اضبط الكاميرات على نطاقات متداخلة من أزمنة التعريض</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>ابدأ العرض من جديد</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>أعد الإضاءة كما كانت، وأبقِ الأبواب والستائر مغلقة، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>أطفئ الكاميرا وشغّلها، وحمّل إعداداتها الافتراضية ببرنامج الشركة المصنّعة، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>أوقفه ببرنامج الشركة المصنّعة للكاميرا، أو استخدم كاميرا أخرى</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>أوقفه باستخدام ⁨v4l2-ctl⁩ (يسرد الخيار ⁨--list-ctrls⁩ ما هو متاح)، أو استخدم كاميرا أخرى</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>أوقف التعريض التلقائي وحدّ معدل الإطارات في الكاميرا</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>أوقف التعريض التلقائي في الكاميرا؛ لا يمكن استخدام كاميرا بلا تعريض يدوي</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>اضبط عدسة الكاميرا على التركيز اليدوي</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>اضبط عدسة الكاميرا على التركيز اليدوي، وأغلق قوائمها، والتقط لقطة يدويًا لترى المشكلة التي تبلّغ عنها</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>اضبط جودة الصور في الكاميرا على RAW يدويًا؛ لا يمكن استخدام كاميرا بلا RAW</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>أوقف توفير الطاقة للشاشة وشاشة التوقف في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>أطفئ المصابيح المخفّتة ومصابيح الفلورسنت، وأوقف توفير الطاقة في جهاز العرض، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>أوقف السطوع التلقائي والأوضاع الاقتصادية في جهاز العرض، ودعه يسخن، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>أوقف وضع العرض الخلفي أو السقفي في جهاز العرض، أو اسمح بصورة معكوسة، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>أطفئ الكاميرا وشغّلها، أو اختر تنسيق بكسل آخر من تنسيقاتها</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>اضبط الكاميرا على RAW بالحجم الكامل (لا sRAW ولا mRAW ولا DNG خطي)</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>أزل ما يعترض الضوء أو مجال الرؤية، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>ملف بيان المعايرة تالف</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>المتاح في الكاميرا من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>عادت الكاميرا بحجم ⁨{} × {}⁩ بكسل بدلًا من ⁨{} × {}⁩</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>تختار الكاميرا حساسيتها بنفسها (ISO تلقائي)</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>تعلن الكاميرا عن تعريضات من ⁨{}⁩ إلى ⁨{}⁩ ث</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>لا تعطي الكاميرا ملفات خام</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>لا ترى الكاميرا ما يُعرض على ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>لم تتمكن الكاميرا من ضبط التركيز فلم تلتقط أي لقطة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>الكاميرا غائبة منذ ⁨{}⁩ ث: {}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>فُصلت الكاميرا أو أُطفئت، أو دخلت في وضع السكون</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>نسيت الكاميرا تنسيق البكسل الذي ضُبطت عليه</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>ليس في الكاميرا تنسيق بكسل ⁨{}⁩ يمكن قراءته</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>لم تبقَ في الكاميرا مساحة للقطة: بطاقة ذاكرتها ممتلئة</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>الكاميرا موجودة لكنها لا تستجيب، وقد تكون في وضع السكون</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>تبقى الكاميرا على ⁨{}⁩ ث أيًا كان التعريض المطلوب</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>لم تعد الكاميرا تستجيب (⁨{}⁩: ⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>رفضت الكاميرا ما طُلب منها (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>ترفض الكاميرا (⁨{}⁩: ⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>لا ترى الكاميرا فرقًا بين الأبيض والأسود</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>لا ترى الكاميرا شيئًا على الإطلاق</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>ترى الكاميرا ⁨{}⁩ وليس ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>لا ترسل الكاميرا أي دفق من الصور</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>أرسلت الكاميرا ⁨{}⁩ ولم ترسل ملفًا خامًا</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>ما زالت الكاميرا مشغولة</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>طُلبت من الكاميرا لقطة فلم تلتقطها</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>طُلب من الكاميرا تعريض مدته ⁨{}⁩ ث لكنها تبقى على ⁨{}⁩ ث</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>يبدو أن بطارية الكاميرا فارغة (⁨{} %⁩ عند آخر قراءة)</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>مرشّح الألوان في الكاميرا ليس مرشّح Bayer</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>لا يمكن ضبط زمن التعريض في الكاميرا</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>قرص الأوضاع في الكاميرا على ⁨{}⁩، وفي هذا الوضع تختار الكاميرا التعريض بنفسها</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>لا يوجد زمن تعريض مشترك بين الكاميرات</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>لا يعطي جهاز الالتقاط أي صورة</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>يتعذّر بدء الأمر (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>انتهى الأمر بنجاح لكنه لم يكتب شيئًا، والمطلوب ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>انتهى الأمر بنجاح لكنه كتب ⁨{}⁩ وليس ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>فشل الأمر برمز الحالة ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>فشل الأمر برمز الحالة ⁨{}⁩، ورسالته: «⁨{}⁩»</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>استغرق الأمر أكثر من ⁨{}⁩ ث</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>استغرق الأمر أكثر من ⁨{}⁩ ث، ورسالته: «⁨{}⁩»</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>أُنهي الأمر قسرًا بالإشارة ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>أُنهي الأمر قسرًا بالإشارة ⁨{}⁩، ورسالته: «⁨{}⁩»</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>فقد المحرك جهازه</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>لا يمكن استخدام بطاقة الرسومات</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>لم يبقَ في بطاقة الرسومات ⁨{} MB⁩ من الذاكرة</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>تصل بطاقة الرسومات إلى ⁨{} MB⁩ دفعة واحدة، والمطلوب ⁨{} MB⁩</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>انقطع الاتصال ببطاقة الرسومات</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>الضوء يرتعش: تختلف لقطات النمط الواحد بمقدار ⁨{} %⁩</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>أصبحت إضاءة القاعة أسطع</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>أصبحت إضاءة القاعة أضعف</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>تحتاج الصورة الحية للشاشة إلى خادم X، ولا يستجيب أي خادم</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>تتعذّر كتابة السجل (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>حجم اللقطة ⁨{} × {}⁩ بكسل بتنسيق ⁨{}⁩، والمتفق عليه ⁨{} × {}⁩ بتنسيق ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>حجم اللقطة ⁨{} × {}⁩ بكسل، والمعلن ⁨{} × {}⁩</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>اللقطة أكبر مما أعلنته الكاميرا</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>لم تكتمل اللقطة</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>تعذّرت كتابة الصورة</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>تظهر صورة جهاز العرض ⁨{}⁩ معكوسة</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>لا يعرض جهاز العرض شيئًا، وما زالت إضاءة القاعة مرئية</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>تغيّر ضوء جهاز العرض بمقدار ⁨{} %⁩ خلال بضع لقطات</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>حجم شاشة جهاز العرض الآن ⁨{} × {}⁩ بكسل، وكان عند المعايرة ⁨{} × {}⁩</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>شاشة جهاز العرض في وضع السكون ولا تستيقظ</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>تفقد شاشة جهاز العرض صورتها مرارًا</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>تتعذّر قراءة الملف الخام (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>لا يحوي الملف الخام قيم المستشعر نفسها</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>تتعذّر كتابة التسجيل (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>تتعذّر كتابة التقرير</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>يتعذّر تفعيل الخدمة (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>تتعذّر إعادة فتح جهاز الفيديو</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>يتعذّر فتح جهاز الفيديو: قد يكون برنامج آخر يستخدمه</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>فُصل جهاز الفيديو</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>ليس في جهاز الفيديو تعريض يمكن ضبطه</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>لا يرسل جهاز الفيديو أي صور</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>لا يمكن إيقاف التعريض التلقائي في جهاز الفيديو</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>لا يمكن إيقاف التركيز التلقائي في جهاز الفيديو</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>لا يمكن إيقاف توازن الأبيض التلقائي في جهاز الفيديو</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>لا يتوفر OpenGL 4.3 مع مظلّلات الحوسبة (compute shaders)</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>لا توجد بطاقة رسومات تدعم OpenGL 4.3 ومظلّلات الحوسبة (compute shaders)</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>المكتبة libEGL أو libOpenGL غير موجودة، وهما تفتحان بطاقات الرسومات دون شاشة</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>نسخة Relucent هذه لا تدعم كاميرات DSLR والكاميرات عديمة المرآة</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>نسخة Relucent هذه لا تدعم كاميرات GenICam</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>هذه ليست معايرة من Relucent</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>أدر القرص إلى M</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>أدر قرص الأوضاع في الكاميرا إلى M؛ لا يمكن استخدام كاميرا بلا هذا الوضع</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>اكشف العدسة، وتحقق من أن جهاز العرض يعمل، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>استخدم كاميرا ذات تعريض يدوي</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>أيقظ جهاز العرض، وأوقف توفير الطاقة فيه وفي الشاشة، ثم أعد المحاولة</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>المطلوب ⁨ISO {}⁩ وهو غير متاح في الكاميرا</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>يبدو ⁨{} %⁩ من مجال رؤية الكاميرا ⁨{}⁩ مختلفًا عمّا كان</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>فشلت محاولات التقاط لقطة، وعددها ⁨{}⁩: {}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} باستئناف المعايرة؛ {}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>عدد الكاميرات الموصولة من هذا الطراز: ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>لا يمكن إيقاف ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}، ثم تابع: كل اللقطات حتى الآن محفوظة</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>المطلوب ⁨{} × {}⁩ بكسل وتعطي الكاميرا ⁨{} × {}⁩</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>المطلوب ⁨{} × {}⁩ بكسل وفي الكاميرا ⁨{} × {}⁩</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>المطلوب ⁨{} × {}⁩ بكسل ويعطي جهاز الفيديو ⁨{} × {}⁩</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>⁨{}⁩: {}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}؛ {}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} (⁨{}⁩)</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

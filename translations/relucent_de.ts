@@ -78,6 +78,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>eine Kamera oder ein Projektor hat sich bewegt: Das Bild von Kamera {} ist um {} und {} Pixel verschoben und um {} Grad gedreht</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>eine Datei der Kalibrierung ({}) hat {} statt {} Bytes</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>eine Datei der Kalibrierung ({}) fehlt</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>eine Verstärkung von {} ist verlangt</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>ein neues Bild ist nach {} Einzelbildern noch nicht vollständig da</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>ein Foto kann nicht verschoben werden ({})</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>ein Foto kann nicht gelöscht werden ({})</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>ein Foto mit {}x{} Pixeln als {} kam mit {} von {} Bytes an</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>ein Foto wurde angefordert, aber keines kam</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>richten Sie sie auf die Projektion, nehmen Sie den Objektivdeckel ab und belichten Sie länger</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>ein anderes Programm belegt die Kamera</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>ein anderes Programm belegt die Kamera, meist der Desktop, der sie wie einen USB-Stick einbindet</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>verlangen Sie eine Größe, die es bietet: v4l2-ctl --list-formats-ext zeigt sie</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>verlangen Sie höchstens so viele</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>verlangen Sie die Größe, die sie liefert</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>temporärer Ordner kann nicht angelegt werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>Ordner kann nicht angelegt werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>Inhalt des Ordners kann nicht gelesen werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>kann nicht geöffnet werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>Ordner kann nicht geöffnet werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>kann nicht gelesen werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>Datei kann nicht gelöscht werden ({})</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>kann nicht geschrieben werden ({})</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>wechseln oder leeren Sie die Speicherkarte</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>laden oder wechseln Sie den Akku, am besten verwenden Sie ein Netzteil, und schalten Sie die Kamera wieder ein</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>prüfen Sie Kabel und Stromversorgung</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>prüfen Sie das Kabel und schalten Sie den Energiesparmodus aus</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>prüfen Sie Kabel, Stromversorgung und Adresse; `relucent-cli devices` zeigt, was vorhanden ist</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>prüfen Sie das Kabel, schalten Sie sie ein und ihre automatische Abschaltung aus</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>prüfen Sie, ob die Kamera ruhig steht und kurz belichtet, und schalten Sie die Bewegungsglättung des Projektors aus</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann machen Sie weiter</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>prüfen Sie, ob der Projektor eingeschaltet ist und diesen Ausgang zeigt, richten Sie die Kamera darauf und nehmen Sie den Objektivdeckel ab; oder wählen Sie einen anderen Bildschirm</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>prüfen Sie, ob der richtige Bildschirm gewählt ist und nichts das Bild verdeckt, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>prüfen Sie, ob Sie ihn lesen dürfen, oder wählen Sie einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>prüfen Sie Kabel und Netzwerkkarte der Kamera und ob kein anderes Programm sie nutzt</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>prüfen Sie das Gerät oder geben Sie dem Befehl mehr Zeit: {}</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>prüfen Sie Laufwerk und Kabel</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>prüfen Sie die Zugriffsrechte des Ordners</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>prüfen Sie den Pfad</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>prüfen Sie den Pfad und ob Sie ihn lesen dürfen</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>prüfen Sie Pfad und Laufwerk</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen, oder lassen Sie sich das Recht dazu geben</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>wählen Sie eine andere Kalibrierung oder kopieren Sie sie neu von dort, wo sie gemessen wurde</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>wählen Sie mit --log einen anderen Ordner</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>wählen Sie {} oder richten Sie die Kamera auf {}</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>schließen Sie ihre Menüs und ihre Wiedergabe und beenden Sie Live-View</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>schließen Sie ihre Menüs und schalten Sie sie aus und wieder ein</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>schließen Sie andere Programme und versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>schließen Sie die Kamera an, mit der die Messung begonnen wurde</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>kopieren Sie sie neu oder nehmen Sie das Foto neu auf; eine Kamera, die neuer ist als dieses LibRaw, braucht DNG-Dateien</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>entwickeln Sie die Dateien linear, als TIFF mit 16 Bit, oder verwenden Sie eine andere Kamera</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>alle Fotos vor dem Lichttransport sind sicher</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>alle Fotos bis zur letzten Kontrolle davor sind sicher</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>geben Sie Speicherplatz frei</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>geben Sie dort Speicherplatz frei oder prüfen Sie das Laufwerk, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>geben Sie dort Speicherplatz frei oder wählen Sie ein anderes Laufwerk, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>geben Sie dort Speicherplatz frei oder lassen Sie TMPDIR auf einen Ordner zeigen, in den Sie schreiben dürfen</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>geben Sie Speicherplatz frei oder zeichnen Sie an einem anderen Ort auf</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>installieren Sie Aravis (libaravis-dev) und erstellen Sie das Programm neu oder verwenden Sie eine Kamera anderer Art</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>installieren Sie libgphoto2 und LibRaw (libgphoto2-dev, libraw-dev) und erstellen Sie das Programm neu oder verwenden Sie einen Befehl</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>installieren Sie den Treiber der Grafikkarte oder lassen Sie den Prozessor rechnen</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>die Datei kann nicht entfernt werden ({})</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>sie bietet {}</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>sie bietet {}; gelesen werden ungepackte Formate Mono, Bayer und RGB mit 8 bis 16 Bit</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>sie ist leer</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>lassen Sie ihn das Foto in {output} schreiben: {}</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>lassen Sie den Befehl diese Größe schreiben oder beginnen Sie neu mit der Größe, die die Kamera liefert</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>lösen Sie die Kamera mit `gio mount -s gphoto2` vom Desktop (oder werfen Sie sie im Dateimanager aus) und schließen Sie Fotoprogramme</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>lassen Sie den Prozessor rechnen</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>melden Sie sich an einem Desktop mit X an („Xorg“ bei der Anmeldung) oder spielen Sie Dateien ab</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>geben Sie eine davon mit ihrem Anschluss an: gphoto2:{} oder gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>geben Sie diese an: gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>keine GenICam-Kamera „{}“ antwortet</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>keine Kamera dieses Namens ist angeschlossen, dafür aber {}</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>innerhalb von {} s kam kein Foto</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>kein solches Videogerät ist angeschlossen</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>keines der Pixelformate der Kamera ist lesbar</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>Teile davon fehlen</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>Teile des Fotos gingen unterwegs verloren</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>schließen Sie es an, schließen Sie andere Programme, die es nutzen, und versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>drücken Sie ihren Auslöser halb durch oder schalten Sie sie aus und wieder ein, und schalten Sie ihre automatische Abschaltung aus</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>Projektor {} zeigt das Bild nicht, das er bekommt</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>stellen Sie das Gerät auf ein halbes Pixel genau zurück, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>löschen Sie sie von Hand, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>führen Sie ihn in einem Terminal aus, um die Ursache zu finden: {}</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>stellen Sie sie von Hand auf ISO 100</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>stellen Sie ihren Belichtungsmodus auf „Timed“ und manuell oder aktualisieren Sie ihre Firmware</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>stellen Sie in den Einstellungen des Desktops wieder seine frühere Auflösung ein, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>stellen Sie sie auf Bereiche von Belichtungszeiten ein, die sich überschneiden</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>starten Sie die Show neu</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>stellen Sie den alten Zustand wieder her, halten Sie Türen und Vorhänge geschlossen, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>schalten Sie sie aus und wieder ein, laden Sie ihre Standardeinstellungen mit dem Programm des Herstellers und versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>schalten Sie dies mit dem Programm des Kameraherstellers aus oder verwenden Sie eine andere Kamera</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>schalten Sie dies mit v4l2-ctl aus (--list-ctrls zeigt, was es bietet) oder verwenden Sie eine andere Kamera</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>schalten Sie ihre Belichtungsautomatik und die Begrenzung ihrer Bildrate aus</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>schalten Sie ihre Belichtungsautomatik aus; eine Kamera ohne manuelle Belichtung ist nicht verwendbar</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>stellen Sie ihr Objektiv auf manuellen Fokus</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>stellen Sie ihr Objektiv auf manuellen Fokus, schließen Sie ihre Menüs und nehmen Sie von Hand ein Foto auf, um zu sehen, was sie beanstandet</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>stellen Sie ihre Bildqualität von Hand auf RAW; eine Kamera ohne RAW ist nicht verwendbar</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>schalten Sie seinen Energiesparmodus und den Bildschirmschoner in den Einstellungen des Desktops aus, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>schalten Sie gedimmte Lampen, Leuchtstofflampen und den Energiesparmodus des Projektors aus, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>schalten Sie seine automatische Helligkeit und seine Eco-Modi aus, lassen Sie ihn warm werden, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>schalten Sie Rückprojektion oder Deckenmontage am Projektor aus oder erlauben Sie ein gespiegeltes Bild, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>schalten Sie die Kamera aus und wieder ein oder wählen Sie ein anderes ihrer Pixelformate</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>stellen Sie die Kamera auf RAW in voller Größe (kein sRAW, kein mRAW, kein lineares DNG)</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>entfernen Sie, was im Licht oder im Bild steht, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>das Manifest der Kalibrierung ist beschädigt</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>die Kamera kann {} bis {}</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>die Kamera kam mit {}x{} statt {}x{} Pixeln zurück</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>die Kamera wählt ihre Empfindlichkeit selbst (ISO-Automatik)</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>die Kamera meldet Belichtungszeiten von {} bis {} s</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>die Kamera liefert keine RAW-Dateien</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>die Kamera fand keinen Fokus und nahm kein Foto auf ({})</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>die Kamera ist seit {} s weg: {}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>die Kamera wurde getrennt oder ausgeschaltet oder ist eingeschlafen</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>die Kamera hat das eingestellte Pixelformat vergessen</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>die Kamera hat kein lesbares Pixelformat {}</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>die Kamera hat keinen Platz mehr für ein Foto: Ihre Speicherkarte ist voll</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>die Kamera ist da, antwortet aber nicht, vielleicht schläft sie</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>die Kamera bleibt bei {} s, welche Belichtung auch verlangt wird</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>die Kamera antwortet nicht mehr ({}: {})</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>die Kamera hat das Verlangte verweigert ({})</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>die Kamera verweigert dies ({}: {})</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>die Kamera sieht keinen Unterschied zwischen Weiß und Schwarz</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>die Kamera sieht gar nichts</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>die Kamera sieht {}, nicht {}</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>die Kamera sendet keinen Datenstrom</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>die Kamera sendete {} und keine RAW-Datei</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>die Kamera bleibt beschäftigt</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>von der Kamera wurde ein Foto verlangt, sie nahm aber keines auf</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>von der Kamera wurden {} s Belichtung verlangt, sie bleibt aber bei {} s</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>der Akku der Kamera scheint leer zu sein ({} % bei der letzten Abfrage)</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>der Farbfilter der Kamera ist kein Bayer-Filter</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>die Belichtungszeit der Kamera lässt sich nicht einstellen</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>das Moduswahlrad der Kamera steht auf {}, dort wählt die Kamera die Belichtung selbst</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>die Kameras haben keine gemeinsame Belichtungszeit</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>das Aufnahmegerät liefert kein Bild</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>der Befehl lässt sich nicht starten ({})</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>der Befehl endete ohne Fehler, schrieb aber nichts; erwartet war {}</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>der Befehl endete ohne Fehler, schrieb aber {}; erwartet war {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>der Befehl scheiterte mit Status {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>der Befehl scheiterte mit Status {} und meldete „{}“</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>der Befehl dauerte länger als {} s</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>der Befehl dauerte länger als {} s und meldete „{}“</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>der Befehl wurde durch Signal {} beendet</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>der Befehl wurde durch Signal {} beendet und meldete „{}“</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>die Engine hat ihr Gerät verloren</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>die Grafikkarte ist nicht verwendbar</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>die Grafikkarte hat keine {} MB Speicher mehr frei</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>die Grafikkarte kann {} MB auf einmal ansprechen, {} MB sind nötig</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>die Grafikkarte ging verloren</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>das Licht flackert: Fotos desselben Musters unterscheiden sich um {} %</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>das Raumlicht ist heller geworden</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>das Raumlicht ist dunkler geworden</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>das Livebild eines Bildschirms braucht einen X-Server, und keiner antwortet</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>das Protokoll kann nicht geschrieben werden ({})</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>das Foto hat {}x{} Pixel als {}, vereinbart waren {}x{} als {}</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>das Foto hat {}x{} Pixel, angekündigt waren {}x{}</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>das Foto ist größer als von der Kamera angekündigt</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>das Foto wurde nicht fertig</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>das Bild konnte nicht geschrieben werden</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>das Bild von Projektor {} erscheint gespiegelt</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>der Projektor zeigt nichts, nur das Raumlicht ist noch zu sehen</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>das Licht des Projektors hat sich innerhalb weniger Fotos um {} % geändert</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>der Bildschirm des Projektors hat jetzt {}x{} Pixel, kalibriert wurden {}x{}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>der Bildschirm des Projektors schläft und lässt sich nicht wecken</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>der Bildschirm des Projektors verliert immer wieder sein Bild</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>die RAW-Datei kann nicht gelesen werden ({})</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>die RAW-Datei enthält nicht die Sensorwerte selbst</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>die Aufzeichnung kann nicht geschrieben werden ({})</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>der Bericht kann nicht geschrieben werden</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>der Dienst lässt sich nicht einschalten ({})</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>das Videogerät lässt sich nicht wieder öffnen</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>das Videogerät lässt sich nicht öffnen: Vielleicht nutzt es ein anderes Programm</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>das Videogerät wurde getrennt</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>das Videogerät hat keine einstellbare Belichtung</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>das Videogerät sendet keine Bilder</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>die Belichtungsautomatik des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>der Autofokus des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>der automatische Weißabgleich des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>OpenGL 4.3 mit Compute-Shadern ist nicht vorhanden</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>keine Grafikkarte mit OpenGL 4.3 und Compute-Shadern ist vorhanden</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>libEGL oder libOpenGL fehlt, die Grafikkarten ohne Bildschirm öffnen</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>dieser Build von Relucent kennt keine Spiegelreflex- und Systemkameras</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>dieser Build von Relucent kennt keine GenICam-Kameras</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>dies ist keine Kalibrierung von Relucent</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>drehen Sie es auf M</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>drehen Sie ihr Moduswahlrad auf M; eine Kamera ohne M ist nicht verwendbar</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>decken Sie das Objektiv auf, prüfen Sie, ob der Projektor eingeschaltet ist, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>verwenden Sie eine Kamera mit manueller Belichtung</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>wecken Sie den Projektor, schalten Sie seinen Energiesparmodus und den des Bildschirms aus, dann versuchen Sie es erneut</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>ISO {} ist verlangt, die Kamera hat diesen Wert aber nicht</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>{} % des Bilds von Kamera {} sehen anders aus als zuvor</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} Versuche, ein Foto aufzunehmen, sind gescheitert: {}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{}, indem Sie die Kalibrierung fortsetzen; {}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>{} Kameras dieses Modells sind angeschlossen</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} lässt sich nicht ausschalten</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}, dann machen Sie weiter: Alle bisherigen Fotos bleiben erhalten</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>{}x{} Pixel sind verlangt, die Kamera liefert {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>{}x{} Pixel sind verlangt, die Kamera hat {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>{}x{} Pixel sind verlangt, das Videogerät liefert {}x{}</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}; {}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

@@ -78,6 +78,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>una cámara o un proyector se ha movido: la vista de la cámara {} está desplazada {}, {} píxeles y girada {} grados</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un archivo de la calibración ({}) tiene {} bytes en lugar de {}</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>falta un archivo de la calibración ({})</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>se pide una ganancia de {}</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>una imagen nueva no aparece por completo tras {} fotogramas</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>no se puede mover una fotografía ({})</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>no se puede eliminar una fotografía ({})</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>una fotografía de {}x{} píxeles en formato {} ha llegado con {} de {} bytes</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>se pidió una fotografía y no llegó ninguna</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>apúntela a la proyección, quite la tapa del objetivo y use una exposición más larga</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>otro programa está usando la cámara</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>otro programa está usando la cámara, normalmente el escritorio, que la monta como una memoria USB</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>pida un tamaño que admita: v4l2-ctl --list-formats-ext los enumera</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>pida ese tamaño o uno menor</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>pida el tamaño que entrega</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>no se puede crear una carpeta temporal ({})</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>no se puede crear la carpeta ({})</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>no se puede ver el contenido de la carpeta ({})</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>no se puede abrir ({})</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>no se puede abrir la carpeta ({})</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>no se puede leer ({})</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>no se puede eliminar el archivo ({})</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>no se puede escribir ({})</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>cambie o vacíe la tarjeta de memoria</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>cargue o cambie la batería (mejor, use un adaptador de corriente) y vuelva a encender la cámara</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>revise su cable y su alimentación</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>revise su cable y desactive el ahorro de energía</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>revise su cable, su alimentación y su dirección; `relucent-cli devices` muestra los dispositivos presentes</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>revise su cable, enciéndala y desactive su apagado automático</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>compruebe que la imagen de la cámara es estable y su exposición corta, y desactive el suavizado de movimiento del proyector</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>compruebe que se puede escribir en la carpeta y continúe</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>compruebe que se puede escribir en la carpeta e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>compruebe que el proyector está encendido y muestra esa salida, apunte la cámara hacia él y quite la tapa del objetivo; o elija otra pantalla</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>compruebe que se ha elegido la pantalla correcta y que nada tapa la imagen, e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>compruebe que tiene permiso de lectura o elija otro nombre</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>revise el cable y la tarjeta de red de la cámara, y que ningún otro programa la use</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>revise el dispositivo o conceda más tiempo al comando: {}</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>revise el disco y su cable</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>revise los permisos de la carpeta</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>revise la ruta</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>revise la ruta y compruebe que tiene permiso de lectura</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>revise la ruta y el disco</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>elija una carpeta en la que pueda escribir o solicite el permiso</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>elija otra calibración o vuelva a copiarla desde donde se midió</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>elija otra carpeta con --log</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>elija {} o apunte la cámara a {}</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>cierre sus menús y su reproducción, y termine la vista en directo</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>cierre sus menús, apáguela y vuelva a encenderla</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>cierre otros programas e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>conecte la cámara con la que se empezó la medición</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>cópielo de nuevo o vuelva a tomar la fotografía; una cámara más reciente que esta versión de LibRaw necesita archivos DNG</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>revele los archivos de forma lineal, como TIFF de 16 bits, o use otra cámara</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>todas las fotografías anteriores al transporte de luz están a salvo</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>todas las fotografías hasta la comprobación anterior están a salvo</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>libere espacio</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>libere espacio allí o revise el disco e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>libere espacio allí o elija otro disco e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>libere espacio allí o indique en TMPDIR una carpeta en la que pueda escribir</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>libere espacio o grabe en otro lugar</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>instale Aravis (libaravis-dev) y vuelva a compilar, o use otro tipo de cámara</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>instale libgphoto2 y LibRaw (libgphoto2-dev, libraw-dev) y vuelva a compilar, o use un comando</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>instale el controlador de la tarjeta gráfica o deje que el procesador haga el trabajo</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>no se puede eliminar ({})</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>admite {}</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>admite {}; se leen Mono, Bayer y RGB sin empaquetar de 8 a 16 bits</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>está vacío</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>haga que escriba la fotografía en {output}: {}</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>haga que el comando escriba ese tamaño o empiece de nuevo con el tamaño que entrega la cámara</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>haga que el escritorio la libere con `gio mount -s gphoto2` (o expúlsela en el gestor de archivos) y cierre los programas de fotografía</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>deje que el procesador haga el trabajo</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>inicie sesión en un escritorio con X («Xorg» en el inicio de sesión) o reproduzca archivos</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>indique una por su puerto: gphoto2:{} o gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indique esa: gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>no responde ninguna cámara GenICam «{}»</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>no hay conectada ninguna cámara con ese nombre, pero sí {}</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>no ha llegado ninguna fotografía en {} s</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>no está conectado ese dispositivo de vídeo</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>no se puede leer ninguno de los formatos de píxel de la cámara</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>faltan partes del archivo</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>partes de la fotografía se perdieron por el camino</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>conéctelo, cierre otros programas que lo usen e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>pulse el disparador hasta la mitad, o apáguela y vuelva a encenderla, y desactive su apagado automático</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>el proyector {} no muestra la imagen que se le envía</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>vuelva a colocarlo en su sitio con una precisión de medio píxel e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>elimínelo a mano e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>ejecútelo en un terminal para averiguar la causa: {}</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>ajústela a mano a ISO 100</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>ponga su modo de exposición en temporizado y manual o actualice su firmware</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>restablezca su resolución en los ajustes del escritorio e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>ajústelas a intervalos de tiempos de exposición que se solapen</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>inicie el show de nuevo</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>déjela como estaba, mantenga cerradas puertas y cortinas, e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>apáguela y vuelva a encenderla, cargue sus ajustes predeterminados con el programa del fabricante e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>desactívelo con el programa del fabricante de la cámara o use otra cámara</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>desactívelo con v4l2-ctl (--list-ctrls enumera los controles disponibles) o use otra cámara</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>desactive su exposición automática y su límite de velocidad de fotogramas</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>desactive su exposición automática; no se puede usar una cámara sin exposición manual</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>ponga su objetivo en enfoque manual</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>ponga su objetivo en enfoque manual, cierre sus menús y tome una fotografía a mano para ver de qué se queja</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>ponga a mano su calidad de imagen en RAW; no se puede usar una cámara sin RAW</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>desactive su ahorro de energía y el salvapantallas en los ajustes del escritorio e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>apague las lámparas atenuadas y fluorescentes, desactive el ahorro de energía del proyector e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>desactive su brillo automático y sus modos eco, deje que se caliente e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>desactive en el proyector el modo de retroproyección o de techo, o permita una imagen reflejada, e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>apague y vuelva a encender la cámara o elija otro de sus formatos de píxel</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>ponga la cámara en RAW de tamaño completo (ni sRAW, ni mRAW, ni DNG lineal)</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>retire lo que esté en la luz o en la imagen e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>el manifiesto de la calibración está dañado</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>la cámara admite de {} a {}</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>la cámara ha vuelto con {}x{} píxeles en lugar de {}x{}</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>la cámara elige ella misma su sensibilidad (ISO automático)</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la cámara declara exposiciones de {} a {} s</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>la cámara no entrega archivos RAW</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la cámara no ve lo que se muestra en {}</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>la cámara no ha podido enfocar y no ha tomado ninguna fotografía ({})</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la cámara lleva {} s sin responder: {}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>la cámara se ha desconectado, se ha apagado o ha entrado en reposo</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la cámara ha olvidado el formato de píxel que se le había fijado</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la cámara no tiene un formato de píxel {} que se pueda leer</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>a la cámara no le queda sitio para una fotografía: su tarjeta de memoria está llena</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>la cámara está presente pero no responde, puede que esté en reposo</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>la cámara se mantiene en {} s sea cual sea la exposición que se le pida</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>la cámara ha dejado de responder ({}: {})</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la cámara ha rechazado lo que se le pidió ({})</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>la cámara se niega ({}: {})</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la cámara no ve diferencia entre blanco y negro</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>la cámara no ve nada en absoluto</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la cámara ve {} y no {}</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>la cámara no envía ninguna transmisión</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>la cámara ha enviado {} y ningún archivo RAW</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>la cámara sigue ocupada</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>se pidió una fotografía a la cámara y no tomó ninguna</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>se pidió a la cámara una exposición de {} s y se mantiene en {} s</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>la batería de la cámara parece agotada ({} % en la última consulta)</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>el filtro de color de la cámara no es un filtro de Bayer</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>no se puede ajustar el tiempo de exposición de la cámara</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>el dial de modos de la cámara está en {}, donde la cámara elige ella misma las exposiciones</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>las cámaras no tienen ningún tiempo de exposición en común</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>el dispositivo de captura no da ninguna imagen</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>no se puede iniciar el comando ({})</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>el comando terminó bien pero no escribió nada, ni siquiera {}</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>el comando terminó bien pero escribió {} y no {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>el comando falló con el estado {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>el comando falló con el estado {} y el mensaje «{}»</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>el comando tardó más de {} s</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>el comando tardó más de {} s, con el mensaje «{}»</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>la señal {} terminó el comando</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>la señal {} terminó el comando, con el mensaje «{}»</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>el motor ha perdido su dispositivo</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>no se puede usar la tarjeta gráfica</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>a la tarjeta gráfica no le quedan {} MB de memoria</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>la tarjeta gráfica alcanza {} MB a la vez y se necesitan {} MB</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>se ha perdido la tarjeta gráfica</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>la luz parpadea: las fotografías de un mismo patrón difieren en un {} %</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>la luz de la sala ha aumentado</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>la luz de la sala ha disminuido</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>la imagen en directo de una pantalla necesita un servidor X y ninguno responde</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>no se puede escribir el registro ({})</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>la fotografía tiene {}x{} píxeles en formato {} cuando se habían acordado {}x{} en formato {}</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>la fotografía tiene {}x{} píxeles cuando se habían anunciado {}x{}</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>la fotografía es mayor de lo que anunció la cámara</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>la fotografía no se completó</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>no se ha podido escribir la imagen</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>la imagen del proyector {} aparece reflejada</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>el proyector no muestra nada, pero se sigue viendo la luz de la propia sala</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>la luz del proyector ha cambiado un {} % en pocas fotografías</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>la pantalla del proyector tiene ahora {}x{} píxeles y se calibraron {}x{}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>la pantalla del proyector está en reposo y no se activa</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>la pantalla del proyector pierde la imagen una y otra vez</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>no se puede leer el archivo RAW ({})</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>el archivo RAW no contiene los valores propios del sensor</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>no se puede escribir la grabación ({})</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>no se puede escribir el informe</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>no se puede activar el servicio ({})</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>no se puede volver a abrir el dispositivo de vídeo</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>no se puede abrir el dispositivo de vídeo: quizá lo esté usando otro programa</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>el dispositivo de vídeo se ha desconectado</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>el dispositivo de vídeo no tiene una exposición ajustable</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>el dispositivo de vídeo no envía imágenes</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>no se puede desactivar la exposición automática del dispositivo de vídeo</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>no se puede desactivar el enfoque automático del dispositivo de vídeo</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>no se puede desactivar el balance de blancos automático del dispositivo de vídeo</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>no hay OpenGL 4.3 con compute shaders</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>no hay ninguna tarjeta gráfica con OpenGL 4.3 y compute shaders</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>falta libEGL o libOpenGL, que abren tarjetas gráficas sin pantalla</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>esta compilación de Relucent no admite cámaras réflex (DSLR) ni sin espejo</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>esta compilación de Relucent no admite cámaras GenICam</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>esto no es una calibración de Relucent</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>gírelo a M</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>gire su dial de modos a M; no se puede usar una cámara que no lo tenga</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>destape el objetivo, compruebe que el proyector está encendido e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>use una cámara con exposición manual</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>active el proyector, desactive su ahorro de energía y el de la pantalla, e inténtelo de nuevo</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>se pide ISO {} y la cámara no lo tiene</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>el {} % de la vista de la cámara {} se ve distinto que antes</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>han fallado {} intentos de tomar una fotografía: {}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} reanudando la calibración; {}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>hay {} cámaras de este modelo conectadas</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>no se puede desactivar {}</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}; después, continúe: todas las fotografías tomadas hasta ahora se conservan</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>se piden {}x{} píxeles y la cámara da {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>se piden {}x{} píxeles y la cámara tiene {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>se piden {}x{} píxeles y el dispositivo de vídeo da {}x{}</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}; {}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

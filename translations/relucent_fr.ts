@@ -78,6 +78,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>une caméra ou un projecteur a bougé : le champ de la caméra {} est décalé de {} et {} pixels et tourné de {} degrés</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un fichier de la calibration ({}) a {} octets au lieu de {}</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>un fichier de la calibration ({}) est absent</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>un gain de {} est demandé</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>une nouvelle image n’est pas entièrement affichée après {} trames</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>une photo ne peut pas être déplacée ({})</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>une photo ne peut pas être supprimée ({})</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>une photo de {}x{} pixels en {} est arrivée avec {} octets sur {}</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>une photo a été demandée et aucune n’est arrivée</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>tournez-la vers la projection, retirez son bouchon d’objectif et allongez la pose</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>un autre programme occupe la caméra</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>un autre programme occupe la caméra, le plus souvent le bureau, qui la monte comme une clé USB</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>demandez une taille qu’il propose : v4l2-ctl --list-formats-ext les affiche</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>n’en demandez pas plus</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>demandez la taille qu’elle fournit</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>impossible de créer un dossier temporaire ({})</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>impossible de créer le dossier ({})</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>impossible de lire le contenu du dossier ({})</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>ouverture impossible ({})</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>impossible d’ouvrir le dossier ({})</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>lecture impossible ({})</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>impossible de supprimer le fichier ({})</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>écriture impossible ({})</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>changez ou videz la carte mémoire</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>rechargez ou changez la batterie, utilisez de préférence un adaptateur secteur, et rallumez la caméra</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>vérifiez son câble et son alimentation</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>vérifiez son câble et désactivez sa mise en veille</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>vérifiez son câble, son alimentation et son adresse ; `relucent-cli devices` affiche ce qui est présent</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>vérifiez son câble, allumez-la et désactivez son extinction automatique</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>vérifiez que le champ de la caméra est stable et sa pose courte, et désactivez le lissage des mouvements du projecteur</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>vérifiez que l’écriture dans le dossier est autorisée, puis continuez</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>vérifiez que l’écriture dans le dossier est autorisée, puis réessayez</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif ; ou choisissez un autre écran</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>vérifiez que le bon écran est choisi et que rien ne cache l’image, puis réessayez</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>vérifiez que vous avez le droit de le lire, ou choisissez un autre nom</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>vérifiez le câble et la carte réseau de la caméra, et qu’aucun autre programme ne l’utilise</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande : {}</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>vérifiez le disque et son câble</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>vérifiez les droits d’accès du dossier</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>vérifiez le chemin</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>vérifiez le chemin et que vous avez le droit de le lire</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>vérifiez le chemin et le disque</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>choisissez un dossier où vous avez le droit d’écrire, ou demandez ce droit</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>choisissez une autre calibration, ou recopiez-la depuis l’endroit où elle a été mesurée</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>choisissez un autre dossier avec --log</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>choisissez {}, ou tournez la caméra vers {}</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>fermez ses menus et sa lecture, et quittez la visée écran (Live View)</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>fermez ses menus, éteignez-la et rallumez-la</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>fermez d’autres programmes et réessayez</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>branchez la caméra avec laquelle la mesure a commencé</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>recopiez-le, ou reprenez la photo ; une caméra plus récente que ce LibRaw demande des fichiers DNG</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>développez les fichiers en linéaire, en TIFF 16 bits, ou utilisez une autre caméra</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>toutes les photos antérieures au transport lumineux sont en sécurité</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>toutes les photos prises jusqu’à la vérification précédente sont en sécurité</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>libérez de l’espace</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>libérez de l’espace à cet endroit ou vérifiez le disque, puis réessayez</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>libérez de l’espace à cet endroit ou choisissez un autre disque, puis réessayez</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>libérez de l’espace à cet endroit, ou indiquez dans TMPDIR un dossier où vous avez le droit d’écrire</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>libérez de l’espace, ou enregistrez ailleurs</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>installez Aravis (libaravis-dev) et recompilez, ou utilisez un autre type de caméra</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>installez libgphoto2 et LibRaw (libgphoto2-dev, libraw-dev) et recompilez, ou utilisez une commande</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>installez le pilote de la carte graphique, ou confiez le calcul au processeur</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>le fichier ne peut pas être retiré ({})</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>elle propose {}</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>elle propose {} ; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>il est vide</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>faites-lui écrire la photo dans {output} : {}</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>faites écrire cette taille par la commande, ou recommencez avec la taille que fournit la caméra</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>faites-la libérer par le bureau avec `gio mount -s gphoto2` (ou éjectez-la dans le gestionnaire de fichiers) et fermez les programmes de photo</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>confiez le calcul au processeur</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>ouvrez une session de bureau X (« Xorg » à l’ouverture de session), ou diffusez des fichiers</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>indiquez l’une d’elles par son port : gphoto2:{} ou gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indiquez celle-ci : gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>aucune caméra GenICam « {} » ne répond</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>aucune caméra de ce nom n’est branchée, mais {} l’est</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>aucune photo n’est arrivée en {} s</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>aucun périphérique vidéo de ce nom n’est branché</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>aucun des formats de pixel de la caméra ne peut être lu</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>il en manque des parties</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>des parties de la photo ont été perdues en route</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>branchez-le, fermez les autres programmes qui l’utilisent, puis réessayez</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>enfoncez son déclencheur à mi-course ou éteignez-la et rallumez-la, et désactivez son extinction automatique</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>le projecteur {} n’affiche pas l’image qu’il reçoit</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>remettez l’appareil en place à un demi-pixel près, puis réessayez</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>supprimez-le à la main, puis réessayez</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>exécutez-la dans un terminal pour en trouver la raison : {}</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>réglez-la à la main sur ISO 100</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>réglez son mode d’exposition sur « Timed » et manuel, ou mettez à jour son micrologiciel</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>rétablissez sa définition dans les réglages du bureau, puis réessayez</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>réglez-les sur des plages de temps de pose qui se recoupent</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>relancez la diffusion</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>remettez-la comme avant, gardez portes et rideaux fermés, puis réessayez</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>éteignez-la et rallumez-la, chargez ses réglages par défaut avec le programme du fabricant, puis réessayez</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>désactivez ce réglage avec le programme du fabricant de la caméra, ou utilisez une autre caméra</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>désactivez ce réglage avec v4l2-ctl (--list-ctrls affiche ceux du périphérique), ou utilisez une autre caméra</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>désactivez son exposition automatique et la limite de sa fréquence d’images</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>désactivez son exposition automatique ; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>mettez son objectif en mise au point manuelle</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>mettez son objectif en mise au point manuelle, fermez ses menus et prenez une photo à la main pour voir ce qu’elle signale</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>réglez à la main sa qualité d’image sur RAW ; une caméra sans RAW ne peut pas être utilisée</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>désactivez sa mise en veille et l’économiseur d’écran dans les réglages du bureau, puis réessayez</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>éteignez les lampes à variateur et les tubes fluorescents, désactivez le mode économie d’énergie du projecteur, puis réessayez</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>désactivez sa luminosité automatique et ses modes éco, laissez-le chauffer, puis réessayez</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>désactivez la rétroprojection ou le montage au plafond du projecteur, ou autorisez une image en miroir, puis réessayez</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>éteignez et rallumez la caméra, ou choisissez un autre de ses formats de pixel</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>réglez la caméra sur RAW en pleine taille (ni sRAW, ni mRAW, ni DNG linéaire)</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>retirez ce qui se trouve dans la lumière ou dans le champ, puis réessayez</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>le manifeste de la calibration est endommagé</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>la caméra permet de {} à {}</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>la caméra est revenue avec {}x{} pixels au lieu de {}x{}</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>la caméra choisit elle-même sa sensibilité (ISO automatique)</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la caméra annonce des temps de pose de {} à {} s</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>la caméra ne fournit pas de fichiers RAW</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>la caméra n’a pas pu faire la mise au point et n’a pas pris de photo ({})</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la caméra a disparu depuis {} s : {}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>la caméra a été débranchée ou éteinte, ou s’est mise en veille</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la caméra a oublié le format de pixel réglé</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la caméra n’a pas de format de pixel {} qui puisse être lu</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>la caméra n’a plus de place pour une photo : sa carte mémoire est pleine</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>la caméra est là mais ne répond pas, elle est peut-être en veille</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>la caméra s’en tient à {} s quelle que soit la pose demandée</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>la caméra ne répond plus ({} : {})</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la caméra a refusé ce qui lui était demandé ({})</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>la caméra refuse ({} : {})</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la caméra ne voit aucune différence entre le blanc et le noir</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>la caméra ne voit rien du tout</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la caméra voit {}, et non {}</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>la caméra n’envoie pas de flux</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>la caméra a envoyé {} et aucun fichier RAW</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>la caméra reste occupée</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>une photo a été demandée à la caméra, qui n’en a pas pris</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>une pose de {} s a été demandée à la caméra, qui s’en tient à {} s</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>la batterie de la caméra semble vide ({} % à la dernière lecture)</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>le filtre coloré de la caméra n’est pas un filtre de Bayer</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>le temps de pose de la caméra ne peut pas être réglé</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>la molette de mode de la caméra est sur {}, où la caméra choisit elle-même la pose</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>les caméras n’ont aucun temps de pose en commun</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>le périphérique de capture ne fournit aucune image</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>la commande ne peut pas être lancée ({})</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>la commande s’est bien terminée mais n’a rien écrit ; {} était attendu</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>la commande s’est bien terminée mais a écrit {} ; {} était attendu</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>la commande a échoué avec le statut {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>la commande a échoué avec le statut {}, en signalant « {} »</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>la commande a duré plus de {} s</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>la commande a duré plus de {} s, en signalant « {} »</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>la commande a été tuée par le signal {}</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>la commande a été tuée par le signal {}, en signalant « {} »</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>le moteur de rendu a perdu son périphérique</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>la carte graphique ne peut pas être utilisée</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>la carte graphique n’a plus {} Mo de mémoire libre</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>la carte graphique atteint {} Mo à la fois alors qu’il en faut {} Mo</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>la carte graphique a été perdue</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>la lumière scintille : les photos d’un même motif diffèrent de {} %</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>la lumière de la salle a augmenté</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>la lumière de la salle a diminué</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>l’image en direct d’un écran demande un serveur X, et aucun ne répond</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>le journal ne peut pas être écrit ({})</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>la photo a {}x{} pixels en {} alors que {}x{} en {} étaient convenus</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>la photo a {}x{} pixels alors que {}x{} étaient annoncés</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>la photo est plus grande que ce que la caméra annonçait</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>la photo n’a pas été terminée</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>l’image n’a pas pu être écrite</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>l’image du projecteur {} apparaît en miroir</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>le projecteur n’affiche rien, seule la lumière de la salle est encore visible</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>la lumière du projecteur a changé de {} % en quelques photos</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>l’écran du projecteur a maintenant {}x{} pixels alors que {}x{} ont été calibrés</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>l’écran du projecteur est en veille et ne se réveille pas</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>l’écran du projecteur perd sans cesse son image</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>le fichier RAW ne peut pas être lu ({})</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>le fichier RAW ne contient pas les valeurs mêmes du capteur</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>l’enregistrement ne peut pas être écrit ({})</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>le rapport ne peut pas être écrit</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>le service ne peut pas être activé ({})</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>le périphérique vidéo ne peut pas être rouvert</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>le périphérique vidéo ne peut pas être ouvert : un autre programme l’utilise peut-être</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>le périphérique vidéo a été débranché</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>le périphérique vidéo n’a pas d’exposition réglable</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>le périphérique vidéo n’envoie pas d’images</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>l’exposition automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>la mise au point automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>la balance des blancs automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>il manque OpenGL 4.3 avec shaders de calcul</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>aucune carte graphique avec OpenGL 4.3 et shaders de calcul n’est présente</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>il manque libEGL ou libOpenGL, qui ouvrent les cartes graphiques sans écran</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>cette version compilée de Relucent ne gère pas les reflex ni les hybrides</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>cette version compilée de Relucent ne gère pas les caméras GenICam</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>ce n’est pas une calibration de Relucent</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>tournez-la sur M</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>tournez sa molette de mode sur M ; une caméra sans M ne peut pas être utilisée</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>découvrez l’objectif, vérifiez que le projecteur est allumé, puis réessayez</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>utilisez une caméra à exposition manuelle</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>réveillez le projecteur, désactivez sa mise en veille et celle de l’écran, puis réessayez</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>ISO {} est demandé et la caméra ne l’a pas</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>{} % du champ de la caméra {} ont changé d’aspect</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} tentatives de photo ont échoué : {}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} en reprenant la calibration ; {}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>{} caméras de ce modèle sont branchées</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} ne peut pas être désactivé</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}, puis continuez : toutes les photos déjà prises sont conservées</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>{}x{} pixels sont demandés et la caméra fournit {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>{}x{} pixels sont demandés et la caméra a {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>{}x{} pixels sont demandés et le périphérique vidéo fournit {}x{}</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{} : {}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{} ; {}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

@@ -78,6 +78,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>una fotocamera o un proiettore si è spostato: l’inquadratura della fotocamera {} è spostata di {}, {} pixel e ruotata di {} gradi</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un file della calibrazione ({}) ha {} byte invece di {}</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>manca un file della calibrazione ({})</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>è richiesto un guadagno di {}</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>una nuova immagine non è completa dopo {} fotogrammi</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>impossibile spostare una foto ({})</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>impossibile eliminare una foto ({})</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>una foto di {}x{} pixel in formato {} è arrivata con {} byte su {}</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>è stata richiesta una foto e non ne è arrivata nessuna</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>puntarla sulla proiezione, togliere il tappo dell’obiettivo e usare un’esposizione più lunga</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>un altro programma sta usando la fotocamera</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>un altro programma sta usando la fotocamera, di solito il desktop, che la monta come una chiavetta USB</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>richiedere una dimensione disponibile: v4l2-ctl --list-formats-ext le elenca</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>richiedere quella dimensione o una minore</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>richiedere la dimensione che fornisce</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>impossibile creare una cartella temporanea ({})</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>impossibile creare la cartella ({})</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>impossibile esaminare il contenuto della cartella ({})</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>impossibile aprire ({})</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>impossibile aprire la cartella ({})</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>impossibile leggere ({})</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>impossibile eliminare il file ({})</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>impossibile scrivere ({})</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>sostituire o svuotare la scheda di memoria</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>caricare o sostituire la batteria (meglio usare un alimentatore di rete) e riaccendere la fotocamera</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>controllare il cavo e l’alimentazione</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>controllare il cavo e disattivare il risparmio energetico</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>controllare il cavo, l’alimentazione e l’indirizzo; `relucent-cli devices` elenca i dispositivi presenti</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>controllare il cavo, accenderla e disattivarne lo spegnimento automatico</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>controllare che l’inquadratura della fotocamera sia stabile e l’esposizione breve, e disattivare la compensazione del movimento del proiettore</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>controllare che la cartella sia scrivibile, poi proseguire</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>controllare che la cartella sia scrivibile, poi riprovare</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>controllare che il proiettore sia acceso e mostri quell’uscita, puntare la fotocamera sulla proiezione e togliere il tappo dell’obiettivo; oppure scegliere un altro schermo</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>controllare che sia scelto lo schermo giusto e che nulla copra l’immagine, poi riprovare</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>controllare di avere il permesso di lettura o scegliere un altro nome</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>controllare il cavo e la scheda di rete della fotocamera, e che nessun altro programma la usi</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>controllare il dispositivo o concedere più tempo al comando: {}</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>controllare il disco e il suo cavo</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>controllare i permessi della cartella</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>controllare il percorso</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>controllare il percorso e i permessi di lettura</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>controllare il percorso e il disco</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>scegliere una cartella in cui è consentito scrivere o chiedere il permesso</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>scegliere un’altra calibrazione o copiarla di nuovo da dove è stata misurata</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>scegliere un’altra cartella con --log</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>scegliere {} o puntare la fotocamera su {}</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>chiuderne i menu e la riproduzione, e terminare il live view</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>chiuderne i menu, poi spegnerla e riaccenderla</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>chiudere altri programmi e riprovare</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>collegare la fotocamera con cui è iniziata la misura</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>copiarlo di nuovo o scattare di nuovo la foto; una fotocamera più recente di questa versione di LibRaw richiede file DNG</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>sviluppare i file in modo lineare, come TIFF a 16 bit, o usare un’altra fotocamera</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>ogni foto precedente al trasporto della luce è al sicuro</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>ogni foto fino al controllo precedente è al sicuro</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>liberare spazio</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>liberare spazio lì o controllare il disco, poi riprovare</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>liberare spazio lì o scegliere un altro disco, poi riprovare</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>liberare spazio lì o indicare in TMPDIR una cartella in cui è consentito scrivere</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>liberare spazio o registrare altrove</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>installare Aravis (libaravis-dev) e ricompilare, o usare un altro tipo di fotocamera</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>installare libgphoto2 e LibRaw (libgphoto2-dev, libraw-dev) e ricompilare, o usare un comando</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>installare il driver della scheda grafica o far svolgere il lavoro al processore</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>impossibile eliminarlo ({})</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>valori disponibili: {}</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>formati disponibili: {}; vengono letti Mono, Bayer e RGB non impacchettati (unpacked) da 8 a 16 bit</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>è vuoto</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>fare in modo che scriva la foto in {output}: {}</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>far scrivere al comando quella dimensione o ricominciare con la dimensione fornita dalla fotocamera</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>farla rilasciare dal desktop con `gio mount -s gphoto2` (o espellerla nel gestore dei file) e chiudere i programmi di fotografia</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>far svolgere il lavoro al processore</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>accedere a un desktop con X («Xorg» all’accesso) o riprodurre file</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>indicarne una con la sua porta: gphoto2:{} o gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indicare quella: gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>nessuna fotocamera GenICam «{}» risponde</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>nessuna fotocamera con questo nome è collegata, ma è presente {}</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>nessuna foto è arrivata entro {} s</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>quel dispositivo video non è collegato</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>nessuno dei formati pixel della fotocamera è leggibile</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>ne mancano delle parti</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>parti della foto sono andate perse durante la trasmissione</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>collegarlo, chiudere altri programmi che lo usano e riprovare</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>premere a metà il pulsante di scatto, oppure spegnerla e riaccenderla, e disattivarne lo spegnimento automatico</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>il proiettore {} non mostra l’immagine che gli viene inviata</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>riportarlo in posizione entro mezzo pixel, poi riprovare</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>eliminarlo a mano, poi riprovare</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>eseguirlo in un terminale per scoprirne la causa: {}</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>impostarla a mano su ISO 100</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>impostarne la modalità di esposizione su temporizzata e manuale o aggiornarne il firmware</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>ripristinarne la risoluzione nelle impostazioni del desktop, poi riprovare</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>impostarle su intervalli di tempi di esposizione che si sovrappongano</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>avviare di nuovo lo show</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>riportarla com’era, tenere chiuse porte e tende, poi riprovare</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>spegnerla e riaccenderla, caricarne le impostazioni predefinite con il programma del produttore e riprovare</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>disattivarlo con il programma del produttore della fotocamera o usare un’altra fotocamera</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>disattivarlo con v4l2-ctl (--list-ctrls elenca i controlli disponibili) o usare un’altra fotocamera</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>disattivarne l’esposizione automatica e il limite di frequenza dei fotogrammi</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>disattivarne l’esposizione automatica; una fotocamera senza esposizione manuale non è utilizzabile</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>impostarne l’obiettivo sulla messa a fuoco manuale</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>impostarne l’obiettivo sulla messa a fuoco manuale, chiuderne i menu e scattare una foto a mano per vedere quale problema segnala</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>impostarne a mano la qualità d’immagine su RAW; una fotocamera senza RAW non è utilizzabile</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>disattivarne il risparmio energetico e il salvaschermo nelle impostazioni del desktop, poi riprovare</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>spegnere le lampade con dimmer e fluorescenti, disattivare il risparmio energetico del proiettore, poi riprovare</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>disattivarne la luminosità automatica e le modalità eco, lasciarlo scaldare, poi riprovare</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>disattivare la modalità retroproiezione o soffitto del proiettore, o consentire un’immagine specchiata, poi riprovare</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>spegnere e riaccendere la fotocamera o scegliere un altro dei suoi formati pixel</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>impostare la fotocamera su RAW a dimensione piena (né sRAW, né mRAW, né DNG lineare)</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>togliere ciò che si trova nella luce o nell’inquadratura, poi riprovare</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>il manifest della calibrazione è danneggiato</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>la fotocamera consente valori da {} a {}</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>la fotocamera è tornata con {}x{} pixel invece di {}x{}</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>la fotocamera sceglie da sola la sensibilità (ISO automatico)</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la fotocamera dichiara esposizioni da {} a {} s</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>la fotocamera non fornisce file RAW</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>la fotocamera non ha messo a fuoco e non ha scattato alcuna foto ({})</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la fotocamera è assente da {} s: {}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>la fotocamera è stata scollegata o spenta, oppure è andata in standby</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la fotocamera ha perso il formato pixel che le era stato impostato</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la fotocamera non ha un formato pixel {} leggibile</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>la fotocamera non ha più spazio per una foto: la scheda di memoria è piena</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>la fotocamera è presente ma non risponde, forse è in standby</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>la fotocamera resta a {} s qualunque esposizione le venga richiesta</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>la fotocamera non risponde più ({}: {})</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la fotocamera ha rifiutato quanto richiesto ({})</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>la fotocamera rifiuta ({}: {})</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la fotocamera non vede differenza tra bianco e nero</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>la fotocamera non vede assolutamente nulla</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la fotocamera vede {} e non {}</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>la fotocamera non invia alcun flusso</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>la fotocamera ha inviato {} e nessun file RAW</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>la fotocamera resta occupata</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>alla fotocamera è stata richiesta una foto e non ne ha scattata nessuna</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>alla fotocamera è stata richiesta un’esposizione di {} s ma resta a {} s</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>la batteria della fotocamera sembra scarica ({} % all’ultima lettura)</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>il filtro colore della fotocamera non è un filtro Bayer</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>il tempo di esposizione della fotocamera non è impostabile</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>la ghiera dei modi della fotocamera è su {}, dove la fotocamera sceglie da sola le esposizioni</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>le fotocamere non hanno tempi di esposizione in comune</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>il dispositivo di acquisizione non fornisce immagini</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>impossibile avviare il comando ({})</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>il comando è terminato correttamente ma non ha scritto nulla, nemmeno {}</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>il comando è terminato correttamente ma ha scritto {} e non {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>il comando non è riuscito, con stato {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>il comando non è riuscito, con stato {} e il messaggio «{}»</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>il comando ha impiegato più di {} s</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>il comando ha impiegato più di {} s, con il messaggio «{}»</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>il comando è stato terminato dal segnale {}</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>il comando è stato terminato dal segnale {}, con il messaggio «{}»</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>il motore ha perso il suo dispositivo</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>la scheda grafica non è utilizzabile</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>la scheda grafica non ha più {} MB di memoria liberi</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>la scheda grafica raggiunge {} MB alla volta mentre servono {} MB</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>la scheda grafica non è più disponibile</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>la luce sfarfalla: le foto di uno stesso pattern differiscono del {} %</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>la luce della sala è aumentata</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>la luce della sala è diminuita</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>l’immagine dal vivo di uno schermo richiede un server X e nessuno risponde</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>impossibile scrivere il log ({})</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>la foto ha {}x{} pixel in formato {} mentre erano concordati {}x{} in formato {}</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>la foto ha {}x{} pixel mentre ne erano annunciati {}x{}</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>la foto è più grande di quanto annunciato dalla fotocamera</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>la foto non è stata completata</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>impossibile scrivere l’immagine</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>l’immagine del proiettore {} appare specchiata</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>il proiettore non mostra nulla, ma la luce della sala è ancora visibile</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>la luce del proiettore è cambiata del {} % nel giro di poche foto</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>lo schermo del proiettore ora ha {}x{} pixel e ne sono stati calibrati {}x{}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>lo schermo del proiettore è in standby e non si riattiva</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>lo schermo del proiettore perde ripetutamente l’immagine</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>impossibile leggere il file RAW ({})</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>il file RAW non contiene i valori originali del sensore</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>impossibile scrivere la registrazione ({})</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>impossibile scrivere il rapporto</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>impossibile attivare il servizio ({})</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>impossibile riaprire il dispositivo video</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>impossibile aprire il dispositivo video: forse un altro programma lo sta usando</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>il dispositivo video è stato scollegato</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>il dispositivo video non ha un’esposizione impostabile</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>il dispositivo video non invia immagini</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>impossibile disattivare l’esposizione automatica del dispositivo video</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>impossibile disattivare la messa a fuoco automatica del dispositivo video</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>impossibile disattivare il bilanciamento automatico del bianco del dispositivo video</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>OpenGL 4.3 con compute shader non è disponibile</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>non c’è una scheda grafica con OpenGL 4.3 e compute shader</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>manca libEGL o libOpenGL, che aprono le schede grafiche senza schermo</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>questa build di Relucent non supporta le fotocamere reflex (DSLR) e mirrorless</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>questa build di Relucent non supporta le fotocamere GenICam</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>questa non è una calibrazione di Relucent</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>ruotarla su M</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>ruotarne la ghiera dei modi su M; una fotocamera che ne è priva non è utilizzabile</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>scoprire l’obiettivo, controllare che il proiettore sia acceso, poi riprovare</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>usare una fotocamera con esposizione manuale</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>riattivare il proiettore, disattivarne il risparmio energetico e quello dello schermo, poi riprovare</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>è richiesto ISO {} e la fotocamera non lo ha</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>il {} % dell’inquadratura della fotocamera {} appare diverso da prima</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} tentativi di scattare una foto non sono riusciti: {}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} riprendendo la calibrazione; {}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>sono collegate {} fotocamere di questo modello</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>impossibile disattivare {}</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}, poi proseguire: ogni foto scattata finora è conservata</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>sono richiesti {}x{} pixel e la fotocamera ne fornisce {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>sono richiesti {}x{} pixel e la fotocamera ne ha {}x{}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>sono richiesti {}x{} pixel e il dispositivo video ne fornisce {}x{}</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}; {}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

@@ -76,6 +76,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>カメラかプロジェクターが動きました：カメラ {} の視野が {}、{} 画素ずれ、{} 度回転しています</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>校正データの {0} のファイルが {2} バイトではなく {1} バイトです</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>校正データの {} のファイルがありません</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>ゲイン {} が指定されています</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>新しい画像が {} フレーム後もまだ完全に表示されません</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>写真を移動できません（{}）</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>写真を削除できません（{}）</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>{0} × {1} 画素（{2}）の写真が、{4} バイト中 {3} バイトしか届きませんでした</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>撮影を要求しましたが、写真が届きませんでした</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>カメラを投影に向け、レンズキャップを外し、露出を長くしてください</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>ほかのプログラムがカメラを使用しています</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>ほかのプログラムがカメラを使用しています。多くの場合、デスクトップがカメラを USB メモリのようにマウントしています</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>対応しているサイズを指定してください：v4l2-ctl --list-formats-ext で一覧できます</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>それ以下のサイズを指定してください</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>カメラが出力するサイズを指定してください</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>一時フォルダーを作成できません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>フォルダーを作成できません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>フォルダーの内容を確認できません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>開けません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>フォルダーを開けません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>読み込めません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>ファイルを削除できません（{}）</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>書き込めません（{}）</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>メモリカードを交換するか、空にしてください</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>バッテリーを充電するか交換し（AC アダプターの使用を推奨）、カメラの電源を入れ直してください</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>ケーブルと電源を確認してください</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>ケーブルを確認し、省電力機能をオフにしてください</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>ケーブル、電源、アドレスを確認してください。`relucent-cli devices` で接続中の機器を一覧できます</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>ケーブルを確認し、カメラの電源を入れ、自動電源オフを無効にしてください</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>カメラの視野が動いていないことと露出が短いことを確認し、プロジェクターの動き補間をオフにしてください</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>フォルダーに書き込めることを確認してから、続行してください</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>フォルダーに書き込めることを確認してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>プロジェクターの電源が入り、その出力を表示していることを確認し、カメラをそこに向けてレンズキャップを外すか、別の画面を選んでください</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>正しい画面が選ばれ、画像を隠すものがないことを確認してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>読み取り権限があることを確認するか、別の名前にしてください</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>カメラのケーブルとネットワークカードを確認し、ほかのプログラムがカメラを使っていないことを確認してください</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>機器を確認するか、コマンドの制限時間を延ばしてください：{}</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>ディスクとそのケーブルを確認してください</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>フォルダーのアクセス権を確認してください</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>パスを確認してください</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>パスと読み取り権限を確認してください</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>パスとディスクを確認してください</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>書き込めるフォルダーを選ぶか、書き込み権限を取得してください</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>書き込めて空き容量のあるフォルダーを選んでください</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>別の校正データを選ぶか、測定した場所からコピーし直してください</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>--log で別のフォルダーを指定してください</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>{} を選ぶか、カメラを {} に向けてください</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>カメラのメニューと再生画面を閉じ、ライブビューを終了してください</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>カメラのメニューを閉じ、電源を入れ直してください</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>ほかのプログラムを終了して、再試行してください</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>測定を始めたときのカメラを接続してください</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>コピーし直すか、撮影し直してください。カメラがこの LibRaw より新しい場合は DNG ファイルが必要です</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>ファイルを線形の 16 ビット TIFF に現像するか、別のカメラを使ってください</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>光輸送測定より前の写真はすべて無事です</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>前回の確認までの写真はすべて無事です</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>空き容量を増やしてください</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>保存先の空き容量を増やすかディスクを確認してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>保存先の空き容量を増やすか別のディスクを選んでから、再試行してください</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>そこの空き容量を増やすか、TMPDIR に書き込めるフォルダーを指定してください</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>空き容量を増やすか、別の場所に記録してください</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>Aravis（libaravis-dev）をインストールしてビルドし直すか、別の種類のカメラを使ってください</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>libgphoto2 と LibRaw（libgphoto2-dev、libraw-dev）をインストールしてビルドし直すか、コマンドを使ってください</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>グラフィックカードのドライバーをインストールするか、CPU で処理してください</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>削除できません（{}）</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>選べる値は {} です</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>カメラの形式は {} です。読み込めるのは 8～16 ビットの非パック形式の Mono、Bayer、RGB です</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>ファイルが空です</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>コマンドが写真を {output} に書き込むようにしてください：{}</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>コマンドがそのサイズで書き込むようにするか、カメラが出力するサイズで最初からやり直してください</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>`gio mount -s gphoto2` でデスクトップのマウントを解除し（またはファイルマネージャーで取り出し）、写真用のプログラムを終了してください</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>CPU で処理してください</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>X のデスクトップにログインするか（ログイン画面で「Xorg」を選択）、ファイルを再生してください</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>どちらかをポートで指定してください：gphoto2:{} または gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>そのカメラを指定してください：gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>GenICam カメラ「{}」が応答しません</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>この名前のカメラは接続されていません。接続されているのは {} です</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>{} 秒以内に写真が届きませんでした</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>そのビデオデバイスは接続されていません</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>カメラの画素形式はどれも読み込めません</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>ファイルの一部が欠けています</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>写真の一部が転送中に失われました</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>接続し、それを使用しているほかのプログラムを終了して、再試行してください</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>シャッターボタンを半押しするか電源を入れ直し、自動電源オフを無効にしてください</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>プロジェクター {} が、送られた画像を表示していません</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>ずれが半画素以内になるように元の位置に戻してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>手動で削除してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>ターミナルで実行して原因を調べてください：{}</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>カメラを手動で ISO 100 に設定してください</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>露出モードを Timed（手動）に設定するか、ファームウェアを更新してください</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>デスクトップの設定で解像度を元に戻してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>露出時間の範囲が重なるようにカメラを設定してください</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>ショーをもう一度開始してください</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>照明を元に戻し、ドアとカーテンを閉めたままにして、再試行してください</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>電源を入れ直し、メーカーのプログラムで初期設定を読み込んでから、再試行してください</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>カメラメーカーのプログラムでオフにするか、別のカメラを使ってください</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>v4l2-ctl でオフにするか（--list-ctrls で設定項目を一覧できます）、別のカメラを使ってください</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>カメラの自動露出とフレームレート制限をオフにしてください</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>カメラの自動露出をオフにしてください。手動露出のないカメラは使用できません</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>レンズをマニュアルフォーカスに切り替えてください</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>レンズをマニュアルフォーカスに切り替え、カメラのメニューを閉じ、手動で 1 枚撮影して、カメラに出るエラーを確認してください</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>カメラの画質設定を手動で RAW に切り替えてください。RAW のないカメラは使用できません</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>デスクトップの設定で省電力機能とスクリーンセーバーをオフにしてから、再試行してください</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>調光した照明と蛍光灯、プロジェクターの省電力機能をオフにしてから、再試行してください</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>プロジェクターの自動輝度調整とエコモードをオフにし、暖機してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>プロジェクターの背面投写や天吊りのモードをオフにするか、反転した画像を許可してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>カメラの電源を入れ直すか、別の画素形式を選んでください</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>カメラをフルサイズの RAW に切り替えてください（sRAW、mRAW、リニア DNG は不可）</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>光路や視野にあるものを取り除いてから、再試行してください</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>校正データのマニフェストが破損しています</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>カメラの対応範囲は {}～{} です</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>再接続されたカメラの画素数が {2} × {3} ではなく {0} × {1} です</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>カメラが感度を自動で決めています（ISO オート）</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>カメラが無効な露出範囲（{}～{} 秒）を報告しています</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>カメラが RAW ファイルを出力しません</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>{} の表示内容がカメラに見えていません</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>ピントが合わず、カメラは撮影しませんでした（{}）</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>カメラとの接続が {} 秒間途切れています：{}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>カメラの接続が外れたか、電源が切れたか、スリープ状態になりました</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>カメラに設定した画素形式が失われました</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>カメラには、読み込める画素形式 {} がありません</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>カメラに写真を保存する空きがありません：メモリカードがいっぱいです</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>カメラは接続されていますが応答しません。スリープ状態かもしれません</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>どの露出を指定しても、カメラの露出は {} 秒のままです</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>カメラが応答しなくなりました（{}：{}）</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>カメラが要求を拒否しました（{}）</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>カメラが拒否しています（{}：{}）</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>カメラに白と黒の差が見えていません</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>カメラに何も見えていません</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>カメラに見えているのは {1} ではなく {0} です</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>カメラからストリームが届きません</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>カメラが送ったのは {} で、RAW ファイルではありません</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>カメラがビジー状態のままです</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>カメラに撮影を要求しましたが、撮影されませんでした</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>カメラに {} 秒の露出を指定しましたが、{} 秒のままです</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>カメラのバッテリーが切れているようです（前回の確認時は {} %）</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>カメラのカラーフィルターがベイヤー配列ではありません</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>カメラの露出時間を設定できません</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>カメラのモードダイヤルが {} になっており、カメラが露出を自動で決めます</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>カメラに共通する露出時間がありません</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>キャプチャーデバイスから画像が届きません</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>コマンドを開始できません（{}）</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>コマンドは正常に終了しましたが、{} に何も書き込みませんでした</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>コマンドは正常に終了しましたが、{1} ではなく {0} を書き込みました</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>コマンドがステータス {} で失敗しました</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>コマンドがステータス {} で失敗しました。出力：「{}」</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>コマンドが {} 秒以内に終わりませんでした</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>コマンドが {} 秒以内に終わりませんでした。出力：「{}」</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>コマンドがシグナル {} で強制終了されました</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>コマンドがシグナル {} で強制終了されました。出力：「{}」</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>エンジンが使用中のデバイスを失いました</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>グラフィックカードを使用できません</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>グラフィックカードのメモリに {} MB の空きがありません</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>グラフィックカードが一度に扱えるのは {} MB ですが、{} MB 必要です</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>グラフィックカードが使えなくなりました</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>光がちらついています：同じパターンの写真に {} % の差があります</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>室内光が明るくなりました</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>室内光が暗くなりました</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>画面のライブ映像には X サーバーが必要ですが、応答がありません</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>ログを書き込めません（{}）</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>写真が {0} × {1} 画素（{2}）で、取り決めた {3} × {4}（{5}）と異なります</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>写真が {} × {} 画素で、通知された {} × {} と異なります</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>写真が、カメラの通知したサイズより大きくなっています</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>写真が最後まで届きませんでした</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>画像を書き込めませんでした</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>プロジェクター {} の画像が反転しています</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>プロジェクターに何も映っていませんが、室内光は見えています</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>プロジェクターの光が、数枚の写真の間に {} % 変化しました</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>プロジェクターの画面は現在 {} × {} 画素ですが、校正時は {} × {} でした</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>プロジェクターの画面がスリープ状態から復帰しません</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>プロジェクターの画面の表示が何度も途切れます</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>RAW ファイルを読み込めません（{}）</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>RAW ファイルにセンサーの生の値が入っていません</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>記録を書き込めません（{}）</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>レポートを書き込めません</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>サービスを有効にできません（{}）</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>ビデオデバイスをもう一度開くことができません</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>ビデオデバイスを開けません：ほかのプログラムが使用しているかもしれません</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>ビデオデバイスの接続が外れました</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>ビデオデバイスに、設定できる露出がありません</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>ビデオデバイスから画像が届きません</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>ビデオデバイスの自動露出をオフにできません</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>ビデオデバイスのオートフォーカスをオフにできません</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>ビデオデバイスの自動ホワイトバランスをオフにできません</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>コンピュートシェーダー対応の OpenGL 4.3 がありません</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>OpenGL 4.3 とコンピュートシェーダーに対応したグラフィックカードがありません</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>ディスプレイなしでグラフィックカードを使うための libEGL または libOpenGL がありません</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>このビルドの Relucent は、一眼レフカメラとミラーレスカメラに対応していません</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>このビルドの Relucent は、GenICam カメラに対応していません</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>Relucent の校正データではありません</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>ダイヤルを M に合わせてください</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>カメラのモードダイヤルを M に合わせてください。M のないカメラは使用できません</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>レンズの覆いを外し、プロジェクターの電源が入っていることを確認してから、再試行してください</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>手動露出のあるカメラを使ってください</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>プロジェクターをスリープから復帰させ、プロジェクターと画面の省電力機能をオフにしてから、再試行してください</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>ISO {} を指定しましたが、カメラが対応していません</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>カメラ {1} の視野の {0} % が以前と違って見えます</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>撮影に {} 回失敗しました：{}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{}。再試行するときは校正を再開してください。{}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>この機種のカメラが {} 台接続されています</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} をオフにできません</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}。その後、続行してください：これまでの写真はすべて保持されています</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>{} × {} 画素を指定しましたが、カメラの出力は {} × {} です</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>{} × {} 画素を指定しましたが、カメラの画素数は {} × {} です</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>{} × {} 画素を指定しましたが、ビデオデバイスの出力は {} × {} です</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}：{}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}。{}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{}（{}）</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}。</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

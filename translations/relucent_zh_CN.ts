@@ -76,6 +76,841 @@
     </message>
 </context>
 <context>
+    <name>Core</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>相机或投影机移动过：相机 {} 的画面偏移了 {}、{} 像素，旋转了 {} 度</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>校准数据“{}”的一个文件为 {} 字节，应为 {} 字节</translation>
+    </message>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>校准数据“{}”缺少一个文件</translation>
+    </message>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>指定的增益为 {}</translation>
+    </message>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>新图像在 {} 帧后仍未完全显示</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>无法移动照片（{}）</translation>
+    </message>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>无法删除照片（{}）</translation>
+    </message>
+    <message>
+        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
+        <translation>一张 {0} × {1} 像素（{2}）的照片只收到 {3} 字节，应为 {4} 字节</translation>
+    </message>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>已要求拍摄，但没有收到照片</translation>
+    </message>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>请将相机对准投影，取下镜头盖，并加长曝光</translation>
+    </message>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>另一个程序正在占用相机</translation>
+    </message>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>另一个程序正在占用相机，通常是桌面将其当作 U 盘挂载了</translation>
+    </message>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>请指定它支持的尺寸：可用 v4l2-ctl --list-formats-ext 列出</translation>
+    </message>
+    <message>
+        <source>ask for that or less</source>
+        <translation>请指定不大于此的尺寸</translation>
+    </message>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>请指定相机所给出的尺寸</translation>
+    </message>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>无法创建临时文件夹（{}）</translation>
+    </message>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>无法创建文件夹（{}）</translation>
+    </message>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>无法查看文件夹内容（{}）</translation>
+    </message>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>无法打开（{}）</translation>
+    </message>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>无法打开文件夹（{}）</translation>
+    </message>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>无法读取（{}）</translation>
+    </message>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>无法删除文件（{}）</translation>
+    </message>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>无法写入（{}）</translation>
+    </message>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>请更换或清空存储卡</translation>
+    </message>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>请充电或更换电池（最好使用电源适配器），然后重新打开相机</translation>
+    </message>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>请检查线缆和电源</translation>
+    </message>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>请检查线缆，并关闭其节能功能</translation>
+    </message>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>请检查线缆、电源和地址；`relucent-cli devices` 可列出现有设备</translation>
+    </message>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>请检查线缆，打开相机，并关闭其自动关机功能</translation>
+    </message>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>请确认相机画面稳定、曝光够短，并关闭投影机的运动平滑</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>请确认该文件夹可写入，然后继续</translation>
+    </message>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>请确认该文件夹可写入，然后重试</translation>
+    </message>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>请确认投影机已打开并显示该输出，将相机对准它，取下镜头盖；或选择其他屏幕</translation>
+    </message>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>请确认所选屏幕正确、图像没有被遮挡，然后重试</translation>
+    </message>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>请确认您有读取权限，或换一个名称</translation>
+    </message>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>请检查相机的线缆和网卡，并确认没有其他程序在使用相机</translation>
+    </message>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>请检查设备，或给该命令更多时间：{}</translation>
+    </message>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>请检查磁盘及其线缆</translation>
+    </message>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>请检查该文件夹的权限</translation>
+    </message>
+    <message>
+        <source>check the path</source>
+        <translation>请检查路径</translation>
+    </message>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>请检查路径，并确认您有读取权限</translation>
+    </message>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>请检查路径和磁盘</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>请选择您可写入的文件夹，或申请权限</translation>
+    </message>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>请选择您可写入且有可用空间的文件夹</translation>
+    </message>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>请选择其他校准数据，或从测量处重新复制</translation>
+    </message>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>请用 --log 指定其他文件夹</translation>
+    </message>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>请选择 {}，或将相机对准 {}</translation>
+    </message>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>请关闭相机的菜单和回放，并退出实时取景</translation>
+    </message>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>请关闭相机的菜单，再关机并重新开机</translation>
+    </message>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>请关闭其他程序，然后重试</translation>
+    </message>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>请连接开始测量时所用的相机</translation>
+    </message>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>请重新复制或重新拍摄；相机若比此 LibRaw 更新，则需使用 DNG 文件</translation>
+    </message>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>请将文件线性转换为 16 位 TIFF，或换用其他相机</translation>
+    </message>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>光传输测量之前的照片都是安全的</translation>
+    </message>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>上一次检查之前的照片都是安全的</translation>
+    </message>
+    <message>
+        <source>free some space</source>
+        <translation>请腾出一些空间</translation>
+    </message>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>请在该处腾出一些空间或检查磁盘，然后重试</translation>
+    </message>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>请在该处腾出一些空间或选择其他磁盘，然后重试</translation>
+    </message>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>请在该处腾出一些空间，或将 TMPDIR 设为您可写入的文件夹</translation>
+    </message>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>请腾出一些空间，或记录到别处</translation>
+    </message>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>请安装 Aravis（libaravis-dev）并重新编译，或使用其他类型的相机</translation>
+    </message>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>请安装 libgphoto2 和 LibRaw（libgphoto2-dev、libraw-dev）并重新编译，或使用命令</translation>
+    </message>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>请安装显卡驱动程序，或改用 CPU 处理</translation>
+    </message>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>无法删除（{}）</translation>
+    </message>
+    <message>
+        <source>it has {}</source>
+        <translation>可选值为 {}</translation>
+    </message>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>相机的格式为 {}；可读取的是 8 至 16 位的非打包 Mono、Bayer 和 RGB</translation>
+    </message>
+    <message>
+        <source>it is empty</source>
+        <translation>文件是空的</translation>
+    </message>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>请让命令将照片写入 {output}：{}</translation>
+    </message>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>请让命令写入该尺寸，或按相机给出的尺寸重新开始</translation>
+    </message>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>请用 `gio mount -s gphoto2` 让桌面释放相机（或在文件管理器中弹出），并关闭照片程序</translation>
+    </message>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>请改用 CPU 处理</translation>
+    </message>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>请登录到 X 桌面（登录时选择“Xorg”），或播放文件</translation>
+    </message>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>请用端口指定其中一台：gphoto2:{} 或 gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>请指定该相机：gphoto2:{}</translation>
+    </message>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>GenICam 相机“{}”没有响应</translation>
+    </message>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>没有接上此名称的相机，接上的是 {}</translation>
+    </message>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>{} 秒内没有收到照片</translation>
+    </message>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>没有接上这样的视频设备</translation>
+    </message>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>相机的像素格式均无法读取</translation>
+    </message>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>文件有部分缺失</translation>
+    </message>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>照片的一部分在传输中丢失</translation>
+    </message>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>请接上设备，关闭使用它的其他程序，然后重试</translation>
+    </message>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>请半按快门按钮，或关机并重新开机，并关闭其自动关机功能</translation>
+    </message>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>投影机 {} 没有显示发送给它的图像</translation>
+    </message>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>请将其复位到相差不超过半个像素，然后重试</translation>
+    </message>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>请手动删除，然后重试</translation>
+    </message>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>请在终端中运行以查明原因：{}</translation>
+    </message>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>请手动将相机设为 ISO 100</translation>
+    </message>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>请将其曝光模式设为 Timed（手动），或更新其固件</translation>
+    </message>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>请在桌面设置中恢复其分辨率，然后重试</translation>
+    </message>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>请将各相机的曝光时间设为相互重叠的范围</translation>
+    </message>
+    <message>
+        <source>start the show again</source>
+        <translation>请重新启动节目</translation>
+    </message>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>请将灯光恢复原状，保持门和窗帘关闭，然后重试</translation>
+    </message>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>请将其关机并重新开机，用厂商的程序载入默认设置，然后重试</translation>
+    </message>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>请用相机厂商的程序将其关闭，或换用其他相机</translation>
+    </message>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>请用 v4l2-ctl 将其关闭（--list-ctrls 可列出其控制项），或换用其他相机</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>请关闭相机的自动曝光和帧率限制</translation>
+    </message>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>请关闭相机的自动曝光；没有手动曝光的相机无法使用</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>请将镜头切换到手动对焦</translation>
+    </message>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>请将镜头切换到手动对焦，关闭相机的菜单，并手动拍一张照片，查看相机提示什么问题</translation>
+    </message>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>请手动将相机的画质切换为 RAW；没有 RAW 的相机无法使用</translation>
+    </message>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>请在桌面设置中关闭节能功能和屏幕保护程序，然后重试</translation>
+    </message>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>请关闭调光灯和荧光灯以及投影机的节能功能，然后重试</translation>
+    </message>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>请关闭投影机的自动亮度和节能模式，待其预热后重试</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>请关闭投影机的背投或吊装模式，或允许镜像图像，然后重试</translation>
+    </message>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>请将相机关机并重新开机，或选择它的其他像素格式</translation>
+    </message>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>请将相机切换为全尺寸 RAW（不要用 sRAW、mRAW 或线性 DNG）</translation>
+    </message>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>请移开光路或画面中的遮挡物，然后重试</translation>
+    </message>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>校准数据的清单文件已损坏</translation>
+    </message>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>相机支持的范围为 {} 至 {}</translation>
+    </message>
+    <message>
+        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
+        <translation>重新连接的相机为 {} × {} 像素，应为 {} × {}</translation>
+    </message>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>相机自行选择感光度（自动 ISO）</translation>
+    </message>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>相机报告的曝光范围无效（{} 至 {} 秒）</translation>
+    </message>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>相机不输出 RAW 文件</translation>
+    </message>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>相机看不到 {} 上显示的内容</translation>
+    </message>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>相机未能对焦，没有拍摄照片（{}）</translation>
+    </message>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>相机已失去连接 {} 秒：{}</translation>
+    </message>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>相机已断开、关机或进入休眠</translation>
+    </message>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>相机丢失了已设定的像素格式</translation>
+    </message>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>相机没有可读取的像素格式 {}</translation>
+    </message>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>相机没有空间存放照片：存储卡已满</translation>
+    </message>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>相机已连接但没有响应，可能处于休眠状态</translation>
+    </message>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>无论指定多长的曝光，相机都保持 {} 秒</translation>
+    </message>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>相机不再响应（{}：{}）</translation>
+    </message>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>相机拒绝了请求（{}）</translation>
+    </message>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>相机拒绝执行（{}：{}）</translation>
+    </message>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>相机看不出白与黑的差别</translation>
+    </message>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>相机什么也看不到</translation>
+    </message>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>相机看到的是 {}，而不是 {}</translation>
+    </message>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>相机没有发送数据流</translation>
+    </message>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>相机发送的是 {}，没有 RAW 文件</translation>
+    </message>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>相机一直处于忙碌状态</translation>
+    </message>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>已要求相机拍摄，但它没有拍摄</translation>
+    </message>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>要求相机曝光 {} 秒，但它保持 {} 秒</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>相机的电池似乎已耗尽（上次查询时为 {} %）</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>相机的滤色片不是拜耳滤色片</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>无法设置相机的曝光时间</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>相机的模式转盘处于 {}，此时曝光由相机自行选择</translation>
+    </message>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>各相机没有共同的曝光时间</translation>
+    </message>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>采集设备没有给出图像</translation>
+    </message>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>无法启动命令（{}）</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>命令正常结束，但没有写入任何内容，应写入 {}</translation>
+    </message>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>命令正常结束，但写入的是 {}，而不是 {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>命令失败，退出状态为 {}</translation>
+    </message>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>命令失败，退出状态为 {}，输出：“{}”</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>命令耗时超过 {} 秒</translation>
+    </message>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>命令耗时超过 {} 秒，输出：“{}”</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>命令被信号 {} 终止</translation>
+    </message>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>命令被信号 {} 终止，输出：“{}”</translation>
+    </message>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>引擎失去了它使用的设备</translation>
+    </message>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>无法使用显卡</translation>
+    </message>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>显卡没有 {} MB 的剩余显存</translation>
+    </message>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>显卡一次只能访问 {} MB，而需要 {} MB</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>显卡已失去响应</translation>
+    </message>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>光线闪烁：同一图案的照片相差 {} %</translation>
+    </message>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>环境光变亮了</translation>
+    </message>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>环境光变暗了</translation>
+    </message>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>屏幕的实时画面需要 X 服务器，但没有响应</translation>
+    </message>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>无法写入日志（{}）</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
+        <translation>照片为 {} × {} 像素（{}），与约定的 {} × {}（{}）不符</translation>
+    </message>
+    <message>
+        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
+        <translation>照片为 {} × {} 像素，与事先告知的 {} × {} 不符</translation>
+    </message>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>照片比相机事先告知的更大</translation>
+    </message>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>照片没有完成</translation>
+    </message>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>无法写入图像</translation>
+    </message>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>投影机 {} 的图像呈镜像</translation>
+    </message>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>投影机没有显示，但仍能看到环境光</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>投影机的光在几张照片之内变化了 {} %</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
+        <translation>投影机的屏幕现在为 {} × {} 像素，校准时为 {} × {}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>投影机的屏幕处于休眠状态，无法唤醒</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>投影机的屏幕一再丢失图像</translation>
+    </message>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>无法读取 RAW 文件（{}）</translation>
+    </message>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>RAW 文件中没有传感器的原始数值</translation>
+    </message>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>无法写入记录（{}）</translation>
+    </message>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>无法写入报告</translation>
+    </message>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>无法启用服务（{}）</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>无法重新打开视频设备</translation>
+    </message>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>无法打开视频设备：可能有其他程序正在使用它</translation>
+    </message>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>视频设备已断开</translation>
+    </message>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>视频设备没有可设置的曝光</translation>
+    </message>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>视频设备没有发送图像</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>无法关闭视频设备的自动曝光</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>无法关闭视频设备的自动对焦</translation>
+    </message>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>无法关闭视频设备的自动白平衡</translation>
+    </message>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>没有支持计算着色器的 OpenGL 4.3</translation>
+    </message>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>没有支持 OpenGL 4.3 和计算着色器的显卡</translation>
+    </message>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>缺少 libEGL 或 libOpenGL，没有显示器时需要用它们打开显卡</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>此构建的 Relucent 不支持单反和无反相机</translation>
+    </message>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>此构建的 Relucent 不支持 GenICam 相机</translation>
+    </message>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>这不是 Relucent 的校准数据</translation>
+    </message>
+    <message>
+        <source>turn it to M</source>
+        <translation>请将转盘转到 M</translation>
+    </message>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>请将相机的模式转盘转到 M；没有 M 的相机无法使用</translation>
+    </message>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>请移开镜头上的遮挡，确认投影机已打开，然后重试</translation>
+    </message>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>请使用有手动曝光的相机</translation>
+    </message>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>请唤醒投影机，关闭投影机和屏幕的节能功能，然后重试</translation>
+    </message>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>指定了 ISO {}，但相机没有该值</translation>
+    </message>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>相机 {1} 的画面有 {0} % 与之前不同</translation>
+    </message>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>尝试拍摄 {} 次均失败：{}</translation>
+    </message>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{}（通过继续校准来重试）；{}</translation>
+    </message>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>接上了 {} 台此型号的相机</translation>
+    </message>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>无法关闭 {}</translation>
+    </message>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}，然后继续：目前为止的照片都已保留</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
+        <translation>指定了 {} × {} 像素，但相机给出的是 {} × {}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
+        <translation>指定了 {} × {} 像素，但相机有 {} × {}</translation>
+    </message>
+    <message>
+        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
+        <translation>指定了 {} × {} 像素，但视频设备给出的是 {} × {}</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}：{}</translation>
+    </message>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}。{}</translation>
+    </message>
+    <message>
+        <source>{} ({})</source>
+        <translation>{}（{}）</translation>
+    </message>
+    <message>
+        <source>{}.</source>
+        <translation>{}。</translation>
+    </message>
+</context>
+<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>

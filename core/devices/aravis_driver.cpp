@@ -150,6 +150,20 @@ class AravisDriver : public CameraDriver {
     for (int i = 0; i < buffers; ++i) arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
     arv_camera_start_acquisition(camera_.get(), failure);
     failure.check("start");
+    if (ARV_IS_GV_STREAM(stream_.get()) && setup_.triggered) takeOneForTheSocket();
+  }
+
+  /// The library gives a stream its room only after the first packet, too late for what the network has of the
+  /// rest of that photograph: as each repetition begins a stream of its own, all of them would lose parts.
+  void takeOneForTheSocket() {
+    constexpr microseconds patience(1'000'000);
+    AravisFailure failure(name());
+    double shortest = 0.0, longest = 0.0;
+    arv_camera_get_exposure_time_bounds(camera_.get(), &shortest, &longest, failure);
+    failure.check("exposure time");
+    setExposure(1e-6 * shortest);
+    trigger();
+    next(patience);
   }
 
   void stop() noexcept {

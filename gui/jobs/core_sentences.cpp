@@ -68,7 +68,6 @@ QString coreSentence(const std::string& english) {
 
 QString fullSentence(const std::string& english) {
   QString line = QString::fromStdString(english).trimmed();
-
   if (line.endsWith('.')) line.chop(1);
   if (line.isEmpty()) return line;
   auto known = translated(line);

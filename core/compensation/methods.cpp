@@ -179,7 +179,7 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
                                       : byInverse(apply(inverse_), target, free, c, progress);
   if (method == Method::refined) {
     for (float step : settings_.steps) {
-      progress.checkpoint();
+      progress.report(result.iterations / (settings_.steps.size() + 1.0));
       Stack g = gradient(problem, result.projector);
       parallelFor(0, g.size(), 4096, [&](std::size_t j) { result.projector[j] -= step * c[j] * g[j]; });
       result.clipped = finish(result.projector, free);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "calibration/calibration_folder.h"
 #include "pipeline/stages.h"
 
@@ -33,7 +34,8 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
   Method method = methodFromName(chosen.content.method).value_or(Method::refined);
-  if (method != Method::refined)
+  // Brightness that follows the content is the engine's.
+  if (!adaptiveRange || method != Method::refined)
     still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
   words_.resize(calibration_.venue.transport.projectors().count());
 }
@@ -60,10 +62,14 @@ int EngineRenderer::stepsFor(const RenderRequest& request) {
   return budget_->steps();
 }
 
-RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request) {
-  if (still_ && request.thorough && request.compensated)
-    if (std::optional<RenderedFrame> solved = still_->solve(content)) return *solved;
-  return framed(content, request);
+RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request,
+                                     const Outdated& outdated) {
+  if (!still_ || !request.thorough || !request.compensated) return framed(content, request);
+  Stopwatch watch;
+  if (const Compensation* solved = still_->solve(content, outdated)) return encoded(*solved, watch.seconds());
+  RenderRequest inHaste = request;
+  inHaste.thorough = false;
+  return framed(content, inHaste);
 }
 
 void EngineRenderer::interrupt() {
@@ -109,16 +115,34 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   rendered.steps = report.steps;
   rendered.settled = settled;
   rendered.seconds = report.seconds.count();
+  rendered.drives = drives();
+  return rendered;
+}
+
+RenderedFrame EngineRenderer::encoded(const Compensation& solved, double seconds) {
   const Rasters& projectors = calibration_.venue.transport.projectors();
+  for (std::size_t i = 0; i < projectors.devices(); ++i) {
+    Size drive = projectors.size(i);
+    for (int y = 0; y < drive.height; ++y) {
+      std::size_t first = projectors.offset(i) + indexOf(drive, {0, y});
+      venue_->encoders[i].encodeLine(&solved.projector[3 * first], drive.width, y, &words_[first]);
+    }
+  }
+  return {drives(), solved.clipped, solved.iterations, seconds};
+}
+
+std::vector<QImage> EngineRenderer::drives() const {
+  const Rasters& projectors = calibration_.venue.transport.projectors();
+  std::vector<QImage> images;
   for (std::size_t i = 0; i < projectors.devices(); ++i) {
     Size drive = projectors.size(i);
     QImage image(drive.width, drive.height, QImage::Format_RGBX8888);
     for (int y = 0; y < drive.height; ++y)
       std::memcpy(image.scanLine(y), &words_[projectors.offset(i) + indexOf(drive, {0, y})],
                   4 * static_cast<std::size_t>(drive.width));
-    rendered.drives.push_back(std::move(image));
+    images.push_back(std::move(image));
   }
-  return rendered;
+  return images;
 }
 
 }  // namespace relucent

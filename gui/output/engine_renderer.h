@@ -33,11 +33,15 @@ class EngineRenderer : public FrameRenderer {
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }
   QString name() const override;
-  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override;
+  RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
+                       const Outdated& outdated) override;
   void interrupt() override;
 
  private:
   RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
+  RenderedFrame encoded(const Compensation& solved, double seconds);
+  /// What `words_` hold, one a projector.
+  std::vector<QImage> drives() const;
   int stepsFor(const RenderRequest& request);
 
   Canvas canvas_;
@@ -47,7 +51,7 @@ class EngineRenderer : public FrameRenderer {
   std::unique_ptr<EngineBackend> backend_;
   std::optional<AdaptiveRange> range_;
   std::chrono::steady_clock::time_point rangeAsked_{};
-  std::unique_ptr<StillSolver> still_;  // none: the engine's own steps
+  std::unique_ptr<StillSolver> still_;  // none: pictures that stand are the engine's own steps
   std::vector<std::uint32_t> words_;
   std::optional<StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // that the budget is for

@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QSize>
 #include <QString>
+#include <functional>
 #include <vector>
 
 #include "content/canvas.h"
@@ -19,6 +20,9 @@ struct RenderRequest {
 
   bool operator==(const RenderRequest&) const = default;
 };
+
+/// Asked now and then while a picture is made that stands: true once it stands no longer.
+using Outdated = std::function<bool()>;
 
 /// What all projectors show, and what came of it.
 struct RenderedFrame {
@@ -39,9 +43,11 @@ class FrameRenderer {
   virtual Canvas canvas() const = 0;
   /// What it runs on, for people.
   virtual QString name() const = 0;
+  /// What is rendered thoroughly and is `outdated` may end soon, no better than in haste.
   /// Throws: Error{device} if there is nothing left that could render.
-  virtual RenderedFrame render(const ContentPicture& content, const RenderRequest& request) = 0;
-  /// From another thread: what is being rendered thoroughly may end soon, as well as it is by then.
+  virtual RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
+                               const Outdated& outdated) = 0;
+  /// From another thread: as if what is being rendered thoroughly were outdated.
   virtual void interrupt() {}
 };
 

@@ -89,7 +89,7 @@ void Player::beginFrame() {
   ContentTime time = clock_.time();
   request_.seconds = refreshSeconds(windows_);
   working_.setFuture(startedElsewhere([renderer = renderer_, content = chart_ ? chartContent_ : content_,
-                                       request = request_, time, last = last_]() -> Frame {
+                                       request = request_, clock = clock_, time, last = last_]() -> Frame {
     ContentPicture picture = content->at(time);
     if (picture.image.isNull()) return {};
     bool same = picture.number == last.content && request.compensated == last.request.compensated &&
@@ -98,7 +98,8 @@ void Player::beginFrame() {
     if (rests && (last.request.thorough || time - last.since < standsStill)) return last;
     RenderRequest wanted = request;
     wanted.thorough = rests;
-    return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted)};
+    Outdated outdated = [&] { return content->at(clock.time()).number != picture.number; };
+    return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted, outdated)};
   }));
 }
 
@@ -173,6 +174,7 @@ void Player::setBlack(bool black) {
 
 void Player::setCompensated(bool compensated) {
   request_.compensated = compensated;
+  renderer_->interrupt();
 }
 
 void Player::setOverlay(bool shown) {
@@ -182,11 +184,13 @@ void Player::setOverlay(bool shown) {
 
 void Player::setContent(std::shared_ptr<ContentSource> content) {
   content_ = std::move(content);
+  renderer_->interrupt();
 }
 
 void Player::setChart(std::optional<TestChart> chart) {
   chart_ = chart;
   chartContent_ = chart ? std::make_shared<TestChartContent>(*chart, renderer_->canvas()) : nullptr;
+  renderer_->interrupt();
 }
 
 void Player::nextChart() {

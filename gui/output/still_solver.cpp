@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/still_solver.h"
 
-#include <cmath>
-
-#include "base/stopwatch.h"
 #include "image/color.h"
-#include "pipeline/projection.h"
 
 namespace relucent {
 namespace {
@@ -34,23 +30,17 @@ Image linearOf(const QImage& picture) {
   return srgbDecoded(linear);
 }
 
-QImage pixelsOf(const Image& encoded) {
-  QImage image(encoded.width(), encoded.height(), QImage::Format_RGBX8888);
-  for (int y = 0; y < encoded.height(); ++y) {
-    uchar* line = image.scanLine(y);
-    for (int x = 0; x < encoded.width(); ++x) {
-      for (int c = 0; c < 3; ++c)
-        line[4 * x + c] =
-            static_cast<uchar>(std::lround(255.0f * std::clamp(encoded.at(x, y, c), 0.0f, 1.0f)));
-      line[4 * x + 3] = 255;
-    }
-  }
-  return image;
-}
-
-class Quiet : public ProgressSink {
+/// Stops what is outdated. As progress is reported, so that work is looked at between its steps.
+class Watch : public ProgressSink {
  public:
-  void progressed(double, std::string_view) override {}
+  Watch(const Outdated& outdated, StopRequest& stop) : outdated_(outdated), stop_(stop) {}
+  void progressed(double, std::string_view) override {
+    if (outdated_ && outdated_()) stop_.ask(StopRequest::Kind::cancel);
+  }
+
+ private:
+  const Outdated& outdated_;
+  StopRequest& stop_;
 };
 
 }  // namespace
@@ -62,31 +52,22 @@ StillSolver::StillSolver(const MeasuredCalibration& calibration, const TargetSet
       method_(method),
       compensator_(calibration.venue, calibration.inverse, with(clustering)) {}
 
-std::optional<RenderedFrame> StillSolver::solve(const ContentPicture& content) {
-  if (content.number == number_ && !last_.drives.empty()) return last_;
+const Compensation* StillSolver::solve(const ContentPicture& content, const Outdated& outdated) {
+  if (content.number == number_ && !last_.projector.empty()) return &last_;
   auto stop = std::make_shared<StopRequest>();
   {
     std::scoped_lock lock(guard_);
     stop_ = stop;
   }
   try {
-    Stopwatch watch;
-    Quiet quiet;
-    Progress progress(quiet, *stop);
+    Watch watch(outdated, *stop);
+    Progress progress(watch, *stop);
     Target target = fitTarget(linearOf(content.image), calibration_.venue, target_);
-    Compensation compensation = compensator_.solve(method_, target, progress);
-    RenderedFrame frame;
-    const Rasters& projectors = calibration_.venue.transport.projectors();
-    for (const Image& drive : encodedDrive(compensation.projector, projectors, calibration_.linearization))
-      frame.drives.push_back(pixelsOf(drive));
-    frame.clipped = compensation.clipped;
-    frame.steps = compensation.iterations;
-    frame.seconds = watch.seconds();
+    last_ = compensator_.solve(method_, target, progress);
     number_ = content.number;
-    last_ = frame;
-    return frame;
+    return &last_;
   } catch (const Cancelled&) {
-    return std::nullopt;
+    return nullptr;
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <mutex>
-#include <optional>
 
 #include "compensation/methods.h"
 #include "output/frame_renderer.h"
@@ -10,16 +10,17 @@
 
 namespace relucent {
 
-/// Pictures that stand, by any method and not only by the one that is quick enough for films: the converged
-/// solution, once for each picture.
+/// Pictures that stand, by any method and all of T: what is quick enough for films keeps one colour mixing
+/// for each camera pixel, see PackedTransport. Each picture is solved once.
 class StillSolver {
  public:
   /// `calibration` outlives it.
   StillSolver(const MeasuredCalibration& calibration, const TargetSettings& target,
               const ClusteringSettings& clustering, Method method);
 
-  /// None if somebody interrupted it. Throws: as Compensator::solve().
-  std::optional<RenderedFrame> solve(const ContentPicture& content);
+  /// Null if it is outdated or somebody interrupted it; valid until the next call.
+  /// Throws: as Compensator::solve().
+  const Compensation* solve(const ContentPicture& content, const Outdated& outdated = {});
   /// From another thread: the picture under way is given up.
   void interrupt();
 
@@ -29,7 +30,7 @@ class StillSolver {
   Method method_;
   Compensator compensator_;
   std::uint64_t number_ = 0;  // of the picture that was solved last
-  RenderedFrame last_;
+  Compensation last_;
   std::mutex guard_;
   std::shared_ptr<StopRequest> stop_;  // of the picture under way
 };

@@ -35,8 +35,9 @@ class TappedRenderer : public FrameRenderer {
   Canvas canvas() const override { return renderer_->canvas(); }
   QString name() const override { return renderer_->name(); }
   void interrupt() override { renderer_->interrupt(); }
-  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
-    RenderedFrame frame = renderer_->render(content, request);
+  RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
+                       const Outdated& outdated) override {
+    RenderedFrame frame = renderer_->render(content, request, outdated);
     if (!frame.drives.empty()) tap_->put(frame.drives.front());
     return frame;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <thread>
 
 #include "base/error.h"
 #include "output/frame_renderer.h"
@@ -18,16 +19,23 @@ class ScriptedRenderer : public FrameRenderer {
   std::vector<QSize> projectors() const override { return {projectorSize}; }
   Canvas canvas() const override { return {projectorSize, Fit::fill}; }
   QString name() const override { return "scripted"; }
-  RenderedFrame render(const ContentPicture& content, const RenderRequest& request) override {
+  RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
+                       const Outdated& outdated) override {
     ++rendered;
     thorough = request.thorough;
+    if (endless && thorough) {
+      while (!outdated() && !interrupted) std::this_thread::yield();
+      interrupted = false;
+    }
     if (broken) throw Error(ErrorKind::device, "the graphics card is gone", "start again");
     QImage drive = content.image.copy();
     if (!request.compensated) drive.invertPixels();
     return {{drive}, 0.25, 2, 0.001, !restless};
   }
+  void interrupt() override { interrupted = true; }
   std::atomic<int> rendered{0};
-  std::atomic<bool> broken{false}, thorough{false}, restless{false};
+  std::atomic<bool> broken{false}, thorough{false}, restless{false}, interrupted{false};
+  std::atomic<bool> endless{false};  // pictures that stand, until somebody wants them no longer
 };
 
 }  // namespace relucent

@@ -4,6 +4,7 @@
 
 #include <QSignalSpy>
 #include <QtTest>
+#include <atomic>
 
 #include "content/still_image.h"
 #include "gui/output/scripted_renderer.h"
@@ -14,11 +15,13 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A grey that says what time it is: a tenth of a second a step.
+/// A grey that says what time it is: a tenth of a second a step, or as long as each picture stands.
 class Film : public ContentSource {
  public:
+  explicit Film(ContentTime each = 100ms) : each_(each) {}
   ContentPicture at(ContentTime time) override {
-    auto step = static_cast<std::uint64_t>(time / 100ms);
+    auto step = static_cast<std::uint64_t>(time / each_);
+    time -= time % each_;
     QImage image(projectorSize, QImage::Format_RGBX8888);
     image.fill(greyAt(time));
     return {image, step + 1};
@@ -28,13 +31,26 @@ class Film : public ContentSource {
     int grey = static_cast<int>(time / 100ms) % 256;
     return {grey, grey, grey};
   }
+
+ private:
+  ContentTime each_;
 };
 
-/// A clock that the test turns.
+/// A clock that the test turns. Renderers look at it from their thread.
 struct Hand {
-  std::chrono::steady_clock::time_point now{};
+  class Time {
+   public:
+    void operator=(std::chrono::steady_clock::time_point time) { since_ = time.time_since_epoch(); }
+    void operator+=(std::chrono::steady_clock::duration more) { since_ = since_.load() + more; }
+    operator std::chrono::steady_clock::time_point() const {
+      return std::chrono::steady_clock::time_point(since_.load());
+    }
+
+   private:
+    std::atomic<std::chrono::steady_clock::duration> since_{};
+  } now;
   ContentClock clock() {
-    return ContentClock([this] { return now; });
+    return ContentClock([this]() -> std::chrono::steady_clock::time_point { return now; });
   }
 };
 
@@ -54,7 +70,7 @@ class TestPlayer : public QObject {
   std::unique_ptr<Player> playerOf(std::shared_ptr<ContentSource> content) {
     auto renderer = std::make_unique<ScriptedRenderer>();
     renderer_ = renderer.get();
-    hand_ = {};
+    hand_.now = std::chrono::steady_clock::time_point();
     return std::make_unique<Player>(std::move(renderer), std::move(content),
                                     std::vector<ProjectorWindow*>{window_.get()}, hand_.clock());
   }
@@ -114,6 +130,34 @@ class TestPlayer : public QObject {
       hand_.now = std::chrono::steady_clock::time_point(time);
       QTRY_COMPARE(seen(), Film::greyAt(time).rgb());
     }
+  }
+
+  /// However long it takes to render one that stands, the next picture and the operator do not wait.
+  void aPictureThatStandsGivesWay() {
+    auto player = playerOf(std::make_shared<Film>(10s));
+    renderer_->endless = true;
+    player->start();
+    QTRY_COMPARE(seen(), Film::greyAt(0s).rgb());
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    hand_.now += 10s;
+    QTRY_COMPARE(seen(), Film::greyAt(10s).rgb());
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    player->setChart(allTestCharts.front());
+    QImage chart = drawn(allTestCharts.front(), projectorSize).convertToFormat(QImage::Format_RGB32);
+    QTRY_VERIFY(seenOn("DUMMY1") == chart);
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    player->setContent(still());
+    player->setChart(std::nullopt);
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    QImage plain = noise(projectorSize, 3);
+    plain.invertPixels();
+    QTest::keyClick(window_.get(), Qt::Key_C);
+    QTRY_VERIFY(seenOn("DUMMY1") == plain);
   }
 
   /// However often it is computed, in the seconds after it came too.

@@ -127,6 +127,22 @@ QStringList sentencesIn(const QString& source) {
   return sentences;
 }
 
+/// What a source has for people of cameras: remarks, and why this build does not know their kind.
+QStringList remarksIn(const QString& source) {
+  static const QRegularExpression call("\\bremarks\\.(?:push_back|emplace_back)\\(|\\bwish\\((?=\")");
+  static const QRegularExpression lacking("\"[^\"]*: this build lacks [^?]*?(?=\\})");
+  QStringList sentences;
+  for (const QRegularExpressionMatch& match : call.globalMatch(source)) {
+    qsizetype begin = match.capturedEnd();
+    QString arguments = source.mid(begin, closedAt(source, begin) - begin);
+    // A wish names settings before it.
+    sentences << sentencesOf(match.captured() == "wish(" ? argumentsOf(arguments).last() : arguments);
+  }
+  for (const QRegularExpressionMatch& match : lacking.globalMatch(source))
+    sentences << sentencesOf(match.captured());
+  return sentences;
+}
+
 /// The table's sentences that a source fills numbers into with a format of their own, "{:.1f}", and where.
 QList<std::pair<QString, QList<bool>>> formattedIn(QString source) {
   static const QRegularExpression seam("\"\\s+\"");
@@ -200,6 +216,20 @@ class TestCoreSentences : public QObject {
     qInfo("%d sentences", found);
   }
 
+  void everyRemarkOnACameraIsInTheTable() {
+    int found = 0;
+    for (QDirIterator files(RELUCENT_SOURCE "/core/devices", {"*.cpp"}, QDir::Files); files.hasNext();) {
+      QFile file(files.next());
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      for (const QString& remark : remarksIn(QString::fromUtf8(file.readAll()))) {
+        ++found;
+        QVERIFY2(isKnown(remark), qPrintable(QString("'%1' of %2 is not in gui/jobs/core_sentence_list.cpp")
+                                                 .arg(remark, file.fileName())));
+      }
+    }
+    QVERIFY2(found >= 17, qPrintable(QString::number(found)));
+  }
+
   /// What core rounds is measured, not a name.
   void everyRoundedNumberIsAQuantity() {
     int found = 0;
@@ -242,6 +272,8 @@ class TestCoreSentences : public QObject {
     row("range", "the camera claims exposures of 2.5e-05 to 1.25 s",
         "the camera claims exposures of 2,5 × 10⁻⁵ to 1,25_s");
     row("gain", "the camera can do 0 to 23.5", "the camera can do 0 to 23,5");
+    row("remark", "was asked for a gain of 12.5 and keeps to 11.75",
+        "was asked for a gain of 12,5 and keeps to 11,8");
     row("memory", "the graphics card reaches 1024 MB at once where 2500 MB are needed",
         "the graphics card reaches 1_024_MB at once where 2_500_MB are needed");
     row("in a sentence within", "3 attempts at a photograph failed: no photograph came within 2.5 s",
@@ -258,6 +290,8 @@ class TestCoreSentences : public QObject {
         "/tmp/1.5: cannot write (No space left on device 2.5)");
     row("sensitivity", "ISO 12800 is wanted and the camera does not have it",
         "ISO 12800 is wanted and the camera does not have it");
+    row("sensitivity that stays", "was asked for ISO 12800 and keeps to ISO 6400",
+        "was asked for ISO 12800 and keeps to ISO 6400");
     row("status", "the command failed with status 1234", "the command failed with status 1234");
     row("code", "the camera refuses (1234: 5.5)", "the camera refuses (1234: 5.5)");
     row("script", "run it in a terminal to find out why: 1.5", "run it in a terminal to find out why: 1.5");

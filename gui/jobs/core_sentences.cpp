@@ -4,6 +4,8 @@
 #include <QCoreApplication>
 #include <optional>
 
+#include "jobs/local_digits.h"
+#include "jobs/quantities.h"
 #include "jobs/sentence_table.h"
 
 namespace relucent {
@@ -23,8 +25,12 @@ const SentenceTable& table() {
 
 QString filled(const SentenceTable::Match& known) {
   QStringList parts = known.parts;
-  for (QString& part : parts) part = translated(part).value_or(part);
-  return filledIn(QCoreApplication::translate("Core", known.sentence), parts);
+  const QList<bool> quantities = quantitiesIn(known.sentence);
+  for (qsizetype i = 0; i < parts.size(); ++i) {
+    std::optional<QString> inWords = quantities[i] ? localDigits(parts[i]) : translated(parts[i]);
+    parts[i] = inWords.value_or(parts[i]);
+  }
+  return filledIn(withNarrowUnits(QCoreApplication::translate("Core", known.sentence)), parts);
 }
 
 /// A sentence, or one after the name of what it is about. No deeper: whole scripts may be quoted in a text,

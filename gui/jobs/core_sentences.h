@@ -7,9 +7,10 @@
 
 namespace relucent {
 
-/// What core says of a failure or a finding, in the user's language, and what it filled in as far as that is
-/// core's too. Sentences that core joins ("what; advice", "device: what", "what (advice)") are known by their
-/// parts. What the table does not know is returned as it is.
+/// What core says of a failure, a finding or a camera, in the user's language, and what it filled in as far
+/// as that is core's too; quantities in it are the locale's. Sentences that core joins ("what; advice",
+/// "device: what", "what (advice)") are known by their parts. What the table does not know is returned as it
+/// is.
 QString coreSentence(const std::string& english);
 
 /// The same from capital letter to full stop.

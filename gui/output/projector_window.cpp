@@ -3,27 +3,34 @@
 
 #include <QGuiApplication>
 #include <QKeyEvent>
-#include <QOpenGLContext>
-#include <QOpenGLFunctions>
 #include <QScreen>
+#include <chrono>
 #include <utility>
 
 namespace relucent {
+namespace {
+
+/// Between two pictures of a display.
+std::chrono::milliseconds refreshOf(const QScreen* screen) {
+  const double rate = screen->refreshRate() > 1.0 ? screen->refreshRate() : 60.0;
+  return std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(1.0 / rate));
+}
+
+}  // namespace
 
 ProjectorWindow::ProjectorWindow(ScreenIdentity display, QWindow* parent)
-    : QOpenGLWindow(NoPartialUpdate, parent), display_(std::move(display)) {
+    : QWindow(parent), display_(std::move(display)), surface_(surfaceFor(*this)) {
   setFlags(Qt::Window | Qt::FramelessWindowHint | Qt::WindowStaysOnTopHint);
   setCursor(Qt::BlankCursor);
   setTitle(display_.connector);
+  refreshing_.setTimerType(Qt::PreciseTimer);
+  refreshing_.setSingleShot(true);
+  connect(&refreshing_, &QTimer::timeout, this, &ProjectorWindow::drawn);
   connect(qGuiApp, &QGuiApplication::screenRemoved, this, &ProjectorWindow::screenGone);
   connect(qGuiApp, &QGuiApplication::screenAdded, this, &ProjectorWindow::screenCame);
 }
 
-ProjectorWindow::~ProjectorWindow() {
-  makeCurrent();
-  forgetGraphics();
-  doneCurrent();
-}
+ProjectorWindow::~ProjectorWindow() = default;
 
 void ProjectorWindow::shine() {
   wanted_ = true;
@@ -47,7 +54,6 @@ QSize ProjectorWindow::displaySize() const {
 
 void ProjectorWindow::present(const QImage& drive) {
   picture_ = drive;
-  fresh_ = true;
   update();
 }
 
@@ -61,7 +67,6 @@ void ProjectorWindow::goTo(QScreen* screen) {
   setScreen(screen);
   setGeometry(screen->geometry());
   showFullScreen();
-  fresh_ = true;
   update();
 }
 
@@ -86,59 +91,34 @@ void ProjectorWindow::screenCame() {
   Q_EMIT displayFound();
 }
 
-void ProjectorWindow::initializeGL() {
-  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
-    makeCurrent();
-    forgetGraphics();
-    doneCurrent();
-  });
-  blitter_ = std::make_unique<QOpenGLTextureBlitter>();
-  blitter_->create();
+void ProjectorWindow::update() {
   fresh_ = true;
+  if (isExposed()) requestUpdate();
 }
 
-void ProjectorWindow::forgetGraphics() {
-  texture_.reset();
-  if (blitter_) blitter_->destroy();
-  blitter_.reset();
+bool ProjectorWindow::event(QEvent* event) {
+  if (event->type() != QEvent::UpdateRequest) return QWindow::event(event);
+  draw();
+  return true;
 }
 
-void ProjectorWindow::upload() {
+void ProjectorWindow::exposeEvent(QExposeEvent*) {
+  draw();
+}
+
+void ProjectorWindow::draw() {
+  fresh_ = true;
+  if (!isExposed() || refreshing_.isActive()) return;
   fresh_ = false;
-  if (picture_.isNull()) {
-    texture_.reset();
-    return;
-  }
-  QImage pixels = picture_.convertToFormat(QImage::Format_RGBA8888);
-  if (texture_ == nullptr || texture_->width() != pixels.width() || texture_->height() != pixels.height()) {
-    texture_ = std::make_unique<QOpenGLTexture>(QOpenGLTexture::Target2D);
-    texture_->setFormat(QOpenGLTexture::RGBA8_UNorm);
-    texture_->setSize(pixels.width(), pixels.height());
-    texture_->setMinMagFilters(QOpenGLTexture::Nearest, QOpenGLTexture::Nearest);
-    texture_->setWrapMode(QOpenGLTexture::ClampToEdge);
-    texture_->allocateStorage(QOpenGLTexture::RGBA, QOpenGLTexture::UInt8);
-  }
-  texture_->setData(QOpenGLTexture::RGBA, QOpenGLTexture::UInt8, pixels.constBits());
+  surface_->draw(picture_);
+  if (!surface_->keepsStep()) return refreshing_.start(refreshOf(screen()));
+  Q_EMIT frameSwapped();
 }
 
-void ProjectorWindow::paintGL() {
-  QOpenGLFunctions* gl = context()->functions();
-  QSize native = (QSizeF(size()) * devicePixelRatio()).toSize();
-  gl->glViewport(0, 0, native.width(), native.height());
-  gl->glDisable(GL_BLEND);
-  gl->glDisable(GL_DITHER);
-  gl->glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-  gl->glClear(GL_COLOR_BUFFER_BIT);
-  if (fresh_) upload();
-  if (texture_ == nullptr || blitter_ == nullptr) return;
-  // Whole pixels of the display, the odd one to the right and below.
-  QRect place(QPoint((native.width() - texture_->width()) / 2, (native.height() - texture_->height()) / 2),
-              QSize(texture_->width(), texture_->height()));
-  blitter_->bind();
-  blitter_->blit(texture_->textureId(),
-                 QOpenGLTextureBlitter::targetTransform(QRectF(place), QRect(QPoint(), native)),
-                 QOpenGLTextureBlitter::OriginTopLeft);
-  blitter_->release();
+/// The display has shown all of what was drawn last.
+void ProjectorWindow::drawn() {
+  if (fresh_) return draw();
+  Q_EMIT frameSwapped();
 }
 
 void ProjectorWindow::keyPressEvent(QKeyEvent* event) {

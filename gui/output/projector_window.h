@@ -2,19 +2,20 @@
 #pragma once
 
 #include <QImage>
-#include <QOpenGLTexture>
-#include <QOpenGLTextureBlitter>
-#include <QOpenGLWindow>
+#include <QTimer>
+#include <QWindow>
 #include <memory>
 
 #include "output/screen_identity.h"
+#include "output/window_surface.h"
 
 namespace relucent {
 
 /// What one projector shows: full screen on its display, pixel for pixel, black until it is given a picture.
 /// When its display goes, the window hides, as the desktop would else move it to the operator's screen; when
-/// the display comes back it shines again.
-class ProjectorWindow : public QOpenGLWindow {
+/// the display comes back it shines again. Drawn by OpenGL in step with the display; without it where there
+/// is none, and then no more often than the display shows pictures.
+class ProjectorWindow : public QWindow {
   Q_OBJECT
 
  public:
@@ -22,6 +23,8 @@ class ProjectorWindow : public QOpenGLWindow {
   ~ProjectorWindow() override;
 
   const ScreenIdentity& display() const { return display_; }
+  /// What it is drawn with.
+  const WindowSurface& surface() const { return *surface_; }
   /// Goes full screen on its display; waits for it if it is not there.
   void shine();
   /// Hides, and stays hidden when the display comes back.
@@ -36,8 +39,12 @@ class ProjectorWindow : public QOpenGLWindow {
   void present(const QImage& drive);
   /// Black, until the next picture.
   void blacken();
+  /// Draws once more what stands, soon.
+  void update();
 
  Q_SIGNALS:
+  /// What was presented last is out: swapped, or so long with the display server that the display has it.
+  void frameSwapped();
   /// The display was unplugged or switched off: nothing of this window is visible anywhere.
   void displayLost();
   /// The display is back and the window on it.
@@ -48,8 +55,8 @@ class ProjectorWindow : public QOpenGLWindow {
   void keyPressed(int key, Qt::KeyboardModifiers modifiers);
 
  protected:
-  void initializeGL() override;
-  void paintGL() override;
+  bool event(QEvent* event) override;
+  void exposeEvent(QExposeEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
@@ -57,16 +64,16 @@ class ProjectorWindow : public QOpenGLWindow {
   void screenCame();
   void goTo(QScreen* screen);
   void follow();
-  void forgetGraphics();
-  void upload();
+  void draw();
+  void drawn();
 
   ScreenIdentity display_;
   bool wanted_ = false;
   QScreen* on_ = nullptr;  // where it shines; nullptr while it does not
   QImage picture_;
-  bool fresh_ = false;  // not uploaded yet
-  std::unique_ptr<QOpenGLTexture> texture_;
-  std::unique_ptr<QOpenGLTextureBlitter> blitter_;
+  bool fresh_ = false;  // not drawn yet
+  std::unique_ptr<WindowSurface> surface_;
+  QTimer refreshing_;  // of the display, where drawing does not wait for it
 };
 
 }  // namespace relucent

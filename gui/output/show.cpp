@@ -71,6 +71,8 @@ void Show::open() {
       });
       windows_.push_back(std::move(window));
     }
+    if (!windows_.empty() && !windows_.front()->surface().keepsStep())
+      log_.warn("there is no OpenGL: pictures go through memory, not in step with the displays");
   }
   content_ = std::make_shared<Playlist>(settings_.content, settings_.canvas);
   toldSkipped_ = 0;
@@ -150,8 +152,9 @@ void Show::tellHealth(std::string_view state) {
 
   QJsonArray displays;
   for (const auto& window : windows_)
-    displays.append(
-        QJsonObject{{"connector", window->display().connector}, {"shining", window->isShining()}});
+    displays.append(QJsonObject{{"connector", window->display().connector},
+                                {"shining", window->isShining()},
+                                {"drawn_by", window->surface().name()}});
   PlayerStatistics statistics = player_ ? player_->statistics() : PlayerStatistics{};
   QJsonObject health{{"state", QString::fromUtf8(state.data(), static_cast<qsizetype>(state.size()))},
                      {"updated", QDateTime::currentDateTime().toString(Qt::ISODate)},

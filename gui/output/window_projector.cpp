@@ -124,7 +124,7 @@ class WindowProjector::Stage : public QObject {
  private:
   void build() {
     window_ = std::make_unique<ProjectorWindow>(display_);
-    connect(window_.get(), &QOpenGLWindow::frameSwapped, this, [this] { swapped(); });
+    connect(window_.get(), &ProjectorWindow::frameSwapped, this, [this] { swapped(); });
     connect(window_.get(), &ProjectorWindow::displayLost, this, [this] {
       broken();
       tellWaiting(true);

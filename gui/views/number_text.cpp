@@ -3,42 +3,14 @@
 
 #include <QGuiApplication>
 #include <QLocale>
-#include <algorithm>
 #include <cmath>
+
+#include "jobs/local_digits.h"
 
 namespace relucent {
 namespace {
 
-constexpr QChar narrowSpace(0x202F), isolate(0x2068), endOfIsolate(0x2069);
-
-QString raised(int exponent) {
-  static const QString digits = QString::fromUtf8("⁰¹²³⁴⁵⁶⁷⁸⁹");
-  QString text = exponent < 0 ? QString::fromUtf8("⁻") : QString();
-  for (QChar digit : QString::number(std::abs(exponent))) text += digits[digit.digitValue()];
-  return text;
-}
-
-/// Thousands apart, in every language by the same space. A sign stands before the digits.
-QString grouped(QString number) {
-  auto isDigit = [](QChar letter) { return letter.isDigit(); };
-  auto first = std::find_if(number.cbegin(), number.cend(), isDigit);
-  auto end = std::find_if_not(first, number.cend(), isDigit);
-  qsizetype from = first - number.cbegin();
-  for (qsizetype at = end - number.cbegin() - 3; at > from; at -= 3) number.insert(at, narrowSpace);
-  return number;
-}
-
-QString digitsOf(double value, int decimals) {
-  QLocale locale;
-  locale.setNumberOptions(QLocale::OmitGroupSeparator);
-  return grouped(locale.toString(value, 'f', decimals));
-}
-
-/// Decimals that leave three significant digits.
-int decimalsFor(double value) {
-  if (value == 0.0) return 0;
-  return std::clamp(2 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 6);
-}
+constexpr QChar isolate(0x2068), endOfIsolate(0x2069);
 
 }  // namespace
 
@@ -47,21 +19,9 @@ QString isolated(const QString& text) {
   return QGuiApplication::isRightToLeft() ? isolate + text + endOfIsolate : text;
 }
 
-QString powerOfTen(int exponent) {
-  if (exponent == 0) return "1";
-  if (exponent == 1) return "10";
-  return "10" + raised(exponent);
-}
-
 QString numberText(double value) {
   if (!std::isfinite(value)) return QString::fromUtf8("–");
-  double size = std::abs(value);
-  if (size != 0.0 && (size < 1e-3 || size >= 1e6)) {
-    int exponent = static_cast<int>(std::floor(std::log10(size)));
-    return isolated(digitsOf(value / std::pow(10.0, exponent), 1) + QString::fromUtf8(" × ") +
-                    powerOfTen(exponent));
-  }
-  return decimalText(value, decimalsFor(value));
+  return isolated(digitsOf(value));
 }
 
 QString decimalText(double value, int decimals) {

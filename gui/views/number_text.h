@@ -27,7 +27,5 @@ QString sizeText(int width, int height);
 QString placeText(int x, int y);
 /// A sentence of tr(..., count), with the thousands of its count apart as countText() has them.
 QString groupedText(QString sentence, int count);
-/// "10" and a raised exponent.
-QString powerOfTen(int exponent);
 
 }  // namespace relucent

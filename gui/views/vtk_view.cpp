@@ -78,7 +78,8 @@ void VtkView::refuse() {
   if (sentence_ != nullptr) return;
   sentence_ =
       labelOf(tr("This view needs OpenGL 3.2, and this computer draws without it. Everything else works: "
-                 "pictures and maps are shown without depth."),
+                 "pictures and maps are shown without depth.") +
+                  '\n' + tr("For this view, install the graphics card's driver and start Relucent again."),
               "note", this);
   sentence_->setAlignment(Qt::AlignCenter);
   sentence_->setMargin(space::page);

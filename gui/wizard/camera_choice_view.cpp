@@ -26,7 +26,7 @@ class CameraRow : public QFrame {
     row->addSpacing(8);
     auto* texts = new QVBoxLayout;
     texts->setSpacing(2);
-    const QString name = QString::fromStdString(camera.model);
+    const QString name = coreSentence(camera.model);  // "video device", or its maker's
     texts->addWidget(labelOf(name, "strong"));
     texts->addWidget(labelOf(QString::fromStdString(camera.address), "note"));
     if (camera.usable) {

@@ -91,6 +91,7 @@ void OutputProjection::play() {
   canvas_ = made_->renderer->canvas();
   content_ = std::exchange(made_->content, nullptr);
   window_ = std::make_unique<ProjectorWindow>(screen_);
+  if (!window_->surface().keepsStep()) engine_ = tr("%1, shown without OpenGL").arg(engine_);
   player_ = std::make_unique<Player>(std::move(made_->renderer), content_,
                                      std::vector<ProjectorWindow*>{window_.get()});
   // What these lead to ends the objects that tell it: later, when they are done telling.

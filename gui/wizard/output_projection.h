@@ -57,6 +57,7 @@ class OutputProjection : public QObject {
   PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }
   /// Frame times of the last minute, milliseconds, twice a second; the newest last.
   const std::deque<double>& frameTimes() const { return frameTimes_; }
+  /// What computes it, and that its window is drawn without OpenGL if it is.
   QString engineName() const { return engine_; }
   const Canvas& canvas() const { return canvas_; }
   /// Which item plays; -1: none.

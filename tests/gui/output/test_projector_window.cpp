@@ -9,8 +9,11 @@
 
 using namespace relucent;
 
+/// With OpenGL and without: see CMakeLists.txt.
 class TestProjectorWindow : public QObject {
   Q_OBJECT
+
+  static bool hasOpenGl() { return qEnvironmentVariable("QT_XCB_GL_INTEGRATION") != "none"; }
 
  private slots:
   void cleanup() {
@@ -29,6 +32,55 @@ class TestProjectorWindow : public QObject {
       QTRY_VERIFY(seenOn("DUMMY1") == picture);
     }
     QVERIFY(seenOn("DUMMY0") == operatorsBefore);
+  }
+
+  void isDrawnWithWhatThereIs() {
+    ProjectorWindow window(projector);
+    QCOMPARE(window.surface().name(), QString(hasOpenGl() ? "OpenGL" : "memory"));
+    QCOMPARE(window.surface().keepsStep(), hasOpenGl());
+  }
+
+  void whatIsSwappedWasPresentedLast() {
+    ProjectorWindow window(projector);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    quint32 presented = 0;
+    int swaps = 0, wrong = 0;
+    connect(&window, &ProjectorWindow::frameSwapped, &window, [&] {
+      ++swaps;
+      wrong += presented > 0 && seenOn("DUMMY1") != noise({1024, 768}, presented);
+    });
+    QTimer presenting;
+    connect(&presenting, &QTimer::timeout, &window, [&] { window.present(noise({1024, 768}, ++presented)); });
+    presenting.start(7);  // now before a swap, now after it
+    QTRY_VERIFY(presented >= 30);
+    presenting.stop();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise({1024, 768}, presented));
+    int before = swaps;
+    window.update();
+    QTRY_VERIFY(swaps > before);
+    QCOMPARE(wrong, 0);
+  }
+
+  /// Without OpenGL nobody waits for the display but the window itself.
+  void isNotDrawnMoreOftenThanTheDisplayShowsIt() {
+    ProjectorWindow window(projector);
+    window.shine();
+    QTRY_VERIFY(window.isExposed());
+    if (window.surface().keepsStep()) QSKIP("the driver keeps step, where the display has any");
+    double refresh = 1e3 / std::max(1.0, window.screen()->refreshRate());
+    constexpr int wanted = 10;
+    int swaps = -1;  // the first may belong to what came before
+    qint64 taken = 0;
+    QElapsedTimer elapsed;
+    connect(&window, &ProjectorWindow::frameSwapped, &window, [&] {
+      if (++swaps == 0) elapsed.start();
+      if (swaps == wanted) taken = elapsed.elapsed();
+      window.update();
+    });
+    window.update();
+    QTRY_VERIFY(swaps >= wanted);
+    QVERIFY2(static_cast<double>(taken) >= wanted * refresh - 1.0, qPrintable(QString::number(taken)));
   }
 
   void isBlackUntilItIsGivenAPicture() {

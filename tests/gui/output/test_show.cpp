@@ -84,6 +84,19 @@ class TestShow : public QObject {
     QVERIFY(log().contains("playing 1 items on scripted") && log().contains("stopped"));
   }
 
+  /// With OpenGL and without: see CMakeLists.txt. A show that begins anew does not say it anew.
+  void whatItDrawsWithIsTold() {
+    bool hasOpenGl = qEnvironmentVariable("QT_XCB_GL_INTEGRATION") != "none";
+    broken_ = true;
+    auto show = showOf(settings({picture("a.png", 3)}));
+    show->start();
+    broken_ = false;
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QCOMPARE(made_, 2);
+    QCOMPARE(health()["displays"][0]["drawn_by"].toString(), QString(hasOpenGl ? "OpenGL" : "memory"));
+    QCOMPARE(log().count("there is no OpenGL"), hasOpenGl ? 0 : 1);
+  }
+
   void whatTheRendererSaysStandsInTheLog() {
     auto show = showOf(settings({picture("a.png", 3)}));
     warn_("the card is gone");

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QBackingStore>
+
+#include "output/window_surface.h"
+
+namespace relucent {
+
+/// Pictures in memory, handed to the display server: for computers that have no OpenGL.
+class RasterSurface : public WindowSurface {
+ public:
+  explicit RasterSurface(QWindow& window);
+
+  QString name() const override { return "memory"; }
+  bool keepsStep() const override { return false; }
+  void draw(const QImage& picture) override;
+
+ private:
+  QWindow& window_;
+  QBackingStore store_;
+};
+
+}  // namespace relucent

@@ -919,6 +919,74 @@
         <source>{}.</source>
         <translation>{}.</translation>
     </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>تعلن تعريضًا يبدأ من {} ث لكنها تلتزم {} ث</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>تعلن تعريضًا يصل إلى {} ث لكنها تلتزم {} ث</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>تعطي 8 بتات: تبقى المناطق المعتمة غير مؤكدة</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>لا تذكر متى التُقطت الصور: يُهمَل بعضها قبل كل صورة</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>تضبط البؤرة تلقائيًا: حوّل العدسة إلى الضبط اليدوي</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>ليس لها إطلاق برمجي: قد تنتظر كل صورة تعريضًا إضافيًا</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>بقي في بطاريتها {} %: يحتاج القياس إلى بطارية ممتلئة أو محوّل كهرباء</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>قد تُطلق وميضها: أغلقه</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>قد تلتقط صورة معتمة بعد التعريض الطويل، ما يضاعف زمنه</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>قد تلتقط عدة صور دفعة واحدة: حوّلها إلى اللقطة المفردة</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>لا ترى الألوان: يمكن تعويض السطوع دون الألوان</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>تنطفئ تلقائيًا بعد مدة: عطّل ذلك</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>جهاز فيديو</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>طُلب منها ISO {} وبقيت على ISO {}</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>طُلب منها كسب {} وبقيت على {}</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>كاميرات DSLR وعديمة المرآة: ينقص هذا البناء libgphoto2 أو LibRaw؛ ثبّت libgphoto2-dev وlibraw-dev وأعد البناء</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>كاميرات GigE Vision وUSB3 Vision: ينقص هذا البناء Aravis؛ ثبّت libaravis-dev وأعد البناء</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -3105,6 +3173,10 @@ projector %2</source>
         <source>Relucent is projecting</source>
         <translation>يعرض Relucent الآن</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1، يُعرض من دون OpenGL</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4179,6 +4251,10 @@ projector %2</source>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>يحتاج هذا المشهد إلى OpenGL 3.2، وهذا الحاسوب يرسم من دونه. كل ما عداه يعمل: تُعرض الصور والخرائط بلا عمق.</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>لهذا العرض، ثبّت برنامج تشغيل بطاقة الرسوم وأعد تشغيل Relucent.</translation>
     </message>
 </context>
 </TS>

@@ -911,6 +911,74 @@
         <source>{}.</source>
         <translation>{}.</translation>
     </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>gibt Belichtungen bis {} s an, bleibt aber bei {} s</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>liefert 8 Bit: dunkle Stellen bleiben ungenau</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>sagt nicht, wann Bilder aufgenommen wurden: Vor jeder Aufnahme werden einige verworfen</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>stellt selbst scharf: Stellen Sie das Objektiv auf manuellen Fokus</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>hat keinen Software-Auslöser: Jede Aufnahme wartet eventuell eine Belichtung länger</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>hat noch {} % Akkuladung: Eine Messung braucht einen vollen Akku oder ein Netzteil</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>löst eventuell den Blitz aus: Klappen Sie ihn ein</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>nimmt nach langen Belichtungen eventuell ein Dunkelbild auf, was deren Zeit verdoppelt</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>nimmt eventuell mehrere Bilder auf einmal auf: Stellen Sie sie auf Einzelbild</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>sieht keine Farben: Helligkeit kann ausgeglichen werden, Farben nicht</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>schaltet sich nach einer Weile selbst ab: Stellen Sie das ab</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>Videogerät</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>soll ISO {} verwenden und bleibt bei ISO {}</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>soll eine Verstärkung von {} verwenden und bleibt bei {}</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Spiegelreflex- und spiegellose Kameras: Diesem Programm fehlt libgphoto2 oder LibRaw; installieren Sie libgphoto2-dev und libraw-dev und bauen Sie es neu</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>GigE-Vision- und USB3-Vision-Kameras: Diesem Programm fehlt Aravis; installieren Sie libaravis-dev und bauen Sie es neu</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -3025,6 +3093,10 @@ Projektor %2</translation>
         <source>Relucent is projecting</source>
         <translation>Relucent projiziert</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1, ohne OpenGL gezeigt</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4087,6 +4159,10 @@ Projektor %2</translation>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>Diese Ansicht braucht OpenGL 3.2, und dieser Computer zeichnet ohne. Alles andere funktioniert: Bilder und Karten werden ohne Tiefe gezeigt.</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>Installieren Sie für diese Ansicht den Treiber der Grafikkarte und starten Sie Relucent neu.</translation>
     </message>
 </context>
 </TS>

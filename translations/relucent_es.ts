@@ -911,6 +911,74 @@
         <source>{}.</source>
         <translation>{}.</translation>
     </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>declara exposiciones de hasta {} s pero se queda en {} s</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>entrega 8 bits: las zonas oscuras quedan inciertas</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>no indica cuándo se captaron las imágenes: se descartan algunas antes de cada fotografía</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>enfoca por sí sola: ponga el objetivo en enfoque manual</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>no tiene disparo por software: cada fotografía puede esperar una exposición más</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>tiene un {} % de batería: una medición necesita la batería llena o un adaptador de red</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>puede disparar el flash: ciérrelo</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>puede tomar una imagen oscura tras exposiciones largas, lo que duplica su tiempo</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>puede tomar varias fotografías a la vez: póngala en disparo único</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>no ve colores: se puede compensar el brillo, no los colores</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>se apaga sola al cabo de un rato: desactívelo</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>dispositivo de vídeo</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>se le pidió ISO {} y se queda en ISO {}</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>se le pidió una ganancia de {} y se queda en {}</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Cámaras réflex y sin espejo: a este programa le falta libgphoto2 o LibRaw; instale libgphoto2-dev y libraw-dev y vuelva a compilarlo</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>Cámaras GigE Vision y USB3 Vision: a este programa le falta Aravis; instale libaravis-dev y vuelva a compilarlo</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -3025,6 +3093,10 @@ proyector %2</translation>
         <source>Relucent is projecting</source>
         <translation>Relucent está proyectando</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1, mostrado sin OpenGL</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4087,6 +4159,10 @@ proyector %2</translation>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>Esta vista necesita OpenGL 3.2 y este equipo dibuja sin él. Todo lo demás funciona: imágenes y mapas se muestran sin profundidad.</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>Para esta vista, instale el controlador de la tarjeta gráfica y reinicie Relucent.</translation>
     </message>
 </context>
 </TS>

@@ -81,7 +81,7 @@
     <name>Core</name>
     <message>
         <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>une caméra ou un projecteur a bougé : le champ de la caméra {} est décalé de {} et {} pixels et tourné de {} degrés</translation>
+        <translation>une caméra ou un projecteur a bougé&#x202f;: le champ de la caméra {} est décalé de {} et {} pixels et tourné de {} degrés</translation>
     </message>
     <message>
         <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
@@ -129,7 +129,7 @@
     </message>
     <message>
         <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>demandez une taille qu’il propose : v4l2-ctl --list-formats-ext les affiche</translation>
+        <translation>demandez une taille qu’il propose&#x202f;: v4l2-ctl --list-formats-ext les affiche</translation>
     </message>
     <message>
         <source>ask for that or less</source>
@@ -189,7 +189,7 @@
     </message>
     <message>
         <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>vérifiez son câble, son alimentation et son adresse ; `relucent-cli devices` affiche ce qui est présent</translation>
+        <translation>vérifiez son câble, son alimentation et son adresse&#x202f;; `relucent-cli devices` affiche ce qui est présent</translation>
     </message>
     <message>
         <source>check its cable, switch it on and switch its automatic power-off off</source>
@@ -209,7 +209,7 @@
     </message>
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif ; ou choisissez un autre écran</translation>
+        <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif&#x202f;; ou choisissez un autre écran</translation>
     </message>
     <message>
         <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
@@ -225,7 +225,7 @@
     </message>
     <message>
         <source>check the device, or allow the command more time: {}</source>
-        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande : {}</translation>
+        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande&#x202f;: {}</translation>
     </message>
     <message>
         <source>check the disk and its cable</source>
@@ -285,7 +285,7 @@
     </message>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>recopiez-le, ou reprenez la photo ; une caméra plus récente que ce LibRaw demande des fichiers DNG</translation>
+        <translation>recopiez-le, ou reprenez la photo&#x202f;; une caméra plus récente que ce LibRaw demande des fichiers DNG</translation>
     </message>
     <message>
         <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
@@ -341,7 +341,7 @@
     </message>
     <message>
         <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>elle propose {} ; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
+        <translation>elle propose {}&#x202f;; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
     </message>
     <message>
         <source>it is empty</source>
@@ -349,7 +349,7 @@
     </message>
     <message>
         <source>let it write the photograph to {output}: {}</source>
-        <translation>faites-lui écrire la photo dans {output} : {}</translation>
+        <translation>faites-lui écrire la photo dans {output}&#x202f;: {}</translation>
     </message>
     <message>
         <source>let the command write that size, or begin again with the size that the camera delivers</source>
@@ -365,19 +365,19 @@
     </message>
     <message>
         <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>ouvrez une session de bureau X (« Xorg » à l’ouverture de session), ou diffusez des fichiers</translation>
+        <translation>ouvrez une session de bureau X («&#x202f;Xorg&#x202f;» à l’ouverture de session), ou diffusez des fichiers</translation>
     </message>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>indiquez l’une d’elles par son port : gphoto2:{} ou gphoto2:{}</translation>
+        <translation>indiquez l’une d’elles par son port&#x202f;: gphoto2:{} ou gphoto2:{}</translation>
     </message>
     <message>
         <source>name that one: gphoto2:{}</source>
-        <translation>indiquez celle-ci : gphoto2:{}</translation>
+        <translation>indiquez celle-ci&#x202f;: gphoto2:{}</translation>
     </message>
     <message>
         <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>aucune caméra GenICam « {} » ne répond</translation>
+        <translation>aucune caméra GenICam «&#x202f;{}&#x202f;» ne répond</translation>
     </message>
     <message>
         <source>no camera of this name is plugged in, but {}</source>
@@ -385,7 +385,7 @@
     </message>
     <message>
         <source>no photograph came within {} s</source>
-        <translation>aucune photo n’est arrivée en {} s</translation>
+        <translation>aucune photo n’est arrivée en {}&#x202f;s</translation>
     </message>
     <message>
         <source>no such video device is plugged in</source>
@@ -425,7 +425,7 @@
     </message>
     <message>
         <source>run it in a terminal to find out why: {}</source>
-        <translation>exécutez-la dans un terminal pour en trouver la raison : {}</translation>
+        <translation>exécutez-la dans un terminal pour en trouver la raison&#x202f;: {}</translation>
     </message>
     <message>
         <source>set it to ISO 100 by hand</source>
@@ -433,7 +433,7 @@
     </message>
     <message>
         <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>réglez son mode d’exposition sur « Timed » et manuel, ou mettez à jour son micrologiciel</translation>
+        <translation>réglez son mode d’exposition sur «&#x202f;Timed&#x202f;» et manuel, ou mettez à jour son micrologiciel</translation>
     </message>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -469,7 +469,7 @@
     </message>
     <message>
         <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>désactivez son exposition automatique ; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
+        <translation>désactivez son exposition automatique&#x202f;; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
     </message>
     <message>
         <source>switch its lens to manual focus</source>
@@ -481,7 +481,7 @@
     </message>
     <message>
         <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>réglez à la main sa qualité d’image sur RAW ; une caméra sans RAW ne peut pas être utilisée</translation>
+        <translation>réglez à la main sa qualité d’image sur RAW&#x202f;; une caméra sans RAW ne peut pas être utilisée</translation>
     </message>
     <message>
         <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
@@ -529,7 +529,7 @@
     </message>
     <message>
         <source>the camera claims exposures of {} to {} s</source>
-        <translation>la caméra annonce des temps de pose de {} à {} s</translation>
+        <translation>la caméra annonce des temps de pose de {} à {}&#x202f;s</translation>
     </message>
     <message>
         <source>the camera does not deliver raw files</source>
@@ -545,7 +545,7 @@
     </message>
     <message>
         <source>the camera has been gone for {} s: {}</source>
-        <translation>la caméra a disparu depuis {} s : {}</translation>
+        <translation>la caméra a disparu depuis {}&#x202f;s&#x202f;: {}</translation>
     </message>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
@@ -561,7 +561,7 @@
     </message>
     <message>
         <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>la caméra n’a plus de place pour une photo : sa carte mémoire est pleine</translation>
+        <translation>la caméra n’a plus de place pour une photo&#x202f;: sa carte mémoire est pleine</translation>
     </message>
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
@@ -569,11 +569,11 @@
     </message>
     <message>
         <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>la caméra s’en tient à {} s quelle que soit la pose demandée</translation>
+        <translation>la caméra s’en tient à {}&#x202f;s quelle que soit la pose demandée</translation>
     </message>
     <message>
         <source>the camera no longer answers ({}: {})</source>
-        <translation>la caméra ne répond plus ({} : {})</translation>
+        <translation>la caméra ne répond plus ({}&#x202f;: {})</translation>
     </message>
     <message>
         <source>the camera refused what it was asked for ({})</source>
@@ -581,7 +581,7 @@
     </message>
     <message>
         <source>the camera refuses ({}: {})</source>
-        <translation>la caméra refuse ({} : {})</translation>
+        <translation>la caméra refuse ({}&#x202f;: {})</translation>
     </message>
     <message>
         <source>the camera sees no difference between white and black</source>
@@ -613,11 +613,11 @@
     </message>
     <message>
         <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>une pose de {} s a été demandée à la caméra, qui s’en tient à {} s</translation>
+        <translation>une pose de {}&#x202f;s a été demandée à la caméra, qui s’en tient à {}&#x202f;s</translation>
     </message>
     <message>
         <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>la batterie de la caméra semble vide ({} % à la dernière lecture)</translation>
+        <translation>la batterie de la caméra semble vide ({}&#x202f;% à la dernière lecture)</translation>
     </message>
     <message>
         <source>the camera&apos;s colour filter is no Bayer filter</source>
@@ -645,11 +645,11 @@
     </message>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
-        <translation>la commande s’est bien terminée mais n’a rien écrit ; {} était attendu</translation>
+        <translation>la commande s’est bien terminée mais n’a rien écrit&#x202f;; {} était attendu</translation>
     </message>
     <message>
         <source>the command ended well but wrote {}, not {}</source>
-        <translation>la commande s’est bien terminée mais a écrit {} ; {} était attendu</translation>
+        <translation>la commande s’est bien terminée mais a écrit {}&#x202f;; {} était attendu</translation>
     </message>
     <message>
         <source>the command failed with status {}</source>
@@ -657,15 +657,15 @@
     </message>
     <message>
         <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>la commande a échoué avec le statut {}, en signalant « {} »</translation>
+        <translation>la commande a échoué avec le statut {}, en signalant «&#x202f;{}&#x202f;»</translation>
     </message>
     <message>
         <source>the command took longer than {} s</source>
-        <translation>la commande a duré plus de {} s</translation>
+        <translation>la commande a duré plus de {}&#x202f;s</translation>
     </message>
     <message>
         <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>la commande a duré plus de {} s, en signalant « {} »</translation>
+        <translation>la commande a duré plus de {}&#x202f;s, en signalant «&#x202f;{}&#x202f;»</translation>
     </message>
     <message>
         <source>the command was killed by signal {}</source>
@@ -673,7 +673,7 @@
     </message>
     <message>
         <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>la commande a été tuée par le signal {}, en signalant « {} »</translation>
+        <translation>la commande a été tuée par le signal {}, en signalant «&#x202f;{}&#x202f;»</translation>
     </message>
     <message>
         <source>the engine lost its device</source>
@@ -685,11 +685,11 @@
     </message>
     <message>
         <source>the graphics card has no {} MB of memory left</source>
-        <translation>la carte graphique n’a plus {} Mo de mémoire libre</translation>
+        <translation>la carte graphique n’a plus {}&#x202f;Mo de mémoire libre</translation>
     </message>
     <message>
         <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>la carte graphique atteint {} Mo à la fois alors qu’il en faut {} Mo</translation>
+        <translation>la carte graphique atteint {}&#x202f;Mo à la fois alors qu’il en faut {}&#x202f;Mo</translation>
     </message>
     <message>
         <source>the graphics card was lost</source>
@@ -697,7 +697,7 @@
     </message>
     <message>
         <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la lumière scintille : les photos d’un même motif diffèrent de {} %</translation>
+        <translation>la lumière scintille&#x202f;: les photos d’un même motif diffèrent de {}&#x202f;%</translation>
     </message>
     <message>
         <source>the light of the room became brighter</source>
@@ -745,7 +745,7 @@
     </message>
     <message>
         <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>la lumière du projecteur a changé de {} % en quelques photos</translation>
+        <translation>la lumière du projecteur a changé de {}&#x202f;% en quelques photos</translation>
     </message>
     <message>
         <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
@@ -785,7 +785,7 @@
     </message>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
-        <translation>le périphérique vidéo ne peut pas être ouvert : un autre programme l’utilise peut-être</translation>
+        <translation>le périphérique vidéo ne peut pas être ouvert&#x202f;: un autre programme l’utilise peut-être</translation>
     </message>
     <message>
         <source>the video device has been unplugged</source>
@@ -841,7 +841,7 @@
     </message>
     <message>
         <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>tournez sa molette de mode sur M ; une caméra sans M ne peut pas être utilisée</translation>
+        <translation>tournez sa molette de mode sur M&#x202f;; une caméra sans M ne peut pas être utilisée</translation>
     </message>
     <message>
         <source>uncover the lens, check that the projector is on, then retry</source>
@@ -861,15 +861,15 @@
     </message>
     <message>
         <source>{} % of the view of camera {} look different than before</source>
-        <translation>{} % du champ de la caméra {} ont changé d’aspect</translation>
+        <translation>{}&#x202f;% du champ de la caméra {} ont changé d’aspect</translation>
     </message>
     <message>
         <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} tentatives de photo ont échoué : {}</translation>
+        <translation>{} tentatives de photo ont échoué&#x202f;: {}</translation>
     </message>
     <message>
         <source>{} by resuming the calibration; {}</source>
-        <translation>{} en reprenant la calibration ; {}</translation>
+        <translation>{} en reprenant la calibration&#x202f;; {}</translation>
     </message>
     <message>
         <source>{} cameras of this model are plugged in</source>
@@ -881,7 +881,7 @@
     </message>
     <message>
         <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}, puis continuez : toutes les photos déjà prises sont conservées</translation>
+        <translation>{}, puis continuez&#x202f;: toutes les photos déjà prises sont conservées</translation>
     </message>
     <message>
         <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
@@ -897,11 +897,11 @@
     </message>
     <message>
         <source>{}: {}</source>
-        <translation>{} : {}</translation>
+        <translation>{}&#x202f;: {}</translation>
     </message>
     <message>
         <source>{}; {}</source>
-        <translation>{} ; {}</translation>
+        <translation>{}&#x202f;; {}</translation>
     </message>
     <message>
         <source>{} ({})</source>
@@ -910,6 +910,74 @@
     <message>
         <source>{}.</source>
         <translation>{}.</translation>
+    </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>annonce des poses à partir de {} s mais s’en tient à {} s</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>annonce des poses jusqu’à {} s mais s’en tient à {} s</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>fournit 8 bits : les zones sombres restent incertaines</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>ne dit pas quand les images ont été prises : quelques-unes sont écartées avant chaque photo</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>fait la mise au point seule : passez l’objectif en mise au point manuelle</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>n’a pas de déclencheur logiciel : chaque photo peut attendre une pose de plus</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>n’a plus que {} % de batterie : une mesure demande une batterie pleine ou une alimentation secteur</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>peut déclencher son flash : refermez-le</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>peut prendre une image noire après les poses longues, ce qui double leur durée</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>peut prendre plusieurs photos à la fois : passez en vue par vue</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>ne voit pas les couleurs : la luminosité peut être compensée, pas les couleurs</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>s’éteint seule au bout d’un moment : désactivez cela</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>périphérique vidéo</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>a reçu la demande ISO {} et s’en tient à ISO {}</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>a reçu la demande d’un gain de {} et s’en tient à {}</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Appareils reflex et hybrides : ce programme a été construit sans libgphoto2 ou LibRaw ; installez libgphoto2-dev et libraw-dev et reconstruisez-le</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>Caméras GigE Vision et USB3 Vision : ce programme a été construit sans Aravis ; installez libaravis-dev et reconstruisez-le</translation>
     </message>
 </context>
 <context>
@@ -3025,6 +3093,10 @@ projecteur %2</translation>
         <source>Relucent is projecting</source>
         <translation>Relucent projette</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1, affiché sans OpenGL</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4087,6 +4159,10 @@ projecteur %2</translation>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>Cette vue demande OpenGL 3.2, et cet ordinateur affiche sans lui. Tout le reste fonctionne&#x202f;: images et cartes sont affichées sans relief.</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>Pour cette vue, installez le pilote de la carte graphique et redémarrez Relucent.</translation>
     </message>
 </context>
 </TS>

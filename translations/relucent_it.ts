@@ -911,6 +911,74 @@
         <source>{}.</source>
         <translation>{}.</translation>
     </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>dichiara esposizioni fino a {} s ma resta a {} s</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>fornisce 8 bit: le zone scure restano incerte</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>non dice quando le immagini sono state acquisite: alcune vengono scartate prima di ogni fotografia</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>mette a fuoco da sola: passate l’obiettivo alla messa a fuoco manuale</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>non ha scatto via software: ogni fotografia può attendere un’esposizione in più</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>ha il {} % di batteria: una misura richiede la batteria piena o un alimentatore</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>può far scattare il flash: chiudetelo</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>può acquisire un’immagine nera dopo le esposizioni lunghe, raddoppiandone il tempo</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>può scattare più fotografie insieme: passate allo scatto singolo</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>non vede i colori: si può compensare la luminosità, non i colori</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>si spegne da sola dopo un po’: disattivatelo</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>dispositivo video</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>ha ricevuto la richiesta ISO {} e resta a ISO {}</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>ha ricevuto la richiesta di un guadagno di {} e resta a {}</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Reflex e mirrorless: a questo programma manca libgphoto2 o LibRaw; installate libgphoto2-dev e libraw-dev e ricompilatelo</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>Telecamere GigE Vision e USB3 Vision: a questo programma manca Aravis; installate libaravis-dev e ricompilatelo</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -3025,6 +3093,10 @@ proiettore %2</translation>
         <source>Relucent is projecting</source>
         <translation>Relucent sta proiettando</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1, mostrato senza OpenGL</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4087,6 +4159,10 @@ proiettore %2</translation>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>Questa vista richiede OpenGL 3.2 e questo computer disegna senza. Tutto il resto funziona: immagini e mappe sono mostrate senza profondità.</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>Per questa vista, installate il driver della scheda grafica e riavviate Relucent.</translation>
     </message>
 </context>
 </TS>

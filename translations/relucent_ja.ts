@@ -909,6 +909,74 @@
         <source>{}.</source>
         <translation>{}。</translation>
     </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>{} 秒からの露光に対応すると表示しますが、実際は {} 秒までです</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>{} 秒までの露光に対応すると表示しますが、実際は {} 秒までです</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>8 ビットで出力します: 暗い部分は不確かになります</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>撮影時刻を知らせません: 撮影のたびに数枚を捨てます</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>自動でピントを合わせます: レンズをマニュアルフォーカスに切り替えてください</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>ソフトウェアトリガーがありません: 撮影ごとに露光 1 回分余計に待つことがあります</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>バッテリー残量は {} % です: 測定には満充電または AC アダプターが必要です</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>フラッシュが光ることがあります: フラッシュを閉じてください</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>長時間露光の後にダーク画像を撮ることがあり、時間が倍になります</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>一度に複数枚撮ることがあります: 1 枚撮影に切り替えてください</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>色を見分けません: 明るさは補正できますが、色はできません</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>しばらくすると自動で電源が切れます: その設定をオフにしてください</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>ビデオデバイス</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>ISO {} を指定しましたが、ISO {} のままです</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>ゲイン {} を指定しましたが、{} のままです</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>一眼レフ・ミラーレスカメラ: このビルドには libgphoto2 または LibRaw がありません。libgphoto2-dev と libraw-dev をインストールして再ビルドしてください</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>GigE Vision・USB3 Vision カメラ: このビルドには Aravis がありません。libaravis-dev をインストールして再ビルドしてください</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -3005,6 +3073,10 @@ projector %2</source>
         <source>Relucent is projecting</source>
         <translation>Relucent が投影しています</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1、OpenGL なしで表示</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4064,6 +4136,10 @@ projector %2</source>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>この表示には OpenGL 3.2 が必要ですが、このコンピューターでは利用できません。ほかはすべて動作し、画像とマップは奥行きなしで表示されます。</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>この表示には、グラフィックカードのドライバーをインストールして Relucent を再起動してください。</translation>
     </message>
 </context>
 </TS>

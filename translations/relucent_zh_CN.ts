@@ -909,6 +909,74 @@
         <source>{}.</source>
         <translation>{}。</translation>
     </message>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
+    </message>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>声称曝光可长至 {} s，实际只到 {} s</translation>
+    </message>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>输出 8 位：暗处仍不确定</translation>
+    </message>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>不说明图像何时拍摄：每次拍照前会丢弃几张</translation>
+    </message>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>自动对焦：请把镜头切换到手动对焦</translation>
+    </message>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>没有软件触发：每张照片可能多等一次曝光</translation>
+    </message>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>电池剩余 {} %：测量需要充满的电池或电源适配器</translation>
+    </message>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>可能触发闪光灯：请将其收起</translation>
+    </message>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>长曝光后可能再拍一张暗场，时间会加倍</translation>
+    </message>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>可能一次拍多张：请切换到单张拍摄</translation>
+    </message>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>看不到颜色：可以补偿亮度，不能补偿颜色</translation>
+    </message>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>一段时间后会自动关机：请关闭该功能</translation>
+    </message>
+    <message>
+        <source>video device</source>
+        <translation>视频设备</translation>
+    </message>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>要求 ISO {}，却保持 ISO {}</translation>
+    </message>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>要求增益 {}，却保持 {}</translation>
+    </message>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>单反和无反相机：此版本缺少 libgphoto2 或 LibRaw；请安装 libgphoto2-dev 和 libraw-dev 后重新构建</translation>
+    </message>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>GigE Vision 和 USB3 Vision 相机：此版本缺少 Aravis；请安装 libaravis-dev 后重新构建</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -3005,6 +3073,10 @@ projector %2</source>
         <source>Relucent is projecting</source>
         <translation>Relucent 正在投影</translation>
     </message>
+    <message>
+        <source>%1, shown without OpenGL</source>
+        <translation>%1，不用 OpenGL 显示</translation>
+    </message>
 </context>
 <context>
     <name>relucent::OutputProof</name>
@@ -4064,6 +4136,10 @@ projector %2</source>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>此视图需要 OpenGL 3.2，但这台计算机的绘图不支持。其他功能均正常：图像和分布图以平面方式显示。</translation>
+    </message>
+    <message>
+        <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
+        <translation>要使用此视图，请安装显卡驱动并重新启动 Relucent。</translation>
     </message>
 </context>
 </TS>

@@ -2,6 +2,7 @@
 #include "output/screen_identity.h"
 
 #include <QGuiApplication>
+#include <cmath>
 
 namespace relucent {
 
@@ -33,8 +34,25 @@ QScreen* findScreen(const ScreenIdentity& wanted) {
   return found ? screens[*found] : nullptr;
 }
 
+int nativeLength(int scaled, double ratio) {
+  const int nearest = qRound(scaled * ratio), reach = static_cast<int>(std::ceil(ratio));
+  int best = nearest, bestDivisor = 1;
+  for (int length = nearest - reach; length <= nearest + reach; ++length) {
+    const int divisor = length & -length;  // the largest power of two
+    if (qRound(length / ratio) == scaled && divisor > bestDivisor) {
+      best = length;
+      bestDivisor = divisor;
+    }
+  }
+  return best;
+}
+
+QSize nativeSize(QSize scaled, double ratio) {
+  return {nativeLength(scaled.width(), ratio), nativeLength(scaled.height(), ratio)};
+}
+
 QSize nativeSize(const QScreen& screen) {
-  return (QSizeF(screen.geometry().size()) * screen.devicePixelRatio()).toSize();
+  return nativeSize(screen.geometry().size(), screen.devicePixelRatio());
 }
 
 QJsonObject toJson(const ScreenIdentity& identity) {

@@ -33,6 +33,12 @@ std::optional<qsizetype> findScreen(const ScreenIdentity& wanted, const QList<Sc
 /// The same among the desktop's screens; nullptr if it is not there.
 QScreen* findScreen(const ScreenIdentity& wanted);
 
+/// The length in a display's own pixels of what the desktop scales by `ratio` and rounds to `scaled`. Of the
+/// lengths that give the same, the one that more powers of two divide: displays are 1024 pixels wide, not
+/// 1025.
+int nativeLength(int scaled, double ratio);
+/// A size on a desktop that scales by `ratio`, in its display's own pixels.
+QSize nativeSize(QSize scaled, double ratio);
 /// The screen's size in its own pixels, whatever the desktop's scaling.
 QSize nativeSize(const QScreen& screen);
 

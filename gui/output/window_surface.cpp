@@ -6,6 +6,7 @@
 
 #include "output/opengl_surface.h"
 #include "output/raster_surface.h"
+#include "output/screen_identity.h"
 
 namespace relucent {
 namespace {
@@ -28,7 +29,7 @@ std::unique_ptr<WindowSurface> surfaceFor(QWindow& window) {
 }
 
 QSize nativeSize(const QWindow& window) {
-  return (QSizeF(window.size()) * window.devicePixelRatio()).toSize();
+  return nativeSize(window.size(), window.devicePixelRatio());
 }
 
 QRect middleOf(QSize window, QSize picture) {

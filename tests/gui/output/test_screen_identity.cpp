@@ -9,6 +9,17 @@ class TestScreenIdentity : public QObject {
   Q_OBJECT
 
  private slots:
+  void scaledDesktopsHideNoPixel_data() {
+    QTest::addColumn<int>("length");
+    for (int length : {768, 800, 1024, 1050, 1080, 1200, 1366, 1600, 1920, 2160, 2560, 3840, 4096})
+      QTest::addRow("%d", length) << length;
+  }
+  void scaledDesktopsHideNoPixel() {
+    QFETCH(int, length);
+    for (double ratio : {1.0, 1.25, 1.5, 1.75, 2.0})
+      QCOMPARE(nativeLength(qRound(length / ratio), ratio), length);
+  }
+
   void theWantedDisplayIsFoundOrNone_data() {
     ScreenIdentity laptop{"eDP-1", "AUO", "B140", ""};
     ScreenIdentity wanted{"HDMI-1", "EPS", "L1755", "4711"};

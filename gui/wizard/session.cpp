@@ -18,6 +18,16 @@ namespace {
 
 constexpr int audienceLimit = 3;  // patterns a second
 
+/// Holds other screens up as the rig's own projectors, which their pictures are not to be taken for.
+class HeldUp : public RigWatcher {
+ public:
+  explicit HeldUp(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
+  void beforeShowing(std::size_t index, RigLight& light) override { live_->beforeShowing(index, light); }
+
+ private:
+  std::shared_ptr<LiveRig> live_;
+};
+
 struct ProjectorSize {
   Size operator()(const ReplayRigSettings&) const { return {}; }  // only the recording knows
   Size operator()(const auto& rig) const { return rig.projector; }
@@ -52,7 +62,7 @@ void SessionDevices::prove(Progress& progress) {
   Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
   for (const ScreenRigSettings& other : askForOtherScreens(std::get<ScreenRigSettings>(settings_)))
     beside.projectors.push_back(delayed(screens_(other), unmeasuredLatency(), sleepFor));
-  beside = watched(std::move(beside), live_);
+  beside = watched(std::move(beside), std::make_shared<HeldUp>(live_));
   std::vector<Projector*> others;
   for (const std::unique_ptr<Projector>& other : beside.projectors) others.push_back(other.get());
   const ScreenExposure exposureOf = [&](Projector& screen) {

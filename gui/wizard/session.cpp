@@ -240,7 +240,34 @@ bool Session::hasLight() const {
   return std::holds_alternative<CommandRigSettings>(settings_.rig) || screenRig() != nullptr;
 }
 
-Size Session::projectorSize() const {
+std::size_t Session::projectors() const {
+  return measuredDevices("projectors").value_or(projectorsOf(settings_.rig));
+}
+
+std::size_t Session::projectorsOf(const RigSettings& rig) {
+  if (const auto* simulated = std::get_if<VenueSettings>(&rig))
+    for (const VenueDescription& venue : venues())
+      if (venue.name == simulated->name) return static_cast<std::size_t>(venue.projectors);
+  return 1;
+}
+
+std::size_t Session::cameras() const {
+  return measuredDevices("cameras").value_or(1);
+}
+
+/// As the results of measurements list them.
+std::optional<std::size_t> Session::measuredDevices(const char* kind) const {
+  for (Step step : {Step::acquisition, Step::linearization})
+    if (const auto& stored = result(step); stored && stored->values.contains(kind))
+      return stored->values[kind].size();
+  return std::nullopt;
+}
+
+Size Session::projectorSize(std::size_t projector) const {
+  if (const auto& measured = result(Step::acquisition); measured && projector < projectors()) {
+    const Json& size = measured->values.at("projectors").at(projector);
+    return {size.at(0), size.at(1)};
+  }
   return std::visit(ProjectorSize{}, settings_.rig);
 }
 

@@ -259,7 +259,7 @@ std::size_t Session::cameras() const {
 std::optional<std::size_t> Session::measuredDevices(const char* kind) const {
   for (Step step : {Step::acquisition, Step::linearization})
     if (const auto& stored = result(step); stored && stored->values.contains(kind))
-      return stored->values[kind].size();
+      return std::max<std::size_t>(1, stored->values[kind].size());
   return std::nullopt;
 }
 

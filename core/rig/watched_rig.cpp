@@ -1,28 +1,67 @@
 // SPDX-License-Identifier: MIT
 #include "rig/watched_rig.h"
 
+#include <utility>
+#include <vector>
+
 #include "base/error.h"
 
 namespace relucent {
 namespace {
 
+/// The projectors themselves, and what each of several shows: one alone is shown its pattern next anyway.
+class Projectors {
+ public:
+  explicit Projectors(std::vector<std::unique_ptr<Projector>> projectors)
+      : projectors_(std::move(projectors)), shown_(projectors_.size()) {}
+
+  Projector& at(std::size_t index) const { return *projectors_[index]; }
+  void show(std::size_t index, const Image& encodedDrive) {
+    projectors_[index]->show(encodedDrive);
+    if (projectors_.size() > 1) shown_[index] = encodedDrive;
+  }
+  void darken() const {
+    for (const auto& projector : projectors_) projector->show(Image(projector->size(), 3, 0.0f));
+  }
+  void restoreAllBut(std::size_t coming) const {
+    for (std::size_t i = 0; i < projectors_.size(); ++i)
+      if (i != coming && !shown_[i].empty()) projectors_[i]->show(shown_[i]);
+  }
+
+ private:
+  std::vector<std::unique_ptr<Projector>> projectors_;
+  std::vector<Image> shown_;
+};
+
+class LightBefore : public RigLight {
+ public:
+  LightBefore(const Projectors& projectors, std::size_t coming) : projectors_(projectors), coming_(coming) {}
+  void darken() override { projectors_.darken(); }
+  void restore() override { projectors_.restoreAllBut(coming_); }
+
+ private:
+  const Projectors& projectors_;
+  std::size_t coming_;
+};
+
 class WatchedProjector : public Projector {
  public:
-  WatchedProjector(std::unique_ptr<Projector> projector, std::size_t index,
+  WatchedProjector(std::shared_ptr<Projectors> projectors, std::size_t index,
                    std::shared_ptr<RigWatcher> watcher)
-      : projector_(std::move(projector)), index_(index), watcher_(std::move(watcher)) {}
+      : projectors_(std::move(projectors)), index_(index), watcher_(std::move(watcher)) {}
 
-  std::string name() const override { return projector_->name(); }
-  Size size() const override { return projector_->size(); }
-  int bits() const override { return projector_->bits(); }
+  std::string name() const override { return projectors_->at(index_).name(); }
+  Size size() const override { return projectors_->at(index_).size(); }
+  int bits() const override { return projectors_->at(index_).bits(); }
   void show(const Image& encodedDrive) override {
-    watcher_->beforeShowing(index_, *projector_);
-    projector_->show(encodedDrive);
+    LightBefore light(*projectors_, index_);
+    watcher_->beforeShowing(index_, light);
+    projectors_->show(index_, encodedDrive);
     watcher_->shown(index_, encodedDrive);
   }
 
  private:
-  std::unique_ptr<Projector> projector_;
+  std::shared_ptr<Projectors> projectors_;
   std::size_t index_;
   std::shared_ptr<RigWatcher> watcher_;
 };
@@ -51,8 +90,10 @@ class WatchedCamera : public Camera {
 
 Rig watched(Rig rig, std::shared_ptr<RigWatcher> watcher) {
   require(watcher != nullptr, "somebody has to watch");
-  for (std::size_t i = 0; i < rig.projectors.size(); ++i)
-    rig.projectors[i] = std::make_unique<WatchedProjector>(std::move(rig.projectors[i]), i, watcher);
+  std::size_t count = rig.projectors.size();
+  auto projectors = std::make_shared<Projectors>(std::exchange(rig.projectors, {}));
+  for (std::size_t i = 0; i < count; ++i)
+    rig.projectors.push_back(std::make_unique<WatchedProjector>(projectors, i, watcher));
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     rig.cameras[i] = std::make_unique<WatchedCamera>(std::move(rig.cameras[i]), i, watcher);
   return rig;

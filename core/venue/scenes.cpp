@@ -99,6 +99,8 @@ const std::vector<Offer>& offers() {
       {{"statue", "a stone bust before a brick wall: curved, weathered, with shadows", 1}, statueScene},
       {{"glass", "a filled wine glass before wallpaper: light is refracted both ways", 1}, glassScene},
       {{"dome", "the inside of a painted dome: everything lights everything", 1}, domeScene},
+      {{"relief", "carved stone, lit from both sides: each projector shines into the other's shadows", 2},
+       reliefScene},
       {{"plain", "a flat wall, painted in diamonds", 1}, plainScene},
   };
   return all;

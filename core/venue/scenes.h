@@ -18,5 +18,6 @@ void placeDevices(Scene& scene, const VenueSettings& settings, const Eigen::Vect
 
 Scene statueScene(const VenueSettings& settings);
 Scene glassScene(const VenueSettings& settings);
+Scene reliefScene(const VenueSettings& settings);
 
 }  // namespace relucent

@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "jobs/live_rig.h"
 
+#include <algorithm>
+
 namespace relucent {
+namespace {
+
+template <typename Device>
+Device& at(std::vector<Device>& devices, std::size_t index) {
+  if (devices.size() <= index) devices.resize(index + 1);
+  return devices[index];
+}
+
+}  // namespace
 
 LiveRig::LiveRig(int interval) : interval_(interval) {}
 
-void LiveRig::beforeShowing(std::size_t, Projector& projector) {
+void LiveRig::beforeShowing(std::size_t, RigLight& light) {
   QMutexLocker lock(&guard_);
   if (paused_) {
-    projector.show(Image(projector.size(), 3, 0.0f));
+    light.darken();
     while (paused_) resumed_.wait(&guard_);
+    light.restore();
   }
   // Resuming ends no wait but a pause.
   auto left = [&] { return shownLast_.isValid() ? leastBetween_ - shownLast_.elapsed() : 0; };
@@ -25,31 +37,46 @@ void LiveRig::setLeastInterval(int milliseconds) {
 
 void LiveRig::shown(std::size_t index, const Image& encodedDrive) {
   QMutexLocker lock(&guard_);
-  if (index == 0) pictures_.pattern = encodedDrive;
+  Shown& shown = at(projectors_, index);
+  shown.pattern = encodedDrive;
+  const std::vector<float>& drive = encodedDrive.data();
+  shown.dark = std::all_of(drive.begin(), drive.end(), [](float value) { return !(value > 0.0f); });
 }
 
 void LiveRig::photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) {
   {
     QMutexLocker lock(&guard_);
-    ++pictures_.photographs;
-    if (index != 0) return;
-    pictures_.frame = frame;
-    pictures_.request = request;
-    ramps_.add(pictures_.pattern, frame);
+    ++photographs_;
+    at(cameras_, index) = {frame, request};
+    if (index == 0) {
+      // Light of several projectors at once is no one's ramp.
+      auto lit =
+          std::count_if(projectors_.begin(), projectors_.end(), [](const Shown& s) { return !s.dark; });
+      for (Shown& shown : projectors_)
+        if (lit == 0 || (lit == 1 && !shown.dark)) shown.ramps.add(shown.pattern, frame);
+    }
     if (since_.isValid() && since_.elapsed() < interval_) return;
     since_.start();
   }
   Q_EMIT seen();
 }
 
-LivePictures LiveRig::pictures() const {
+LivePictures LiveRig::pictures(std::size_t projector, std::size_t camera) const {
   QMutexLocker lock(&guard_);
-  return pictures_;
+  LivePictures live;
+  if (projector < projectors_.size()) live.pattern = projectors_[projector].pattern;
+  if (camera < cameras_.size()) {
+    live.frame = cameras_[camera].frame;
+    live.request = cameras_[camera].request;
+  }
+  live.photographs = photographs_;
+  return live;
 }
 
-std::array<std::map<double, double>, 3> LiveRig::ramps() const {
+std::array<std::map<double, double>, 3> LiveRig::ramps(std::size_t projector) const {
   QMutexLocker lock(&guard_);
-  return ramps_.curves();
+  return projector < projectors_.size() ? projectors_[projector].ramps.curves()
+                                        : std::array<std::map<double, double>, 3>{};
 }
 
 void LiveRig::pause() {

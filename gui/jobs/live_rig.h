@@ -6,18 +6,19 @@
 #include <QObject>
 #include <QWaitCondition>
 #include <memory>
+#include <vector>
 
 #include "linearization/ramp_preview.h"
 #include "rig/watched_rig.h"
 
 namespace relucent {
 
-/// The last pattern and photograph of devices that are at work.
+/// The last pattern of one projector and the last photograph of one camera while they are at work.
 struct LivePictures {
   Image pattern;  // encoded drive
   RawFrame frame;
   CaptureRequest request;
-  int photographs = 0;  // taken since this began
+  int photographs = 0;  // by all cameras, since this began
 };
 
 /// Looks on while devices measure, and holds them up while paused. The measuring thread writes, the interface
@@ -29,15 +30,17 @@ class LiveRig : public QObject, public RigWatcher {
   /// `interval`: least time between two signals, milliseconds.
   explicit LiveRig(int interval = 500);
 
-  void beforeShowing(std::size_t index, Projector& projector) override;
+  void beforeShowing(std::size_t index, RigLight& light) override;
   void shown(std::size_t index, const Image& encodedDrive) override;
   void photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) override;
 
   /// Between two patterns, milliseconds: people may be looking. 0: none.
   void setLeastInterval(int milliseconds);
 
-  LivePictures pictures() const;
-  std::array<std::map<double, double>, 3> ramps() const;
+  /// Of devices that there are not, empty pictures.
+  LivePictures pictures(std::size_t projector = 0, std::size_t camera = 0) const;
+  /// Of a projector that shines alone, in the first camera's photographs.
+  std::array<std::map<double, double>, 3> ramps(std::size_t projector = 0) const;
 
   /// Before the next pattern; the projectors are black meanwhile.
   void pause();
@@ -54,8 +57,18 @@ class LiveRig : public QObject, public RigWatcher {
   mutable QMutex guard_;
   QWaitCondition resumed_;
   bool paused_ = false;
-  LivePictures pictures_;
-  RampPreview ramps_;
+  struct Shown {
+    Image pattern;
+    bool dark = true;
+    RampPreview ramps;
+  };
+  struct Photographed {
+    RawFrame frame;
+    CaptureRequest request;
+  };
+  std::vector<Shown> projectors_;
+  std::vector<Photographed> cameras_;
+  int photographs_ = 0;
   QElapsedTimer since_;
 };
 

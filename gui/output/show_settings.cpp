@@ -47,13 +47,18 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
   std::sort(screens.begin(), screens.end(), [](const QScreen* a, const QScreen* b) {
     return std::pair(a->geometry().x(), a->geometry().y()) < std::pair(b->geometry().x(), b->geometry().y());
   });
-  for (const QSize& projector : projectors) {
+  for (std::size_t i = 0; i < projectors.size(); ++i) {
+    const QSize& projector = projectors[i];
     auto found = std::find_if(screens.begin(), screens.end(),
                               [&](const QScreen* screen) { return nativeSize(*screen) == projector; });
     if (found == screens.end())
       throw Error(ErrorKind::input,
-                  fmt::format("no display beside the operator's has the {}x{} pixels of the projector",
-                              projector.width(), projector.height()),
+                  projectors.size() == 1
+                      ? fmt::format("no display beside the operator's has the {}x{} pixels of the projector",
+                                    projector.width(), projector.height())
+                      : fmt::format("each of the {} projectors needs a display of its own beside the "
+                                    "operator's, and there is none of {}x{} pixels for projector {}",
+                                    projectors.size(), projector.width(), projector.height(), i + 1),
                   fmt::format("plug it in, set it to that size, or name it with --screen; there are: {}",
                               allDescribed().toStdString()));
     displays.push_back(identityOf(**found));

@@ -19,7 +19,7 @@ constexpr int photographsBeforeTime = 20;
 }  // namespace
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
-    : PageModel(parent), session_(session), asking_(std::make_shared<Asking>()) {
+    : DevicePage(session, parent), asking_(std::make_shared<Asking>()) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
     trace_.clear();

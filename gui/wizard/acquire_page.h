@@ -8,8 +8,7 @@
 #include "jobs/time_left.h"
 #include "wizard/acquisition_trace.h"
 #include "wizard/asking.h"
-#include "wizard/page_model.h"
-#include "wizard/session.h"
+#include "wizard/device_page.h"
 
 namespace relucent {
 
@@ -17,7 +16,7 @@ namespace relucent {
 enum class Fineness { fast, usual, fine };
 
 /// Step 4: the light transport, photograph by photograph.
-class AcquirePage : public PageModel {
+class AcquirePage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -36,13 +35,12 @@ class AcquirePage : public PageModel {
   std::optional<Banner> banner() const override;
   void finish() override;
 
-  Session& session() const { return session_; }
-
   bool isMeasuring() const { return job_.isRunning(); }
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
   bool isStopping() const { return job_.isStopping(); }
   QString stage() const { return job_.stage(); }
-  LivePictures pictures() const { return session_.live().pictures(); }
+  /// Of the shown projector and camera.
+  LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
   /// Photographs of earlier runs that are in the journal, and all that there are by now.
   int keptBefore() const { return kept_; }
   int photographs() const;
@@ -80,7 +78,6 @@ class AcquirePage : public PageModel {
   void ended();
   void tick();
 
-  Session& session_;
   std::shared_ptr<Asking> asking_;
   AcquisitionTrace trace_;
   TimeLeft left_;

@@ -5,6 +5,7 @@
 #include "views/number_text.h"
 #include "wizard/acquire_page.h"
 #include "wizard/acquire_watch_view.h"
+#include "wizard/device_selector.h"
 #include "wizard/flash_consent.h"
 #include "wizard/page_view.h"
 
@@ -33,11 +34,13 @@ QWidget* stageOf(AcquirePage& model) {
         AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
   sent->body()->addWidget(pattern, 1);
   seen->body()->addWidget(photograph, 1);
+  sent->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, sent));
+  seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   row->addWidget(sent, 1);
   row->addWidget(seen, 1);
   auto refresh = [&model, pattern, photograph, seen, sent] {
     LivePictures live = model.pictures();
-    if (live.photographs == 0 || live.pattern.empty()) return;
+    if (live.pattern.empty() || live.frame.signal.empty()) return;
     pattern->setPicture(encodedPictureOf(live.pattern));
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
     sent->setSubtitle(model.stage());

@@ -20,8 +20,8 @@ struct CameraLook {
   double sharpness = 0.0;
 };
 
-/// Step 2: framing, focus, and exposures that cover what is bright and what is dark. The projector shows
-/// white while the camera is watched.
+/// Step 2: framing, focus, and exposures that cover what is bright and what is dark. The projectors show
+/// white while the camera is watched; rigs that this program opens have one camera.
 class CameraPage : public PageModel {
   Q_OBJECT
 

@@ -14,29 +14,34 @@ namespace {
 
 constexpr int paletteColours = 8;
 
-/// The map and its numbers. `surface`: the first camera's picture in full light.
+/// A camera's share of what there is of all pixels.
+template <typename Value>
+std::vector<Value> ofCamera(const std::vector<Value>& values, const Rasters& cameras, std::size_t camera) {
+  auto begin = values.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera));
+  return {begin, begin + static_cast<std::ptrdiff_t>(cameras.size(camera).count())};
+}
+
+/// The map and its numbers. `surface`: the camera's picture in full light.
 std::shared_ptr<const ClusterResult> mapOf(const Grouping& grouping, const Rasters& cameras,
-                                           const QImage& surface) {
+                                           std::size_t camera, const QImage& surface) {
   auto result = std::make_shared<ClusterResult>();
-  result->camera = cameras.size(0);
-  std::size_t pixels = result->camera.count();
+  result->device = camera;
+  result->camera = cameras.size(camera);
   result->statistics = grouping.statistics;
   result->colours = clusterColours(grouping.cameraCluster, cameras, grouping.sizes.size(), paletteColours);
-  result->borders = clusterBorders(grouping.cameraCluster, cameras);
-  result->map = grouping.cameraCluster;
+  result->borders = ofCamera(clusterBorders(grouping.cameraCluster, cameras), cameras, camera);
+  result->map = ofCamera(grouping.cameraCluster, cameras, camera);
   result->sizes = grouping.sizes;
-  result->borders.resize(pixels);
-  result->map.resize(pixels);
   result->picture = clusterPicture(result->map, result->colours, result->borders, surface);
   return result;
 }
 
-std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, GroupingError error) {
+std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, const Rasters& cameras,
+                                                GroupingError error) {
   auto result = std::make_shared<ClusterResult>(map);
   result->exact = true;
   result->statistics = std::move(error.statistics);
-  result->error = std::move(error.error);
-  result->error.resize(result->map.size());
+  result->error = ofCamera(error.error, cameras, map.device);
   for (std::size_t i = 0; i < result->map.size(); ++i)
     if (result->map[i] == noCluster) result->error[i] = std::numeric_limits<float>::quiet_NaN();
   double high = std::max(0.1, std::min(1.0, result->statistics.errorP95 * 1.1));
@@ -52,12 +57,11 @@ struct ClusterPage::Prepared {
   TransportMatrix transport;
   std::optional<ConnectionGraph> graph;
   std::unique_ptr<Grouper> grouper;  // for computing_ alone, which asks it one thing at a time
-  QImage surface;
+  std::vector<QImage> surfaces;      // a camera
 };
 
 ClusterPage::ClusterPage(Session& session, QObject* parent)
-    : PageModel(parent),
-      session_(session),
+    : DevicePage(session, parent),
       preparing_(
           [this](std::shared_ptr<const Prepared> prepared) {
             prepared_ = std::move(prepared);
@@ -106,28 +110,33 @@ void ClusterPage::prepare() {
     prepared->graph.emplace(prepared->transport, usablePixels(*acquisition), ConnectionGraphSettings(),
                             quiet);
     prepared->grouper = std::make_unique<Grouper>(*prepared->graph);
-    Image flood = imageFromStack(acquisition->flood, acquisition->transport.cameras(), 0);
-    prepared->surface = relucent::pictureOf(flood, displayWhite(flood));
+    const Rasters& cameras = acquisition->transport.cameras();
+    for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+      Image flood = imageFromStack(acquisition->flood, cameras, camera);
+      prepared->surfaces.push_back(relucent::pictureOf(flood, displayWhite(flood)));
+    }
     return prepared;
   });
 }
 
 void ClusterPage::compute() {
   if (prepared_)
-    computing_.ask([prepared = prepared_, settings = settings_](Progress& progress, const auto& tellSoon) {
+    computing_.ask([prepared = prepared_, settings = settings_, camera = camera()](Progress& progress,
+                                                                                   const auto& tellSoon) {
       Progress grouping = progress.part(0.4, "Joining clusters");
       const Grouping& groups = prepared->grouper->group(settings, grouping);
-      std::shared_ptr<const ClusterResult> map =
-          mapOf(groups, prepared->transport.cameras(), prepared->surface);
+      const Rasters& cameras = prepared->transport.cameras();
+      std::shared_ptr<const ClusterResult> map = mapOf(groups, cameras, camera, prepared->surfaces[camera]);
       tellSoon(map);
       Progress scaling = progress.part(0.6, "Scaling to the flood image");
-      return withErrors(*map, errorOf(*prepared->graph, groups, settings, scaling));
+      return withErrors(*map, cameras, errorOf(*prepared->graph, groups, settings, scaling));
     });
   Q_EMIT changed();
 }
 
 /// Until a map's own errors are known, those of the map before stand in for them.
 void ClusterPage::show(std::shared_ptr<const ClusterResult> result) {
+  if (result->device != camera()) return;
   if (!result->exact && result_) {
     auto together = std::make_shared<ClusterResult>(*result);
     together->error = result_->error;
@@ -139,6 +148,12 @@ void ClusterPage::show(std::shared_ptr<const ClusterResult> result) {
   }
   result_ = std::move(result);
   Q_EMIT changed();
+}
+
+/// Nothing of another camera's errors stands in for this one's.
+void ClusterPage::cameraChanged() {
+  result_ = nullptr;
+  compute();
 }
 
 void ClusterPage::setSettings(const ClusteringSettings& settings) {

@@ -5,12 +5,11 @@
 #include "jobs/latest.h"
 #include "jobs/refining.h"
 #include "views/colour_map.h"
-#include "wizard/page_model.h"
-#include "wizard/session.h"
+#include "wizard/device_page.h"
 
 namespace relucent {
 
-/// What one set of sliders gives, for the first camera. Its map is known before its errors.
+/// What one set of sliders gives, for the shown camera. Its map is known before its errors.
 struct ClusterResult {
   bool exact = false;  // errors are this map's; until then those of the map before, or none
   ClusteringStatistics statistics;
@@ -19,13 +18,14 @@ struct ClusterResult {
   std::vector<std::uint8_t> borders;  // per camera pixel
   std::vector<float> error;           // per camera pixel, or empty; NaN where there was no cluster
   std::vector<ClusterSize> sizes;
+  std::size_t device = 0;  // the camera's number
   Size camera;
   QImage picture, errorPicture;  // the maps to be seen
   ColourScale errorScale;
 };
 
 /// Step 6: clusters of pixels that can be solved on their own.
-class ClusterPage : public PageModel {
+class ClusterPage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -58,11 +58,11 @@ class ClusterPage : public PageModel {
  private:
   struct Prepared;
   void prepare();
+  void cameraChanged() override;
   void compute();
   void show(std::shared_ptr<const ClusterResult> result);
   void accept();
 
-  Session& session_;
   ClusteringSettings settings_;
   std::string preparedFor_;  // fingerprint of the threshold
   std::shared_ptr<const Acquisition> source_;

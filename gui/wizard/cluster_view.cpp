@@ -10,6 +10,7 @@
 #include "views/view_actions.h"
 #include "wizard/cluster_page.h"
 #include "wizard/cluster_picture.h"
+#include "wizard/device_selector.h"
 #include "wizard/page_view.h"
 
 namespace relucent {
@@ -53,6 +54,8 @@ class ClusterStage : public QWidget {
     form_->setObjectName("form");
     connect(form_, &Segmented::chosen, error_, [this](int index) { error_->setRelief(index == 1); });
     errorCard_->addAction(form_);
+    for (Card* card : {mapCard, errorCard_})
+      card->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, card));
     auto fail = [&model](const Failure& failure) {
       Q_EMIT model.failed({failure, ClusterPage::tr("What is measured is safe."), {}, {}});
     };

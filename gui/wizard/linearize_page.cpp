@@ -12,7 +12,7 @@
 
 namespace relucent {
 
-LinearizePage::LinearizePage(Session& session, QObject* parent) : PageModel(parent), session_(session) {
+LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(session, parent) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
     result_.reset();
@@ -72,7 +72,7 @@ QString LinearizePage::hint() const {
     if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
   }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
-  return tr("About %n test pattern(s)", nullptr, 3 * levels() + 60);
+  return tr("About %n test pattern(s)", nullptr, static_cast<int>(projectors()) * (3 * levels() + 60));
 }
 
 Command LinearizePage::primary() const {
@@ -118,6 +118,10 @@ std::optional<double> LinearizePage::seconds() const {
   const auto& stored = session_.result(Step::linearization);
   if (!stored || !stored->values.contains("cost")) return std::nullopt;
   return stored->values["cost"].value("seconds", 0.0);
+}
+
+const ProjectorResponse* LinearizePage::response() const {
+  return result_ && projector() < result_->projectors.size() ? &result_->projectors[projector()] : nullptr;
 }
 
 bool LinearizePage::addsUp() const {

@@ -2,13 +2,12 @@
 #pragma once
 
 #include "jobs/job.h"
-#include "wizard/page_model.h"
-#include "wizard/session.h"
+#include "wizard/device_page.h"
 
 namespace relucent {
 
 /// Step 3: the light of every level of the projector, measured and fitted.
-class LinearizePage : public PageModel {
+class LinearizePage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -29,14 +28,14 @@ class LinearizePage : public PageModel {
   std::optional<Banner> banner() const override;
   void finish() override;
 
-  Session& session() const { return session_; }
-
   bool isMeasuring() const { return job_.isRunning(); }
   /// What has been measured, perhaps with other settings; none before.
   const std::optional<Linearization>& result() const { return result_; }
-  /// Points of the ramps while they are measured, drive -> share of full light.
-  Ramps ramps() const { return session_.live().ramps(); }
-  LivePictures pictures() const { return session_.live().pictures(); }
+  /// The shown projector's response; nullptr: not measured yet.
+  const ProjectorResponse* response() const;
+  /// Points of its ramps while they are measured, drive -> share of full light.
+  Ramps ramps() const { return session_.live().ramps(projector()); }
+  LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
   /// Seconds that the measurement took; none before.
   std::optional<double> seconds() const;
 
@@ -51,7 +50,6 @@ class LinearizePage : public PageModel {
   void look();
   void ended();
 
-  Session& session_;
   Job job_;
   std::optional<Linearization> result_;
   std::string shown_;  // when the result was stored that is in result_

@@ -7,6 +7,7 @@
 #include "views/image_view.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
+#include "wizard/device_selector.h"
 #include "wizard/flash_consent.h"
 #include "wizard/linearize_page.h"
 #include "wizard/page_view.h"
@@ -74,12 +75,14 @@ QWidget* liveCards(LinearizePage& model) {
     view->setEmptyText(LinearizePage::tr("Appears when measuring begins."));
   sent->body()->addWidget(pattern, 1);
   seen->body()->addWidget(photograph, 1);
+  sent->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, sent));
+  seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   layout->addWidget(sent, 1);
   layout->addWidget(seen, 1);
   QObject::connect(&model, &LinearizePage::changed, row, [&model, pattern, photograph, seen] {
     if (!model.isMeasuring()) return;
     LivePictures live = model.pictures();
-    if (live.photographs == 0) return;
+    if (live.pattern.empty() || live.frame.signal.empty()) return;
     pattern->setPicture(encodedPictureOf(live.pattern));
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
     seen->setSubtitle(
@@ -99,6 +102,7 @@ QWidget* stageOf(LinearizePage& model) {
                               {0.0, percent, false, LinearizePage::tr("Light, % of full")});
   chart->setObjectName("response-chart");
   chart->setAccessibleName(LinearizePage::tr("Light of every level, three colours"));
+  response->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, response));
   response->body()->addWidget(chart, 1);
   column->addWidget(response, 3);
   column->addWidget(liveCards(model), 2);
@@ -106,8 +110,8 @@ QWidget* stageOf(LinearizePage& model) {
     if (model.isMeasuring()) {
       chart->setCurves(measured(model.ramps()));
       response->setSubtitle(LinearizePage::tr("as it is measured, in random order"));
-    } else if (model.result() && !model.result()->projectors.empty()) {
-      chart->setCurves(fitted(model.result()->projectors.front()));
+    } else if (const ProjectorResponse* known = model.response()) {
+      chart->setCurves(fitted(*known));
       response->setSubtitle(
           LinearizePage::tr("%n level(s) a colour, random order, drift removed", nullptr, model.levels()));
     } else {
@@ -179,7 +183,8 @@ QWidget* inspectorOf(LinearizePage& model) {
           LinearizePage::tr("White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the "
                             "projector's menu, then measure again.")
               .arg(percentText(worst)));
-    bool identity = !result.cameras.empty() && result.cameras.front().response[1].isIdentity();
+    bool identity =
+        model.camera() < result.cameras.size() && result.cameras[model.camera()].response[1].isIdentity();
     linear->show(Kind::good,
                  identity ? LinearizePage::tr("The camera is linear")
                           : LinearizePage::tr("The camera's curve is known"),

@@ -7,6 +7,7 @@
 #include "theme/theme.h"
 #include "theme/tick.h"
 #include "views/number_text.h"
+#include "wizard/device_selector.h"
 #include "wizard/flash_consent.h"
 #include "wizard/output_page.h"
 #include "wizard/page_view.h"
@@ -161,6 +162,7 @@ QWidget* outputInspector(OutputPage& page) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
   column->addWidget(labelOf(OutputPage::tr("Projector's screen"), "section"));
+  column->addWidget(new DeviceSelector(DeviceSelector::Kind::projector, page, card));
   column->addWidget(screenBox(page));
   auto* differs = new Note(Note::Kind::information);
   column->addWidget(differs);

@@ -16,12 +16,12 @@
 namespace relucent {
 
 OutputPage::OutputPage(Session& session, QObject* parent)
-    : PageModel(parent),
-      session_(session),
+    : DevicePage(session, parent),
       proof_(session, [this] { return name(); }),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   connect(&session_, &Session::opened, this, [this] {
     close();
+    projection_.mirrorProjector(projector());
     preferred_ = QString::fromStdString(session_.settings().content.picture);
     playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
                    preferred_);
@@ -29,6 +29,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&session_, &Session::changed, this, [this] {
     QString picture = QString::fromStdString(session_.settings().content.picture);
     if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
+    if (chosen_.size() != projectors()) return listScreens();
     Q_EMIT changed();
   });
   connect(&playlist_, &OutputPlaylist::unreadable, this, [this](const QString& sentence) {
@@ -58,23 +59,54 @@ void OutputPage::finish() {
 }
 
 void OutputPage::listScreens() {
-  std::optional<ScreenIdentity> before;
-  if (chosen_) before = screens_[*chosen_].identity;
+  std::vector<std::optional<ScreenIdentity>> before;
+  for (const auto& screen : chosen_)
+    before.push_back(screen ? std::optional(screens_[*screen].identity) : std::nullopt);
   screens_.clear();
-  chosen_.reset();
   for (QScreen* screen : QGuiApplication::screens())
     screens_.push_back(
         {identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen()});
-  for (std::size_t i = 0; i < screens_.size(); ++i)
-    if ((before && screens_[i].identity == *before) || (!before && !chosen_ && !screens_[i].operators))
-      chosen_ = i;
+  chosen_.assign(session_.projectors(), std::nullopt);
+  for (std::size_t projector = 0; projector < std::min(chosen_.size(), before.size()); ++projector)
+    for (std::size_t i = 0; i < screens_.size(); ++i)
+      if (before[projector] && screens_[i].identity == *before[projector]) chosen_[projector] = i;
+  // One that has just been unplugged is not replaced unasked.
+  for (std::size_t projector = 0; projector < chosen_.size(); ++projector)
+    if (projector >= before.size() || !before[projector]) chooseFreeScreen(projector);
   Q_EMIT changed();
+}
+
+/// The first that is neither the operator's nor another projector's.
+void OutputPage::chooseFreeScreen(std::size_t projector) {
+  for (std::size_t i = 0; i < screens_.size(); ++i) {
+    bool taken = std::find(chosen_.begin(), chosen_.end(), std::optional(i)) != chosen_.end();
+    if (taken || screens_[i].operators) continue;
+    chosen_[projector] = i;
+    return;
+  }
 }
 
 void OutputPage::choose(std::size_t index) {
   if (isOpen()) close();
-  chosen_ = index;
+  std::optional<std::size_t>& mine = chosen_[projector()];
+  auto other = std::find(chosen_.begin(), chosen_.end(), std::optional(index));
+  if (other != chosen_.end()) *other = mine;
+  mine = index;
   Q_EMIT changed();
+}
+
+std::optional<std::size_t> OutputPage::projectorWithoutScreen() const {
+  auto missing = std::find(chosen_.begin(), chosen_.end(), std::nullopt);
+  if (missing == chosen_.end()) return std::nullopt;
+  return static_cast<std::size_t>(missing - chosen_.begin());
+}
+
+QString OutputPage::missingScreen(std::size_t projector) const {
+  if (projectors() == 1) return tr("Choose the projector's screen.");
+  if (screens_.size() < projectors())
+    return tr("Each of the %n projector(s) needs a screen of its own. Plug in another one.", nullptr,
+              static_cast<int>(projectors()));
+  return tr("Choose a screen for projector %1.").arg(projector + 1);
 }
 
 void OutputPage::enter() {
@@ -90,7 +122,7 @@ QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
-  if (!chosen_) return tr("Choose the projector's screen.");
+  if (auto missing = projectorWithoutScreen()) return missingScreen(*missing);
   if (isOpen())
     return proof_.proof() ? tr("Playing. Hold A to compare.")
                           : tr("Take a verification photograph, or install without proof.");
@@ -107,12 +139,12 @@ Command OutputPage::primary() const {
             !playlist_.isEmpty(),
             {},
             [self] { self->install(); }};
-  return {
-      tr("Open output"),
-      Icon::play,
-      chosen_.has_value() && !playlist_.isEmpty() && !projection_.isOpening() && session_.busy().isEmpty(),
-      {},
-      [self] { self->open(); }};
+  return {tr("Open output"),
+          Icon::play,
+          !projectorWithoutScreen() && !playlist_.isEmpty() && !projection_.isOpening() &&
+              session_.busy().isEmpty(),
+          {},
+          [self] { self->open(); }};
 }
 
 std::vector<Command> OutputPage::secondary() const {
@@ -178,10 +210,12 @@ QString OutputPage::stillMethod() const {
 }
 
 void OutputPage::open() {
-  if (isOpen() || projection_.isOpening() || !chosen_ || playlist_.isEmpty() || !session_.busy().isEmpty())
+  if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
+      !session_.busy().isEmpty())
     return;
-  projection_.open(
-      {session_.path(), playlist_.settings(), session_.settings().content.fit, screens_[*chosen_].identity});
+  std::vector<ScreenIdentity> screens;
+  for (const auto& screen : chosen_) screens.push_back(screens_[*screen].identity);
+  projection_.open({session_.path(), playlist_.settings(), session_.settings().content.fit, screens});
 }
 
 void OutputPage::close() {
@@ -234,8 +268,13 @@ QStringList OutputPage::showArguments() const {
                         "--content", playlist_.file(),
                         "--canvas",  QString("%1x%2").arg(canvas.size.width()).arg(canvas.size.height()),
                         "--log",     QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)};
-  if (chosen_ && !screens_[*chosen_].identity.connector.isEmpty())
-    arguments << "--screen" << screens_[*chosen_].identity.connector;
+  // One for each projector, or by their sizes.
+  QStringList connectors;
+  for (const auto& screen : chosen_)
+    if (screen && !screens_[*screen].identity.connector.isEmpty())
+      connectors << screens_[*screen].identity.connector;
+  if (static_cast<std::size_t>(connectors.size()) == projectors())
+    for (const QString& connector : connectors) arguments << "--screen" << connector;
   return arguments;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "wizard/device_page.h"
 #include "wizard/output_playlist.h"
 #include "wizard/output_projection.h"
 #include "wizard/output_proof.h"
-#include "wizard/page_model.h"
-#include "wizard/session.h"
 
 namespace relucent {
 
@@ -17,7 +16,7 @@ struct OutputScreen {
 };
 
 /// Step 8: the content on the projector, corrected in real time; proved; handed over.
-class OutputPage : public PageModel {
+class OutputPage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -37,8 +36,13 @@ class OutputPage : public PageModel {
   void finish() override;
 
   const std::vector<OutputScreen>& screens() const { return screens_; }
-  std::optional<std::size_t> chosen() const { return chosen_; }
+  /// The shown projector's screen.
+  std::optional<std::size_t> chosen() const { return screenOf(projector()); }
+  /// Another projector that had that screen gets this one's in return.
   void choose(std::size_t index);
+  std::optional<std::size_t> screenOf(std::size_t projector) const {
+    return projector < chosen_.size() ? chosen_[projector] : std::nullopt;
+  }
 
   const OutputPlaylist& playlist() const { return playlist_; }
   void addFiles(const QStringList& files);
@@ -57,14 +61,14 @@ class OutputPage : public PageModel {
   /// What plays, and how it goes.
   OutputProjection& projection() { return projection_; }
   const OutputProjection& projection() const { return projection_; }
-  Size projectorSize() const { return session_.projectorSize(); }
+  /// Of the shown projector.
+  Size projectorSize() const { return session_.projectorSize(projector()); }
   /// Not the one for films: how pictures that stand are solved. Empty: like films.
   QString stillMethod() const;
 
   void open();
   void close();
 
-  Session& session() const { return session_; }
   const OutputProof& proof() const { return proof_; }
   /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
   void verify();
@@ -85,6 +89,10 @@ class OutputPage : public PageModel {
 
  private:
   void listScreens();
+  void chooseFreeScreen(std::size_t projector);
+  std::optional<std::size_t> projectorWithoutScreen() const;
+  QString missingScreen(std::size_t projector) const;
+  void projectorChanged() override { projection_.mirrorProjector(projector()); }
   void edit(const QString& what, const PlaylistSettings& after);
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
@@ -93,14 +101,13 @@ class OutputPage : public PageModel {
   QStringList showArguments() const;
   void tell(const Failure& failure);
 
-  Session& session_;
   OutputPlaylist playlist_;
   OutputProof proof_;
   OutputProjection projection_;
   std::vector<OutputScreen> screens_;
-  std::optional<std::size_t> chosen_;
-  bool reopen_ = false;  // when the photographs are taken
-  QString preferred_;    // Preview's picture
+  std::vector<std::optional<std::size_t>> chosen_;  // a projector's
+  bool reopen_ = false;                             // when the photographs are taken
+  QString preferred_;                               // Preview's picture
   QString config_;
   bool starts_ = true;
 };

@@ -2,6 +2,7 @@
 #include "wizard/output_projection.h"
 
 #include <QImageReader>
+#include <algorithm>
 
 #include "base/error.h"
 #include "jobs/core_sentences.h"
@@ -60,7 +61,7 @@ Canvas OutputProjection::canvasFor(const PlaylistSettings& list, Fit fit) {
 void OutputProjection::open(const Wanted& wanted) {
   require(!isOpen() && !isOpening() && !wanted.list.items.isEmpty(), "there is nothing to open");
   wanted_ = true;
-  screen_ = wanted.screen;
+  screens_ = wanted.screens;
   made_ = std::make_shared<Made>();
   job_.start([made = made_, tap = tap_, wanted](Progress& progress) {
     Progress preparing = progress.part(1.0, tr("Preparing the engine").toStdString());
@@ -90,20 +91,24 @@ void OutputProjection::play() {
   engine_ = made_->renderer->name();
   canvas_ = made_->renderer->canvas();
   content_ = std::exchange(made_->content, nullptr);
-  window_ = std::make_unique<ProjectorWindow>(screen_);
-  if (!window_->surface().keepsStep()) engine_ = tr("%1, shown without OpenGL").arg(engine_);
-  player_ = std::make_unique<Player>(std::move(made_->renderer), content_,
-                                     std::vector<ProjectorWindow*>{window_.get()});
+  std::vector<ProjectorWindow*> windows;
+  for (const ScreenIdentity& screen : screens_)
+    windows.push_back(windows_.emplace_back(std::make_unique<ProjectorWindow>(screen)).get());
+  bool keepStep = std::all_of(windows.begin(), windows.end(),
+                              [](const ProjectorWindow* window) { return window->surface().keepsStep(); });
+  if (!keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);
+  player_ = std::make_unique<Player>(std::move(made_->renderer), content_, windows);
   // What these lead to ends the objects that tell it: later, when they are done telling.
   auto closeLater = [this] {
     QMetaObject::invokeMethod(
         this, [this] { close(); }, Qt::QueuedConnection);
   };
-  // The player itself looks at the projector's other keys.
-  connect(window_.get(), &ProjectorWindow::keyPressed, this, [this, closeLater](int key) {
-    if (key == Qt::Key_Escape) closeLater();
-    Q_EMIT changed();
-  });
+  // The player itself looks at the projectors' other keys.
+  for (const auto& window : windows_)
+    connect(window.get(), &ProjectorWindow::keyPressed, this, [this, closeLater](int key) {
+      if (key == Qt::Key_Escape) closeLater();
+      Q_EMIT changed();
+    });
   connect(player_.get(), &Player::failed, this, [this, closeLater](const QString& sentence) {
     closeLater();
     Q_EMIT failed(
@@ -112,7 +117,7 @@ void OutputProjection::play() {
   awake_.emplace(tr("Relucent is projecting"));
   awake_->wakeDisplays();
   frameTimes_.clear();
-  window_->shine();
+  for (const auto& window : windows_) window->shine();
   player_->start();
   sampling_.start();
   if (!within_.isEmpty()) reflecting_.start();
@@ -131,9 +136,9 @@ void OutputProjection::close() {
   reflecting_.stop();
   job_.cancel();
   if (player_) player_->stop();
-  if (window_) window_->stop();
+  for (const auto& window : windows_) window->stop();
   player_ = nullptr;
-  window_ = nullptr;
+  windows_.clear();
   content_ = nullptr;
   awake_.reset();
   tap_->put({});
@@ -172,11 +177,18 @@ QStringList OutputProjection::skipped() const {
   return isOpen() && content_ ? content_->status().skipped : QStringList();
 }
 
-QImage OutputProjection::onProjector() const {
+QImage OutputProjection::onProjector(std::size_t projector) const {
   if (!player_) return {};
-  QImage drive = tap_->get();
+  QImage drive = tap_->get(projector);
   if (isBlack() && !drive.isNull()) drive.fill(Qt::black);
   return drive;
+}
+
+void OutputProjection::mirrorProjector(std::size_t projector) {
+  if (std::exchange(mirrored_, projector) == projector) return;
+  mirror_ = {};
+  reflected_ = 0;
+  Q_EMIT mirrored();
 }
 
 void OutputProjection::watch(QSize within) {
@@ -190,7 +202,7 @@ void OutputProjection::watch(QSize within) {
 
 void OutputProjection::reflect() {
   if (scaling_.isBusy()) return;
-  QImage drive = tap_->get();
+  QImage drive = tap_->get(mirrored_);
   if (drive.isNull()) return;
   bool black = isBlack();
   // A picture that stands is scaled once. Keys of pictures are positive.

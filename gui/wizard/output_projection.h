@@ -16,8 +16,8 @@ namespace relucent {
 
 class OutputTap;
 
-/// What plays on a projector's screen: engine, window and player, from opening to closing, and what of it the
-/// operator sees meanwhile.
+/// What plays on the projectors' screens: engine, windows and player, from opening to closing, and what of it
+/// the operator sees meanwhile.
 class OutputProjection : public QObject {
   Q_OBJECT
 
@@ -26,7 +26,7 @@ class OutputProjection : public QObject {
     std::filesystem::path calibration;
     PlaylistSettings list;
     Fit fit = Fit::fit;
-    ScreenIdentity screen;
+    std::vector<ScreenIdentity> screens;  // one a projector
   };
 
   explicit OutputProjection(QObject* parent = nullptr);
@@ -57,7 +57,7 @@ class OutputProjection : public QObject {
   PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }
   /// Frame times of the last minute, milliseconds, twice a second; the newest last.
   const std::deque<double>& frameTimes() const { return frameTimes_; }
-  /// What computes it, and that its window is drawn without OpenGL if it is.
+  /// What computes it, and that windows are drawn without OpenGL if one is.
   QString engineName() const { return engine_; }
   const Canvas& canvas() const { return canvas_; }
   /// Which item plays; -1: none.
@@ -65,9 +65,11 @@ class OutputProjection : public QObject {
   /// What of the list could not be read, the newest last.
   QStringList skipped() const;
 
-  /// What the first projector shows now, as far as this program knows; null while it is closed.
-  QImage onProjector() const;
-  /// The operator looks at the projector's picture in so many pixels; empty: nobody looks.
+  /// What a projector shows now, as far as this program knows; null while it is closed.
+  QImage onProjector(std::size_t projector = 0) const;
+  /// Which projector's picture the operator sees; the first one's to begin with.
+  void mirrorProjector(std::size_t projector);
+  /// The operator looks at that picture in so many pixels; empty: nobody looks.
   void watch(QSize within);
   /// That picture, no larger than wanted, renewed a few times a second and without a share in the show's
   /// work: it is scaled on another thread. Null while the projection is closed.
@@ -90,16 +92,17 @@ class OutputProjection : public QObject {
   Job job_;
   std::shared_ptr<Made> made_;
   std::shared_ptr<OutputTap> tap_;
-  ScreenIdentity screen_;
+  std::vector<ScreenIdentity> screens_;
   bool wanted_ = false;  // closed meanwhile, it does not open
   std::shared_ptr<Playlist> content_;
   Canvas canvas_;
-  std::unique_ptr<ProjectorWindow> window_;
+  std::vector<std::unique_ptr<ProjectorWindow>> windows_;
   std::unique_ptr<Player> player_;
   std::optional<Awake> awake_;
   QString engine_;
   QTimer sampling_, reflecting_;
   std::deque<double> frameTimes_;
+  std::size_t mirrored_ = 0;  // projector
   QSize within_;
   qint64 reflected_ = 0;  // which picture, and how, is in the mirror
   QImage mirror_;

@@ -4,26 +4,28 @@
 #include <QMutex>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "output/frame_renderer.h"
 
 namespace relucent {
 
-/// A copy of what went to the first projector, for the operator to see.
+/// A copy of what went to the projectors, for the operator to see.
 class OutputTap {
  public:
-  void put(const QImage& drive) {
+  void put(const std::vector<QImage>& drives) {
     QMutexLocker lock(&guard_);
-    drive_ = drive;
+    drives_ = drives;
   }
-  QImage get() const {
+  /// Null where there is none.
+  QImage get(std::size_t projector) const {
     QMutexLocker lock(&guard_);
-    return drive_;
+    return projector < drives_.size() ? drives_[projector] : QImage();
   }
 
  private:
   mutable QMutex guard_;
-  QImage drive_;
+  std::vector<QImage> drives_;
 };
 
 /// A renderer that lets somebody look on.
@@ -38,7 +40,7 @@ class TappedRenderer : public FrameRenderer {
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override {
     RenderedFrame frame = renderer_->render(content, request, outdated);
-    if (!frame.drives.empty()) tap_->put(frame.drives.front());
+    if (!frame.drives.empty()) tap_->put(frame.drives);
     return frame;
   }
 

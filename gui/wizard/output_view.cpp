@@ -11,6 +11,7 @@
 #include "views/image_view.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
+#include "wizard/device_selector.h"
 #include "wizard/output_inspector.h"
 #include "wizard/output_page.h"
 #include "wizard/page_view.h"
@@ -149,6 +150,7 @@ class OutputStage : public QWidget {
     projector_ = new Card(OutputPage::tr("On the projector now"));
     compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
     compare_->setObjectName("compare");
+    projector_->addAction(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
     projector_->addAction(compare_);
     output_ = new MirrorView(page_.projection());
     output_->setObjectName("output-view");

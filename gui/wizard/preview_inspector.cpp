@@ -60,8 +60,6 @@ QWidget* previewInspector(PreviewPage& page) {
   auto* error = new ValueRow(PreviewPage::tr("Colour error"));
   for (ValueRow* value : {reach, dark, never, error}) column->addWidget(value);
   auto* shadow = new Note(Note::Kind::information);
-  shadow->setText(PreviewPage::tr("Part of the picture gets no light from this projector."),
-                  PreviewPage::tr("A second could fill it."));
   column->addWidget(shadow);
   column->addStretch(1);
 
@@ -103,6 +101,12 @@ QWidget* previewInspector(PreviewPage& page) {
     problem->setText(page.problem());
     constexpr double worthSaying = 0.01;
     shadow->setVisible(page.preview() && page.preview()->unlit > worthSaying);
+    if (page.projectors() == 1)
+      shadow->setText(PreviewPage::tr("Part of the picture gets no light from this projector."),
+                      PreviewPage::tr("A second could fill it."));
+    else
+      shadow->setText(PreviewPage::tr("Part of the picture gets no light from any projector."),
+                      PreviewPage::tr("Another one could fill it."));
     if (const auto& preview = page.preview()) {
       reach->setValue(percentText(preview->reachableShare), preview->reachableShare > 0.8 ? "good" : "amber");
       dark->setValue(percentText(preview->tooDark));

@@ -9,7 +9,8 @@
 
 namespace relucent {
 
-/// Step 7: content in its place, before it is projected.
+/// Step 7: content in its place, before it is projected. It lies in the first camera's view, and what all
+/// projectors give together is shown: there is no device to choose.
 class PreviewPage : public PageModel {
   Q_OBJECT
 
@@ -31,6 +32,7 @@ class PreviewPage : public PageModel {
   void finish() override { job_.cancel(); }
 
   bool isReady() const { return engine_ != nullptr; }
+  std::size_t projectors() const { return session_.projectors(); }
   const ContentSettings& settings() const { return settings_; }
   /// `what`: changed, in the list of what can be undone.
   void setSettings(const ContentSettings& settings, const QString& what = tr("Content"));

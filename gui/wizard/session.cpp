@@ -18,6 +18,16 @@ namespace {
 
 constexpr int audienceLimit = 3;  // patterns a second
 
+/// Holds other screens up as the rig's own projectors, which their pictures are not to be taken for.
+class HeldUp : public RigWatcher {
+ public:
+  explicit HeldUp(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
+  void beforeShowing(std::size_t index, RigLight& light) override { live_->beforeShowing(index, light); }
+
+ private:
+  std::shared_ptr<LiveRig> live_;
+};
+
 struct ProjectorSize {
   Size operator()(const ReplayRigSettings&) const { return {}; }  // only the recording knows
   Size operator()(const auto& rig) const { return rig.projector; }
@@ -52,7 +62,7 @@ void SessionDevices::prove(Progress& progress) {
   Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
   for (const ScreenRigSettings& other : askForOtherScreens(std::get<ScreenRigSettings>(settings_)))
     beside.projectors.push_back(delayed(screens_(other), unmeasuredLatency(), sleepFor));
-  beside = watched(std::move(beside), live_);
+  beside = watched(std::move(beside), std::make_shared<HeldUp>(live_));
   std::vector<Projector*> others;
   for (const std::unique_ptr<Projector>& other : beside.projectors) others.push_back(other.get());
   const ScreenExposure exposureOf = [&](Projector& screen) {
@@ -230,7 +240,34 @@ bool Session::hasLight() const {
   return std::holds_alternative<CommandRigSettings>(settings_.rig) || screenRig() != nullptr;
 }
 
-Size Session::projectorSize() const {
+std::size_t Session::projectors() const {
+  return measuredDevices("projectors").value_or(projectorsOf(settings_.rig));
+}
+
+std::size_t Session::projectorsOf(const RigSettings& rig) {
+  if (const auto* simulated = std::get_if<VenueSettings>(&rig))
+    for (const VenueDescription& venue : venues())
+      if (venue.name == simulated->name) return static_cast<std::size_t>(venue.projectors);
+  return 1;
+}
+
+std::size_t Session::cameras() const {
+  return measuredDevices("cameras").value_or(1);
+}
+
+/// As the results of measurements list them.
+std::optional<std::size_t> Session::measuredDevices(const char* kind) const {
+  for (Step step : {Step::acquisition, Step::linearization})
+    if (const auto& stored = result(step); stored && stored->values.contains(kind))
+      return std::max<std::size_t>(1, stored->values[kind].size());
+  return std::nullopt;
+}
+
+Size Session::projectorSize(std::size_t projector) const {
+  if (const auto& measured = result(Step::acquisition); measured && projector < projectors()) {
+    const Json& size = measured->values.at("projectors").at(projector);
+    return {size.at(0), size.at(1)};
+  }
   return std::visit(ProjectorSize{}, settings_.rig);
 }
 

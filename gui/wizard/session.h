@@ -99,7 +99,12 @@ class Session : public QObject {
   bool isSimulated() const;
   /// The projector is a screen of the desktop; nullptr: it is not.
   const ScreenRigSettings* screenRig() const { return std::get_if<ScreenRigSettings>(&settings_.rig); }
-  Size projectorSize() const;
+  /// How many there are, as they were measured; before that, as the rig is described.
+  std::size_t projectors() const;
+  std::size_t cameras() const;
+  /// As a rig is described; only its measurement tells how many a recording has.
+  static std::size_t projectorsOf(const RigSettings& rig);
+  Size projectorSize(std::size_t projector = 0) const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
   int photographsKept(Step step) const;
 
@@ -153,6 +158,7 @@ class Session : public QObject {
   };
   void look(const CalibrationFolder& folder);
   void adopt(const CalibrationFolder& folder);
+  std::optional<std::size_t> measuredDevices(const char* kind) const;
   void slowDown();
   /// Devices that shine into a room.
   bool hasLight() const;

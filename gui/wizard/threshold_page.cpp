@@ -12,6 +12,12 @@ namespace {
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
 
+std::size_t deviceOf(const Rasters& rasters, std::size_t index) {
+  std::size_t device = 0;
+  while (index >= rasters.offset(device) + rasters.size(device).count()) ++device;
+  return device;
+}
+
 bool dropsNothing(const ThresholdSettings& cut) {
   return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
 }
@@ -41,8 +47,7 @@ TransportStatistics estimated(const TransportStatistics& whole, double cut) {
 }  // namespace
 
 ThresholdPage::ThresholdPage(Session& session, QObject* parent)
-    : PageModel(parent),
-      session_(session),
+    : DevicePage(session, parent),
       statistics_(
           [this](TransportStatistics statistics) {
             // Lowered to nothing meanwhile, the cut leaves everything.
@@ -64,13 +69,12 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           }),
       looking_(
           [this](std::shared_ptr<const PixelFootprint> footprint) {
-            if (!adopted_ || footprint->luminance.size() != adopted_->transport.projectors().count()) return;
+            if (!adopted_ || !picked_ ||
+                footprint->luminance.size() != adopted_->transport.projectors().count())
+              return;
             footprint_ = std::move(footprint);
-            if (std::exchange(follows_, false) && footprint_->pixels > 0 &&
-                footprint_->strongest < adopted_->transport.projectors().size(0).count()) {
-              pickedProjector_ = pixelAt(adopted_->transport.projectors().size(0), footprint_->strongest);
-              lookAtColumn();
-            }
+            // Not the answer of before, while a newer one is on its way.
+            if (!looking_.isBusy() && std::exchange(follows_, false)) followFootprint();
             Q_EMIT changed();
           },
           [this](const Failure& failure) {
@@ -78,7 +82,8 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           }),
       lighting_(
           [this](std::shared_ptr<const std::vector<float>> lit) {
-            if (!adopted_ || lit->size() != adopted_->transport.cameras().count()) return;
+            if (!adopted_ || !pickedProjector_ || lit->size() != adopted_->transport.cameras().count())
+              return;
             lit_ = std::move(lit);
             Q_EMIT changed();
           },
@@ -218,28 +223,66 @@ void ThresholdPage::pickProjector(Pixel pixel) {
 
 void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
   if (!adopted_) return;
-  Size camera = adopted_->transport.cameras().size(0), projector = adopted_->transport.projectors().size(0);
-  if (row >= camera.count() || column >= projector.count()) return;
-  picked_ = pixelAt(camera, row);
-  pickedProjector_ = pixelAt(projector, column);
+  const Rasters &cameras = adopted_->transport.cameras(), &projectors = adopted_->transport.projectors();
+  if (row >= cameras.count() || column >= projectors.count()) return;
+  showCamera(deviceOf(cameras, row));
+  showProjector(deviceOf(projectors, column));
+  picked_ = pixelAt(cameras.size(camera()), row - cameras.offset(camera()));
+  pickedProjector_ = pixelAt(projectors.size(projector()), column - projectors.offset(projector()));
   follows_ = false;
   lookAtRow();
   lookAtColumn();
   Q_EMIT changed();
 }
 
+std::optional<std::size_t> ThresholdPage::pickedRow() const {
+  if (!adopted_ || !picked_) return std::nullopt;
+  const Rasters& cameras = adopted_->transport.cameras();
+  return cameras.offset(camera()) + indexOf(cameras.size(camera()), *picked_);
+}
+
+std::optional<std::size_t> ThresholdPage::pickedColumn() const {
+  if (!adopted_ || !pickedProjector_) return std::nullopt;
+  const Rasters& projectors = adopted_->transport.projectors();
+  return projectors.offset(projector()) + indexOf(projectors.size(projector()), *pickedProjector_);
+}
+
 void ThresholdPage::lookAtRow() {
-  std::size_t row = indexOf(adopted_->transport.cameras().size(0), *picked_);
-  looking_.ask([acquisition = adopted_, row]() -> std::shared_ptr<const PixelFootprint> {
+  looking_.ask([acquisition = adopted_, row = *pickedRow()]() -> std::shared_ptr<const PixelFootprint> {
     return std::make_shared<PixelFootprint>(footprintOf(acquisition->transport, row));
   });
 }
 
 void ThresholdPage::lookAtColumn() {
-  std::size_t column = indexOf(adopted_->transport.projectors().size(0), *pickedProjector_);
-  lighting_.ask([acquisition = adopted_, column]() -> std::shared_ptr<const std::vector<float>> {
-    return std::make_shared<std::vector<float>>(lightOfPixel(acquisition->transport, column));
-  });
+  lighting_.ask(
+      [acquisition = adopted_, column = *pickedColumn()]() -> std::shared_ptr<const std::vector<float>> {
+        return std::make_shared<std::vector<float>>(lightOfPixel(acquisition->transport, column));
+      });
+}
+
+/// The pixel of the shown projector that lights the picked camera pixel most, if any does.
+void ThresholdPage::followFootprint() {
+  const Rasters& projectors = adopted_->transport.projectors();
+  auto begin = footprint_->luminance.begin() + static_cast<std::ptrdiff_t>(projectors.offset(projector()));
+  auto end = begin + static_cast<std::ptrdiff_t>(projectors.size(projector()).count());
+  auto strongest = std::max_element(begin, end);
+  if (!(*strongest > 0.0f)) return;
+  pickedProjector_ = pixelAt(projectors.size(projector()), static_cast<std::size_t>(strongest - begin));
+  lookAtColumn();
+}
+
+/// The camera pixel stays, and is looked at from the other projector.
+void ThresholdPage::projectorChanged() {
+  pickedProjector_.reset();
+  lit_ = nullptr;
+  if (footprint_ && !looking_.isBusy()) followFootprint();
+}
+
+/// What the projector's pixel lights is seen by the other camera as well; the camera's pixel is not there.
+void ThresholdPage::cameraChanged() {
+  picked_.reset();
+  footprint_ = nullptr;
+  follows_ = false;
 }
 
 void ThresholdPage::accept() {

@@ -5,13 +5,12 @@
 #include "transport/footprint.h"
 #include "transport/matrix_density.h"
 #include "transport/statistics.h"
-#include "wizard/page_model.h"
-#include "wizard/session.h"
+#include "wizard/device_page.h"
 
 namespace relucent {
 
 /// Step 5: the faintest light that is worth keeping.
-class ThresholdPage : public PageModel {
+class ThresholdPage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -48,27 +47,32 @@ class ThresholdPage : public PageModel {
   /// Pictures of what the cut leaves of T; follows the cut.
   const std::shared_ptr<const MatrixPictures>& matrix() const { return matrix_; }
 
-  /// A pixel of the first camera that is looked at, and where its light comes from: its row of T.
-  /// The first projector's strongest pixel is then looked at as well.
+  /// A pixel of the shown camera that is looked at, and where its light comes from: its row of T.
+  /// The shown projector's strongest pixel is then looked at as well.
   void pick(Pixel pixel);
   const std::optional<Pixel>& picked() const { return picked_; }
   const std::shared_ptr<const PixelFootprint>& footprint() const { return footprint_; }
-  /// A pixel of the first projector that is looked at, and what it lights: its column of T.
+  /// A pixel of the shown projector that is looked at, and what it lights: its column of T.
   void pickProjector(Pixel pixel);
   const std::optional<Pixel>& pickedProjector() const { return pickedProjector_; }
   const std::shared_ptr<const std::vector<float>>& lit() const { return lit_; }
-  /// Both at once: an entry of T. Beyond the first camera and projector nothing is picked.
+  /// Both at once: an entry of T. Its camera and projector are shown from now on.
   void pickEntry(std::size_t row, std::size_t column);
+  /// What is picked as an entry of T; none while anything is missing.
+  std::optional<std::size_t> pickedRow() const;
+  std::optional<std::size_t> pickedColumn() const;
 
  private:
   void adopt();
   void forget();
   void lookAtRow();
   void lookAtColumn();
+  void followFootprint();
+  void projectorChanged() override;
+  void cameraChanged() override;
   void compute();
   void accept();
 
-  Session& session_;
   std::shared_ptr<const Acquisition> adopted_;
   ThresholdSettings cut_;
   bool shareOfRow_ = false;
@@ -78,7 +82,7 @@ class ThresholdPage : public PageModel {
   std::shared_ptr<const PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;
   std::shared_ptr<const MatrixPictures> matrix_;
-  bool follows_ = false;  // the projector's pixel is to be the picked row's strongest
+  bool follows_ = false;  // the projector's pixel is to be the picked row's strongest in that projector
   Latest<TransportStatistics> statistics_, first_;
   Latest<std::shared_ptr<const PixelFootprint>> looking_;
   Latest<std::shared_ptr<const std::vector<float>>> lighting_;

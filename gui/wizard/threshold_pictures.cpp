@@ -10,6 +10,7 @@
 #include "views/matrix_view.h"
 #include "views/number_text.h"
 #include "views/view_actions.h"
+#include "wizard/device_selector.h"
 #include "wizard/threshold_page.h"
 
 namespace relucent {
@@ -33,6 +34,12 @@ QImage glowOf(std::span<const float> light, Size size, const QColor& colour) {
   return image;
 }
 
+/// A device's share of what there is of all pixels.
+std::span<const float> ofDevice(const std::vector<float>& values, const Rasters& rasters,
+                                std::size_t device) {
+  return std::span(values).subspan(rasters.offset(device), rasters.size(device).count());
+}
+
 /// The surface and the projector's picture, one at a time: a pixel that is picked in one is followed through
 /// T into the other.
 class DeviceViews : public Card {
@@ -54,6 +61,8 @@ class DeviceViews : public Card {
     views->addWidget(flood_);
     views->addWidget(print_);
     body()->addWidget(views, 1);
+    addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, this));
+    addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, this));
     auto* which = new Segmented({ThresholdPage::tr("Camera"), ThresholdPage::tr("Projector")});
     which->setObjectName("device");
     addAction(which);
@@ -72,24 +81,27 @@ class DeviceViews : public Card {
  private:
   QString readout(QPoint pixel) const {
     if (!model_.footprint() || !model_.acquisition()) return {};
-    Size size = model_.acquisition()->transport.projectors().size(0);
-    const float light = model_.footprint()->luminance[indexOf(size, {pixel.x(), pixel.y()})];
+    const Rasters& projectors = model_.acquisition()->transport.projectors();
+    std::span<const float> shown = ofDevice(model_.footprint()->luminance, projectors, model_.projector());
+    const float light = shown[indexOf(projectors.size(model_.projector()), {pixel.x(), pixel.y()})];
     return isolated(
         QString("%1: %2").arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(light))));
   }
 
   void refresh() {
-    if (model_.acquisition() != shown_) {
+    bool otherCamera = std::exchange(camera_, model_.camera()) != model_.camera();
+    bool otherProjector = std::exchange(projector_, model_.projector()) != model_.projector();
+    if (model_.acquisition() != shown_ || otherCamera) {
       shown_ = model_.acquisition();
       if (shown_) {
-        Image flood = imageFromStack(shown_->flood, shown_->transport.cameras(), 0);
+        Image flood = imageFromStack(shown_->flood, shown_->transport.cameras(), camera_);
         flood_->setPicture(pictureOf(flood, displayWhite(flood)));
       } else {
         flood_->setPicture({});
       }
     }
-    showFootprint();
-    showLit();
+    if (model_.footprint() != footprint_ || otherProjector) showFootprint();
+    if (model_.lit() != lit_ || otherCamera) showLit();
     // The other views' picks; theirs to say, not the user's.
     following_ = true;
     show(flood_->link(), model_.picked());
@@ -103,23 +115,23 @@ class DeviceViews : public Card {
   }
 
   void showFootprint() {
-    if (model_.footprint() == footprint_) return;
     footprint_ = model_.footprint();
     if (!footprint_ || !shown_) return print_->setPicture({});
     const Rasters& projectors = shown_->transport.projectors();
-    std::span<const float> first(footprint_->luminance.data(), projectors.size(0).count());
+    // One scale for all projectors: they are compared.
     double most = std::max(1e-12, static_cast<double>(footprint_->luminance[footprint_->strongest]));
     ColourScale scale{ColourMap::viridis, most * 1e-4, most, true};
     print_->setScale(scale, ThresholdPage::tr("transport"), false);
-    print_->setPicture(mapped(first, projectors.size(0), scale));
+    print_->setPicture(
+        mapped(ofDevice(footprint_->luminance, projectors, projector_), projectors.size(projector_), scale));
   }
 
   void showLit() {
-    if (model_.lit() == lit_) return;
     lit_ = model_.lit();
     if (!lit_ || !shown_) return flood_->setOverlay({});
-    Size size = shown_->transport.cameras().size(0);
-    flood_->setOverlay(glowOf(std::span(lit_->data(), size.count()), size, colours(Look::dark).accent));
+    const Rasters& cameras = shown_->transport.cameras();
+    flood_->setOverlay(
+        glowOf(ofDevice(*lit_, cameras, camera_), cameras.size(camera_), colours(Look::dark).accent));
   }
 
   ThresholdPage& model_;
@@ -127,6 +139,7 @@ class DeviceViews : public Card {
   std::shared_ptr<const Acquisition> shown_;
   std::shared_ptr<const PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;
+  std::size_t camera_ = 0, projector_ = 0;
   bool following_ = false;
 };
 
@@ -160,12 +173,8 @@ class MatrixCard : public Card {
       view_->setMatrix(shown_);
     }
     std::optional<QPoint> pick;
-    if (shown_ && model_.picked() && model_.pickedProjector()) {
-      Size camera = shown_->transport().cameras().size(0),
-           projector = shown_->transport().projectors().size(0);
-      pick = QPoint(static_cast<int>(indexOf(projector, *model_.pickedProjector())),
-                    static_cast<int>(indexOf(camera, *model_.picked())));
-    }
+    auto row = model_.pickedRow(), column = model_.pickedColumn();
+    if (shown_ && row && column) pick = QPoint(static_cast<int>(*column), static_cast<int>(*row));
     following_ = true;
     if (view_->link().pick() != pick) view_->link().setPick(pick);
     following_ = false;

@@ -7,6 +7,7 @@
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
 #include "views/number_text.h"
+#include "views/raster_axis.h"
 #include "wizard/page_view.h"
 #include "wizard/threshold_page.h"
 #include "wizard/threshold_pictures.h"
@@ -136,8 +137,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     picked->setText(ThresholdPage::tr("Picked pixel %1, %2").arg(model.picked()->x).arg(model.picked()->y));
     const auto pixels = static_cast<int>(footprint.pixels);
     litBy->setValue(groupedText(ThresholdPage::tr("%n pixel(s)", nullptr, pixels), pixels));
-    Pixel at = pixelAt(model.acquisition()->transport.projectors().size(0), footprint.strongest);
-    strongest->setValue(placeText(at.x, at.y));
+    strongest->setValue(pixelText(model.acquisition()->transport.projectors(), footprint.strongest));
     direct->setValue(percentText(footprint.nearShare));
     elsewhere->setValue(percentText(1.0 - footprint.nearShare));
   };

@@ -32,6 +32,8 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
        ":/venues/depth.png"},
       {"dome", QT_TR_NOOP("Dome"), QT_TR_NOOP("Every part lights every other part"), ":/venues/dome.png"},
       {"glass", QT_TR_NOOP("Wine glass"), QT_TR_NOOP("Light is refracted both ways"), ":/venues/glass.png"},
+      {"relief", QT_TR_NOOP("Relief, two projectors"), QT_TR_NOOP("Each shines into the other's shadows"),
+       ":/venues/relief.png"},
       {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
        ":/venues/plain.png"}};
   setSizes({{{64, 48}, {48, 36}, QT_TR_NOOP("%1, a first look")},
@@ -235,7 +237,8 @@ WorkLeft VenuePage::expected() const {
   }
   constexpr std::size_t exposures = 2;
   constexpr double meanExposure = 0.1;
-  return forecast(Rasters(camera), Rasters(projector), exposures, meanExposure, {}, {}, {});
+  Rasters projectors(std::vector<Size>(Session::projectorsOf(wanted().rig), projector));
+  return forecast(Rasters(camera), projectors, exposures, meanExposure, {}, {}, {});
 }
 
 QString VenuePage::problem() const {

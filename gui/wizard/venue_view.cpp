@@ -79,6 +79,7 @@ QWidget* rehearseStage(VenuePage& model) {
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(space::gap);
   auto* group = new QButtonGroup(stage);
+  constexpr int across = 4;
   for (std::size_t i = 0; i < model.venues().size(); ++i) {
     const RehearsalVenue& venue = model.venues()[i];
     auto* tile = new Tile(QImage(venue.picture), VenuePage::tr(venue.name), VenuePage::tr(venue.sentence));
@@ -86,7 +87,7 @@ QWidget* rehearseStage(VenuePage& model) {
     tile->setCheckable(true);
     tile->setChecked(i == model.venue());
     group->addButton(tile, static_cast<int>(i));
-    grid->addWidget(tile, static_cast<int>(i) / 3, static_cast<int>(i) % 3);
+    grid->addWidget(tile, static_cast<int>(i) / across, static_cast<int>(i) % across);
   }
   QObject::connect(group, &QButtonGroup::idClicked, &model,
                    [&model](int id) { model.chooseVenue(static_cast<std::size_t>(id)); });

@@ -40,9 +40,13 @@ class LoggedCamera : public Camera {
 class Notes : public RigWatcher {
  public:
   explicit Notes(QStringList& log) : log_(log) {}
-  void beforeShowing(std::size_t index, Projector& projector) override {
+  void beforeShowing(std::size_t index, RigLight& light) override {
     log_ << QString("before %1").arg(index);
-    if (paused) projector.show(Image({2, 1}, 3, 0.0f));
+    if (paused) {
+      light.darken();
+      log_ << "resumed";
+      light.restore();
+    }
     if (fails) throw std::runtime_error("no more");
   }
   void shown(std::size_t index, const Image& drive) override {
@@ -92,10 +96,15 @@ class TestWatchedRig : public QObject {
              QStringList({"before 1", "show 0.25", "shown 1 0.25", "capture 7", "photographed 0 7 0.5"}));
   }
 
-  void aPauseMayShowBlackThroughTheProjectorItself() {
+  /// Of the first shot each projector is dark; later, the one that has its pattern already has it again.
+  void aPauseDarkensAllProjectorsAndGivesTheirPatternsBack() {
     notes_->paused = true;
     rig_.projectors[0]->show(Image({2, 1}, 3, 1.0f));
-    QCOMPARE(log_, QStringList({"before 0", "show 0", "show 1", "shown 0 1"}));
+    QCOMPARE(log_, QStringList({"before 0", "show 0", "show 0", "resumed", "show 1", "shown 0 1"}));
+    log_.clear();
+    rig_.projectors[1]->show(Image({2, 1}, 3, 0.5f));
+    QCOMPARE(log_,
+             QStringList({"before 1", "show 0", "show 0", "resumed", "show 1", "show 0.5", "shown 1 0.5"}));
   }
 
   void whatTheWatcherThrowsEndsTheCall() {

@@ -104,6 +104,53 @@ class TestTracer : public QObject {
     compare("corner", floodOf(tracer, 0), 1.0 - static_cast<double>(vignetting) * share, 0.005);
   }
 
+  void shadowsOfTwoProjectors_data() {
+    QTest::addColumn<float>("place");
+    QTest::addColumn<bool>("fromLeft");
+    QTest::addColumn<bool>("fromRight");
+    // The shadow's edges lie at (3 b + 0.5 * 1.5) / 2.5 for the bar's edges b = -0.1 and 0.1: 0.18 and 0.42.
+    QTest::newRow("beside all shadows") << 0.43f << true << true;
+    QTest::newRow("within the left one's") << 0.41f << false << true;
+    QTest::newRow("within it, inner edge") << 0.19f << false << true;
+    QTest::newRow("between the shadows") << 0.17f << true << true;
+    QTest::newRow("within the right one's") << -0.41f << true << false;
+    QTest::newRow("beside, at the left") << -0.43f << true << true;
+  }
+  /// A bar before a wall throws a shadow for each of two projectors, where the other one shines. The edge of
+  /// a shadow, for a projector at (a, 0, d) and the bar's edge at (b, h): similar triangles,
+  ///   x = (d b - h a) / (d - h)
+  /// and what is lit has irradiance focus^2 / (cos^3 r^2) times the cosine at the wall.
+  void shadowsOfTwoProjectors() {
+    QFETCH(float, place);
+    QFETCH(bool, fromLeft);
+    QFETCH(bool, fromRight);
+    Scene scene;
+    scene.surfaces.push_back(grey(rectangle({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}), 0.6f));
+    scene.surfaces.push_back(grey(rectangle({-0.1f, -3, 0.5f}, {0.2f, 0, 0}, {0, 6, 0}), 0.6f));
+    for (float side : {-1.5f, 1.5f})
+      scene.projectors.push_back(projectorAt({side, 0, 3}, {0, 0, 0}, {64, 48}, 1.5f));
+    Vector3f point(place, 0, 0);
+    scene.camera = cameraAt({place, 0, 2}, point, {1, 1}, 1000.0f);
+    Tracer tracer(scene, {.pathsPerPixel = 64, .longestPath = 0});
+    TransportRow row;
+    tracer.trace(0, row);
+    double found[2] = {0.0, 0.0};
+    for (const TransportRow::Entry& entry : row.entries())
+      found[entry.node.projector] += static_cast<double>(entry.transport[0]);
+    const bool lit[2] = {fromLeft, fromRight};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ProjectorOptics& projector = scene.projectors[i];
+      Vector3f way = point - projector.pose.position;
+      float distance = way.norm(), cosine = projector.pose.forward.dot(way) / distance;
+      float expected = 0.6f * projector.focus * projector.focus / (cosine * cosine * cosine) /
+                       (distance * distance) * (-way.z() / distance);
+      if (lit[i])
+        compare(i == 0 ? "left" : "right", found[i], static_cast<double>(expected), 0.002);
+      else
+        QCOMPARE(found[i], 0.0);
+    }
+  }
+
   void insideOfSphere_data() {
     QTest::addColumn<float>("reflectance");
     for (float reflectance : {0.3f, 0.6f, 0.8f})

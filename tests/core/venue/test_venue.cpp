@@ -89,6 +89,53 @@ class TestVenue : public QObject {
       QVERIFY(std::abs(predicted[i] + venue.trueBlack()[i] - seen[i]) < 1e-4f * largest);
   }
 
+  void everyVenueHasTheProjectorsThatItSays_data() { forEachVenue(); }
+  void everyVenueHasTheProjectorsThatItSays() {
+    QFETCH(QString, name);
+    auto offer = std::find_if(venues().begin(), venues().end(), [&](const VenueDescription& venue) {
+      return venue.name == name.toStdString();
+    });
+    Progress progress;
+    SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
+    QCOMPARE(venue.rig().projectors.size(), static_cast<std::size_t>(offer->projectors));
+    QCOMPARE(venue.trueTransport().projectors(),
+             Rasters(std::vector<Size>(venue.rig().projectors.size(), Size{64, 48})));
+  }
+
+  /// Superposition: what two projectors give together is what each gives alone, black counted once.
+  void theReliefsProjectorsAddUp() {
+    Progress progress;
+    SimulatedVenue venue(smallVenue("relief"), {}, progress);
+    const Image white({64, 48}, 3, 1.0f), black({64, 48}, 3, 0.0f);
+    Stack left = venue.trueRadiance({white, black}), right = venue.trueRadiance({black, white});
+    Stack dark = venue.trueRadiance({black, black}), both = venue.trueRadiance({white, white});
+    float largest = *std::max_element(both.begin(), both.end());
+    for (std::size_t i = 0; i < both.size(); ++i)
+      // Products of single floats, some hundred to a sum.
+      QVERIFY(std::abs(left[i] + right[i] - dark[i] - both[i]) < 1e-5f * largest);
+  }
+
+  /// Each projector shines into the other's shadows, and hardly anything is dark for both.
+  void theReliefHasTwoSortsOfShadows() {
+    Progress progress;
+    SimulatedVenue venue(smallVenue("relief"), {}, progress);
+    const BlockSparse& leaves = venue.trueTransport().leaves();
+    const NodeLayout& layout = venue.trueTransport().layout();
+    int lit[4] = {0, 0, 0, 0};  // by neither, the first, the second, both
+    for (std::size_t row = 0; row < leaves.rows(); ++row) {
+      float direct[2] = {0.0f, 0.0f};
+      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+        Node node = layout.node(leaves.column(entry));
+        if (node.level == 0) direct[node.projector] += leaves.block(row, entry).sum();
+      }
+      float least = 0.02f * (direct[0] + direct[1]);
+      ++lit[(direct[0] > least ? 1 : 0) + (direct[1] > least ? 2 : 0)];
+    }
+    qInfo("lit by neither %d, the first %d, the second %d, both %d", lit[0], lit[1], lit[2], lit[3]);
+    QVERIFY(lit[0] < 0.03 * 1200 && lit[3] > 0.5 * 1200);
+    QVERIFY(lit[1] > 0.03 * 1200 && lit[2] > 0.03 * 1200);
+  }
+
   void blackIsOneOverContrast() {
     VenueSettings settings = smallVenue("plain");
     settings.devices.ambient = 0.0;

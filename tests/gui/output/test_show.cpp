@@ -214,6 +214,9 @@ class TestShow : public QObject {
     QVERIFY(mentions(sentence({QSize(1920, 1200)}, {}), "1920x1200"));
     QVERIFY(mentions(sentence({QSize(1366, 768)}, {}), "operator's"));  // there, and not to be taken
     QVERIFY(mentions(sentence({projectorSize, projectorSize}, {}), "DUMMY1 (1024x768)"));
+    QVERIFY(mentions(sentence({projectorSize, projectorSize}, {}),
+                     "each of the 2 projectors needs a display of its own"));
+    QVERIFY(mentions(sentence({projectorSize, projectorSize}, {}), "for projector 2"));
     QVERIFY(mentions(sentence({projectorSize}, {"A", "B"}), "2 displays are named for 1"));
   }
 };

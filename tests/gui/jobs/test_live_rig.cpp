@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What is seen of a rig of two projectors and two cameras while it measures.
+#include "jobs/live_rig.h"
+
+#include <QSignalSpy>
+#include <QtTest>
+
+using namespace relucent;
+
+namespace {
+
+Image even(float red) {
+  Image pattern({2, 2}, 3, 0.0f);
+  for (std::size_t i = 0; i < pattern.pixels(); ++i) pattern.pixel(i)[0] = red;
+  return pattern;
+}
+
+RawFrame lit(float signal) {
+  return {Image({2, 2}, 3, signal), 12, 0.5};
+}
+
+}  // namespace
+
+class TestLiveRig : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void eachDeviceHasItsOwnPicture() {
+    LiveRig live(0);
+    QVERIFY(live.pictures(1, 1).pattern.empty() && live.pictures(1, 1).frame.signal.empty());
+    live.shown(0, even(0.0f));
+    live.shown(1, even(0.7f));
+    live.photographed(0, {{"stage", 3}, 0, 0.5}, lit(0.1f));
+    live.photographed(1, {{"stage", 3}, 1, 0.5}, lit(0.2f));
+    QCOMPARE(live.pictures().pattern, even(0.0f));
+    QCOMPARE(live.pictures(1).pattern, even(0.7f));
+    QCOMPARE(live.pictures(0, 1).frame.signal, lit(0.2f).signal);
+    QCOMPARE(live.pictures(0, 1).request.exposure, 1);
+    QCOMPARE(live.pictures(1, 0).frame.signal, lit(0.1f).signal);
+    QCOMPARE(live.pictures(1, 1).photographs, 2);
+  }
+
+  void everyCamerasPhotographIsTold() {
+    LiveRig live(0);
+    QSignalSpy seen(&live, &LiveRig::seen);
+    live.photographed(0, {}, lit(0.1f));
+    live.photographed(1, {}, lit(0.1f));
+    QCOMPARE(seen.size(), 2);
+  }
+
+  /// Black belongs to both; one that shines alone has the light; together it is no one's.
+  void aRampIsOfTheProjectorThatShinesAlone() {
+    LiveRig live(0);
+    auto show = [&live](float first, float second, float signal) {
+      live.shown(0, even(first));
+      live.shown(1, even(second));
+      live.photographed(0, {}, lit(signal));
+    };
+    show(0.0f, 0.0f, 0.1f);
+    show(1.0f, 0.0f, 0.5f);
+    show(0.5f, 0.0f, 0.2f);
+    show(0.0f, 1.0f, 0.3f);
+    show(0.0f, 0.5f, 0.25f);
+    show(1.0f, 1.0f, 0.9f);
+    QVERIFY(std::abs(live.ramps(0)[0].at(0.5) - 0.25) < 1e-6);
+    QVERIFY(std::abs(live.ramps(1)[0].at(0.5) - 0.75) < 1e-6);
+    QCOMPARE(live.ramps(0)[0].at(1.0), 1.0);
+    QVERIFY(live.ramps(2)[0].empty());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveRig)
+#include "test_live_rig.moc"

@@ -11,7 +11,9 @@
 
 #include "base/error.h"
 #include "output/installation.h"
+#include "output/window_projector.h"
 #include "wizard/preview_page.h"
+#include "wizard/screen_choice.h"
 
 namespace relucent {
 
@@ -22,11 +24,16 @@ OutputPage::OutputPage(Session& session, QObject* parent)
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   connect(&session_, &Session::opened, this, [this] {
     close();
+    chosen_.reset();
+    reportFile_.clear();
+    listScreens();
+    lookForShow();
     preferred_ = QString::fromStdString(session_.settings().content.picture);
     playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
                    preferred_);
   });
   connect(&session_, &Session::changed, this, [this] {
+    followScreen();
     QString picture = QString::fromStdString(session_.settings().content.picture);
     if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
     Q_EMIT changed();
@@ -38,8 +45,11 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&proof_, &OutputProof::changed, this, &OutputPage::changed);
   connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
-  connect(&proof_, &OutputProof::reported, this,
-          [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
+  connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
+    reportFile_ = file;
+    QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+    Q_EMIT changed();
+  });
   connect(&projection_, &OutputProjection::changed, this, &OutputPage::changed);
   connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
@@ -66,43 +76,102 @@ void OutputPage::listScreens() {
     screens_.push_back(
         {identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen()});
   for (std::size_t i = 0; i < screens_.size(); ++i)
-    if ((before && screens_[i].identity == *before) || (!before && !chosen_ && !screens_[i].operators))
-      chosen_ = i;
+    if (before && screens_[i].identity == *before) chosen_ = i;
+  // What was chosen and went away may come back: no other shines in its place.
+  if (!chosen_ && (!before || session_.screenRig() != nullptr)) chosen_ = usualScreen();
   Q_EMIT changed();
+}
+
+/// The one that was measured, and no other in its place; where none was, one that nobody works at.
+std::optional<std::size_t> OutputPage::usualScreen() const {
+  if (const ScreenRigSettings* measured = session_.screenRig()) {
+    QList<ScreenIdentity> present;
+    for (const OutputScreen& screen : screens_) present << screen.identity;
+    return findScreen(identityOf(measured->display), present);
+  }
+  for (std::size_t i = 0; i < screens_.size(); ++i)
+    if (!screens_[i].operators) return i;
+  return std::nullopt;
 }
 
 void OutputPage::choose(std::size_t index) {
   if (isOpen()) close();
   chosen_ = index;
+  keepScreen();
   Q_EMIT changed();
+}
+
+/// The calibration was given another screen, here or at Venue.
+void OutputPage::followScreen() {
+  const ScreenRigSettings* screen = session_.screenRig();
+  const ScreenIdentity now = screen != nullptr ? identityOf(screen->display) : ScreenIdentity();
+  if (std::exchange(screenBefore_, now) == now || screen == nullptr) return;
+  if (chosen_ && screens_[*chosen_].identity == now) return;
+  close();
+  chosen_.reset();
+  listScreens();
+}
+
+void OutputPage::keepScreen() {
+  const ScreenRigSettings* before = session_.screenRig();
+  if (before == nullptr || !session_.busy().isEmpty()) return;
+  for (const ScreenChoice& choice : screenChoicesFor(before->projector)) {
+    if (!choice.refusal.isEmpty() || identityOf(choice.display) != screens_[*chosen_].identity) continue;
+    if (choice.display == before->display) return;
+    try {
+      session_.changeScreen(withScreen(*before, choice));
+    } catch (...) {
+      tell(failureOf(std::current_exception()));
+    }
+    return;
+  }
+}
+
+QString OutputPage::meaningOfScreen() const {
+  const ScreenRigSettings* now = session_.screenRig();
+  return now != nullptr ? meaningOfMove(session_.measuredDisplay(), now->display) : QString();
 }
 
 void OutputPage::enter() {
   listScreens();
+  lookForShow();
 }
 
 StepStatus OutputPage::status() const {
   if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
+  if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
+}
+
+QString OutputPage::screenHint() const {
+  if (const ScreenRigSettings* measured = session_.screenRig(); measured != nullptr)
+    return tr("The projector's screen %1 is not there. Plug it in, or choose another.")
+        .arg(QString::fromStdString(measured->display.connector));
+  if (screens_.size() > 1) return tr("Choose the projector's screen.");
+  return tr(
+      "There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.");
 }
 
 QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
-  if (!chosen_) return tr("Choose the projector's screen.");
+  if (!chosen_) return screenHint();
+  if (isOpen() && isInstalled())
+    return tr("Installed: the show starts at the next log-in. Hold A to compare.");
   if (isOpen())
     return proof_.proof() ? tr("Playing. Hold A to compare.")
                           : tr("Take a verification photograph, or install without proof.");
-  if (screens_.size() < 2)
-    return tr("There is one screen only. The output will cover it; Esc closes the output.");
+  if (screens_[*chosen_].operators) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
 }
 
 Command OutputPage::primary() const {
   auto* self = const_cast<OutputPage*>(this);
   if (isOpen())
-    return {proof_.proof() ? tr("Install show") : tr("Install without proof"),
+    return {isInstalled()    ? tr("Install again")
+            : proof_.proof() ? tr("Install show")
+                             : tr("Install without proof"),
             Icon::power,
             !playlist_.isEmpty(),
             {},
@@ -223,8 +292,16 @@ void OutputPage::setStartsWithComputer(bool starts) {
   Q_EMIT changed();
 }
 
-bool OutputPage::isInstalled() const {
-  return relucent::isInstalled(Start::service, config_) || relucent::isInstalled(Start::autostart, config_);
+void OutputPage::setConfigFolder(const QString& folder) {
+  config_ = folder;
+  lookForShow();
+}
+
+void OutputPage::lookForShow() {
+  const QString venue = QString::fromStdString(session_.path().string());
+  installed_ = session_.isOpen() && (relucent::isInstalled(Start::service, config_, venue) ||
+                                     relucent::isInstalled(Start::autostart, config_, venue));
+  Q_EMIT changed();
 }
 
 QStringList OutputPage::showArguments() const {
@@ -251,7 +328,7 @@ void OutputPage::install() {
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }
-  Q_EMIT changed();
+  lookForShow();
 }
 
 void OutputPage::tell(const Failure& failure) {

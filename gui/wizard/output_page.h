@@ -30,6 +30,7 @@ class OutputPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
+  QString cause() const override { return chosen_ ? QString() : "output-screen"; }
   Command primary() const override;
   std::vector<Command> secondary() const override;
   std::optional<double> progress() const override;
@@ -38,7 +39,10 @@ class OutputPage : public PageModel {
 
   const std::vector<OutputScreen>& screens() const { return screens_; }
   std::optional<std::size_t> chosen() const { return chosen_; }
+  /// Of a calibration whose projector is a screen, another of its pixels becomes that projector's.
   void choose(std::size_t index);
+  /// What it means for what is measured that the projector is another screen now; empty: nothing.
+  QString meaningOfScreen() const;
 
   const OutputPlaylist& playlist() const { return playlist_; }
   void addFiles(const QStringList& files);
@@ -73,18 +77,26 @@ class OutputPage : public PageModel {
   }
   /// Writes the report and lets the desktop show it.
   void report();
+  /// Where it is; empty: not written since the calibration was opened.
+  const QString& reportFile() const { return reportFile_; }
 
   /// Whether installing makes the show start with the computer; yes at first.
   bool startsWithComputer() const { return starts_; }
   void setStartsWithComputer(bool starts);
-  bool isInstalled() const;
+  /// The show that starts with the computer is this venue's.
+  bool isInstalled() const { return installed_; }
   /// Keeps the playlist and makes the show start at log-in, or no more.
   void install();
   /// Of the user; tests have their own.
-  void setConfigFolder(const QString& folder) { config_ = folder; }
+  void setConfigFolder(const QString& folder);
 
  private:
   void listScreens();
+  void lookForShow();
+  QString screenHint() const;
+  std::optional<std::size_t> usualScreen() const;
+  void keepScreen();
+  void followScreen();
   void edit(const QString& what, const PlaylistSettings& after);
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
@@ -99,9 +111,12 @@ class OutputPage : public PageModel {
   OutputProjection projection_;
   std::vector<OutputScreen> screens_;
   std::optional<std::size_t> chosen_;
+  ScreenIdentity screenBefore_;  // the calibration's
   bool reopen_ = false;  // when the photographs are taken
   QString preferred_;    // Preview's picture
   QString config_;
+  bool installed_ = false;
+  QString reportFile_;
   bool starts_ = true;
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output_projection.h"
 
+#include <QGuiApplication>
 #include <QImageReader>
+#include <QScreen>
+#include <algorithm>
 
 #include "base/error.h"
 #include "jobs/core_sentences.h"
@@ -16,6 +19,16 @@ constexpr QSize largestCanvas(1920, 1080);
 constexpr int sampleInterval = 500;  // milliseconds
 constexpr std::size_t frameTimesKept = 120;
 constexpr int mirrorInterval = 67;  // milliseconds: 15 pictures a second show what moves
+
+/// Windows that are operated stand on that screen: keys have to be taken where they are hidden, and must be
+/// left to them where they are not.
+bool hidesWindows(const QScreen* screen) {
+  const QWindowList windows = QGuiApplication::topLevelWindows();
+  return std::any_of(windows.begin(), windows.end(), [screen](const QWindow* window) {
+    return window->isVisible() && window->screen() == screen &&
+           qobject_cast<const ProjectorWindow*>(window) == nullptr;
+  });
+}
 
 }  // namespace
 
@@ -91,6 +104,7 @@ void OutputProjection::play() {
   canvas_ = made_->renderer->canvas();
   content_ = std::exchange(made_->content, nullptr);
   window_ = std::make_unique<ProjectorWindow>(screen_);
+  window_->setFlag(Qt::WindowDoesNotAcceptFocus, !hidesWindows(findScreen(screen_)));
   player_ = std::make_unique<Player>(std::move(made_->renderer), content_,
                                      std::vector<ProjectorWindow*>{window_.get()});
   // What these lead to ends the objects that tell it: later, when they are done telling.

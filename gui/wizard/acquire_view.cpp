@@ -86,10 +86,9 @@ QWidget* planOf(AcquirePage& model) {
   auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
   auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
   for (ValueRow* row : {patterns, photographs, error}) rows->addWidget(row);
-  rows->addWidget(labelOf(
-      AcquirePage::tr(
-          "Test patterns are predicted from the measurement, then photographed. So far the two differ."),
-      "note"));
+  rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
+                                          "photographed: this is how far the two differ."),
+                          "note"));
   column->addWidget(result);
   auto refresh = [&model, group, colour, result, patterns, photographs, error] {
     auto count = [&model](const char* name) {

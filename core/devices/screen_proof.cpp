@@ -240,13 +240,14 @@ ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others
 void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera) {
   if (proof.isSeen) return;
   if (!proof.instead.empty())
-    throw Error(ErrorKind::device, fmt::format("the camera sees {}, not {}", proof.instead, screen.name()),
-                fmt::format("choose {}, or aim the camera at {}", proof.instead, screen.name()),
-                camera.name());
-  throw Error(ErrorKind::device, fmt::format("the camera does not see what is shown on {}", screen.name()),
-              "check that the projector is on and shows that output, aim the camera at it, and take its cap "
-              "off; or choose another screen",
-              camera.name());
+    throw ScreenNotSeen(
+        ErrorKind::device, fmt::format("the camera sees {}, not {}", proof.instead, screen.name()),
+        fmt::format("choose {}, or aim the camera at {}", proof.instead, screen.name()), camera.name());
+  throw ScreenNotSeen(
+      ErrorKind::device, fmt::format("the camera does not see what is shown on {}", screen.name()),
+      "check that the projector is on and shows that output, aim the camera at it, and take its cap "
+      "off; or choose another screen",
+      camera.name());
 }
 
 }  // namespace relucent

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "devices/check_verdict.h"
 #include "devices/latency.h"
@@ -62,7 +63,12 @@ ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others
                         const ScreenExposure& exposure, const ScreenProofSettings& settings,
                         Progress& progress);
 
-/// Throws: Error{device} that says what the camera sees instead, unless it sees the screen.
+/// All devices answer, but the camera looks at something else than the screen.
+class ScreenNotSeen : public Error {
+  using Error::Error;
+};
+
+/// Throws: ScreenNotSeen{device} that says what the camera sees instead, unless it sees the screen.
 void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera);
 
 }  // namespace relucent

@@ -79,12 +79,20 @@ CommandRigSettings commandRigFromJson(const Sorted& json) {
   return settings;
 }
 
+Sorted displayToJson(const ScreenRigSettings::Display& display) {
+  return {{"connector", display.connector},
+          {"manufacturer", display.manufacturer},
+          {"model", display.model},
+          {"serial_number", display.serialNumber}};
+}
+
+ScreenRigSettings::Display displayFromJson(const Sorted& json) {
+  return {json.value("connector", ""), json.value("manufacturer", ""), json.value("model", ""),
+          json.value("serial_number", "")};
+}
+
 Sorted screenRigToJson(const ScreenRigSettings& settings) {
-  Sorted json{{"display",
-               {{"connector", settings.display.connector},
-                {"manufacturer", settings.display.manufacturer},
-                {"model", settings.display.model},
-                {"serial_number", settings.display.serialNumber}}},
+  Sorted json{{"display", displayToJson(settings.display)},
               {"projector", settings.projector},
               {"frame_rate", settings.frameRate},
               {"camera_address", settings.cameraAddress},
@@ -97,9 +105,7 @@ Sorted screenRigToJson(const ScreenRigSettings& settings) {
 
 ScreenRigSettings screenRigFromJson(const Sorted& json) {
   ScreenRigSettings settings;
-  const Sorted& display = json.at("display");
-  settings.display = {display.value("connector", ""), display.value("manufacturer", ""),
-                      display.value("model", ""), display.value("serial_number", "")};
+  settings.display = displayFromJson(json.at("display"));
   settings.projector = json.at("projector");
   settings.frameRate = json.value("frame_rate", settings.frameRate);
   settings.cameraAddress = json.at("camera_address");
@@ -172,6 +178,20 @@ RigSettings rigFromJson(const Json& json) {
     throw Error(ErrorKind::format,
                 fmt::format("the calibration was made with devices of the kind \"{}\"", kind),
                 "open it with the version of Relucent that made it");
+  } catch (const Sorted::exception& cause) {
+    failForeign(cause);
+  }
+}
+
+Json screenToJson(const ScreenRigSettings& settings) {
+  return Json(Sorted{{"display", displayToJson(settings.display)}, {"frame_rate", settings.frameRate}});
+}
+
+void screenFromJson(const Json& json, ScreenRigSettings& settings) {
+  try {
+    Sorted sorted(json);
+    settings.display = displayFromJson(sorted.at("display"));
+    settings.frameRate = sorted.value("frame_rate", settings.frameRate);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

@@ -12,6 +12,11 @@ Json rigToJson(const RigSettings& settings);
 /// Throws: Error{format} if the manifest names a kind of rig that this version does not know.
 RigSettings rigFromJson(const Json& json);
 
+/// Where a screen hangs that was measured elsewhere: display and frame rate.
+Json screenToJson(const ScreenRigSettings& settings);
+/// Puts them in place of those that were measured. Throws: Error{format}.
+void screenFromJson(const Json& json, ScreenRigSettings& settings);
+
 Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
 void stagesFromJson(const Json& json, CalibrateSettings& settings);

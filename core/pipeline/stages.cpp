@@ -16,6 +16,9 @@ std::string chained(const std::string& before, const Json& settings, const char*
 CalibrateSettings settingsOf(const CalibrationFolder& folder) {
   CalibrateSettings settings;
   settings.rig = rigFromJson(folder.rig());
+  auto* screen = std::get_if<ScreenRigSettings>(&settings.rig);
+  if (screen != nullptr && folder.settings().contains(movedScreen))
+    screenFromJson(folder.settings().at(movedScreen), *screen);
   stagesFromJson(folder.settings(), settings);
   return settings;
 }

@@ -15,7 +15,11 @@ inline constexpr const char* acquisition = "acquisition";
 inline constexpr const char* inverse = "inverse";
 }  // namespace stage
 
-/// What a calibration was asked for. Throws: Error{format}.
+/// In a manifest's settings: where the projector's screen hangs now, if not where it was measured. No
+/// fingerprint knows it.
+inline constexpr const char* movedScreen = "screen";
+
+/// What a calibration was asked for, with the screen that it uses now. Throws: Error{format}.
 CalibrateSettings settingsOf(const CalibrationFolder& folder);
 
 /// Fingerprints of everything that a stage's result depends on, as the manifest says it: fields that a later

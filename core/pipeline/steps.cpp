@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/steps.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
@@ -76,7 +78,28 @@ void changeRig(CalibrationFolder& folder, const RigSettings& rig) {
   settings.rig = rig;
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and try again");
+  if (Json asked = folder.settings(); asked.contains(movedScreen)) {
+    asked.erase(movedScreen);
+    folder.setSettings(std::move(asked));
+  }
   folder.setRig(rigToJson(rig));
+}
+
+void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen) {
+  const RigSettings measured = rigFromJson(folder.rig());
+  const auto* before = std::get_if<ScreenRigSettings>(&measured);
+  if (before == nullptr)
+    throw Error(ErrorKind::input, "the projector of this calibration is not a screen of the desktop",
+                "begin a new venue for a screen", folder.path().string());
+  if (before->projector != screen.projector)
+    throw Error(
+        ErrorKind::input,
+        fmt::format("this screen has {}x{} pixels and the measured projector {}x{}", screen.projector.width,
+                    screen.projector.height, before->projector.width, before->projector.height),
+        "choose a screen of the same resolution", folder.path().string());
+  Json settings = folder.settings();
+  settings[movedScreen] = screenToJson(screen);
+  folder.setSettings(std::move(settings));
 }
 
 void storeDecision(CalibrationFolder& folder, Step step, Json values) {

@@ -36,6 +36,12 @@ void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings
 /// Throws: Error{input} if something has, or for settings with problems(); Error{disk}.
 void changeRig(CalibrationFolder& folder, const RigSettings& rig);
 
+/// Uses the calibration with another screen: the projector's cable hangs elsewhere than when it was measured,
+/// or another projector stands in its place. Nothing becomes stale: the same projector shines as it did, and
+/// whether it is the same is for a verification to say. Of `screen` display and frame rate are taken.
+/// Throws: Error{input} if the projector is no screen, or one of other pixels; Error{disk}.
+void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen);
+
 /// Keeps that a step at which somebody decides is done, with figures for people.
 void storeDecision(CalibrationFolder& folder, Step step, Json values);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/action_bar.h"
 
+#include <QEvent>
+
 #include "theme/theme.h"
 
 namespace relucent {
@@ -23,6 +25,7 @@ ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(
   back_->setObjectName("back");
   hint_ = labelOf({}, "secondary");
   hint_->setObjectName("hint");
+  hint_->installEventFilter(this);
   secondary_ = new QHBoxLayout;
   secondary_->setSpacing(12);
   primary_ = buttonOf({}, "primary");
@@ -46,6 +49,12 @@ QWidget* ActionBar::firstFocus() const {
   return primary_->isEnabled() && !primary_->isHidden() ? primary_ : back_;
 }
 
+bool ActionBar::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == hint_ && event->type() == QEvent::MouseButtonRelease)
+    if (QString cause = wizard_.currentPage().cause(); !cause.isEmpty()) Q_EMIT causeWanted(cause);
+  return QFrame::eventFilter(watched, event);
+}
+
 void ActionBar::runPrimary() {
   Command command = wizard_.currentPage().primary();
   if (command.run && command.enabled) command.run();
@@ -65,6 +74,10 @@ void ActionBar::refresh() {
   back_->setVisible(wizard_.canGoBack());
   back_->setIcon(iconOf(Icon::back, colours().text));
   hint_->setText(page.hint());
+  if (page.cause().isEmpty())
+    hint_->unsetCursor();
+  else
+    hint_->setCursor(Qt::PointingHandCursor);
   std::optional<double> fraction = page.progress();
   progress_->setValue(static_cast<int>(1000.0 * fraction.value_or(0.0)));
   // The bar keeps its place, so that nothing moves when a measurement begins.

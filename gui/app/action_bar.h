@@ -21,6 +21,13 @@ class ActionBar : public QFrame {
   /// Does the primary command if it is enabled.
   void runPrimary();
 
+ Q_SIGNALS:
+  /// The sentence was clicked: show the widget of that name, which can change what it says.
+  void causeWanted(const QString& name);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   void refresh();
   void refreshSecondary(const std::vector<Command>& commands);

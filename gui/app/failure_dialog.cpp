@@ -33,7 +33,8 @@ QString headingOf(ErrorKind kind) {
 
 FailureDialog::FailureDialog(const FailureReport& report, const QString& page, QWidget* parent)
     : QDialog(parent) {
-  QString heading = headingOf(report.failure.kind);
+  QString heading =
+      report.failure.heading.isEmpty() ? headingOf(report.failure.kind) : report.failure.heading;
   setWindowTitle(heading);
   setMinimumWidth(560);
   auto* column = new QVBoxLayout(this);
@@ -62,6 +63,7 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
           [details = report.failure.details] { QGuiApplication::clipboard()->setText(details); });
   row->addWidget(copy);
   row->addStretch(1);
+  QPushButton* first = nullptr;
   auto action = [&](const Command& command, const char* role) {
     if (!command.run) return;
     QPushButton* button = buttonOf(command.text, role);
@@ -69,17 +71,18 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
       accept();
       run();
     });
-    row->addWidget(button);
+    row->addWidget(first = button);
   };
   action(report.keep, "");
   if (!report.resume.run) {
     QPushButton* close = buttonOf(tr("Close"), "primary");
     connect(close, &QPushButton::clicked, this, &QDialog::accept);
-    row->addWidget(close);
-    close->setFocus();
+    row->addWidget(first = close);
   }
   action(report.resume, "primary");
   column->addLayout(row);
+  first->setDefault(true);
+  first->setFocus();
 }
 
 }  // namespace relucent

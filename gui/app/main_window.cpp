@@ -6,11 +6,13 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QShortcut>
 
 #include "app/failure_dialog.h"
 #include "app/help_window.h"
 #include "app/settings_dialog.h"
+#include "theme/quiet_wheel.h"
 #include "theme/theme.h"
 
 namespace relucent {
@@ -79,6 +81,9 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
     refresh();
     focusFirst(stages_);
   });
+  connect(actions_, &ActionBar::causeWanted, this, &MainWindow::focusCause);
+  connect(qApp, &QApplication::focusChanged, this, &MainWindow::keepFocus);
+  new QuietWheel(this);
   bindKeys();
   refresh();
 }
@@ -186,6 +191,33 @@ bool MainWindow::focusFirst(QWidget* region) {
   return false;
 }
 
+void MainWindow::focusCause(const QString& name) {
+  for (QStackedWidget* region : {stages_, inspectors_}) {
+    // Stages of a page share names: what is in sight is meant, if only after scrolling.
+    for (QWidget* cause : region->findChildren<QWidget*>(name)) {
+      if (!cause->isVisible()) continue;
+      if (cause->focusPolicy() == Qt::NoFocus)
+        focusFirst(cause);
+      else
+        cause->setFocus(Qt::TabFocusReason);
+      for (QWidget* around = cause->parentWidget(); around != nullptr; around = around->parentWidget())
+        if (auto* scroll = qobject_cast<QScrollArea*>(around)) scroll->ensureWidgetVisible(cause);
+      return;
+    }
+  }
+}
+
+/// A button of the action bar that is done, and goes, would leave its focus to the rail, which is next: Enter
+/// would then leave the page.
+void MainWindow::keepFocus(QWidget* before, QWidget* now) {
+  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before) || !rail_->isAncestorOf(now))
+    return;
+  if (before->isVisible() && before->isEnabled()) return;
+  // Once the stage knows what has ended.
+  QMetaObject::invokeMethod(
+      this, [this] { focusFirst(stages_); }, Qt::QueuedConnection);
+}
+
 void MainWindow::moveToNextRegion() {
   std::vector<QWidget*> regions{stages_, inspectors_, actions_, rail_};
   std::size_t now = 0;
@@ -207,6 +239,11 @@ void MainWindow::refresh() {
     inspectors_->setCurrentIndex(index);
   }
   inspectors_->setVisible(page.usesInspector());
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (focusWidget() == nullptr || rail_->isAncestorOf(focusWidget())) focusFirst(stages_);
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

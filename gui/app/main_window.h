@@ -33,6 +33,7 @@ class MainWindow : public QMainWindow {
   void showHelp();
 
  protected:
+  void showEvent(QShowEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -50,6 +51,8 @@ class MainWindow : public QMainWindow {
   void refresh();
   void moveToNextRegion();
   bool focusFirst(QWidget* region);
+  void focusCause(const QString& name);
+  void keepFocus(QWidget* before, QWidget* now);
   void tell(const PageModel& page, const FailureReport& report);
 
   Session& session_;

@@ -3,9 +3,11 @@
 
 #include <QDateTime>
 #include <QDir>
+#include <QGuiApplication>
 #include <QLocale>
 #include <QStorageInfo>
 
+#include "output/window_projector.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
 
@@ -18,30 +20,62 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   row->setContentsMargins(16, 0, space::page, 0);
   row->setSpacing(8);
   auto part = [&](Icon icon, const QString& name) {
-    row->addWidget(new IconLabel(icon, secondaryColour, 16));
+    auto* group = new QWidget;
+    auto* within = new QHBoxLayout(group);
+    within->setContentsMargins(0, 0, 18, 0);
+    within->setSpacing(8);
+    within->addWidget(new IconLabel(icon, secondaryColour, 16));
     QLabel* title = labelOf(name, "strong");
     title->setWordWrap(false);
-    row->addWidget(title);
+    within->addWidget(title);
     QLabel* value = labelOf({}, "note");
     value->setWordWrap(false);
-    row->addWidget(value);
-    row->addSpacing(18);
+    within->addWidget(value);
+    row->addWidget(group);
     return value;
   };
   projector_ = part(Icon::projector, tr("Projector"));
   camera_ = part(Icon::camera, tr("Camera"));
   disk_ = part(Icon::disk, tr("Disk"));
+  roomLight_ = part(Icon::sun, tr("Room light"));
+  roomLight_->setObjectName("room-light");
+  projector_->setObjectName("strip-projector");
+  room_ = roomLight_->parentWidget();
   row->addStretch(1);
   row->addWidget(saved_ = labelOf({}, "note"));
   saved_->setWordWrap(false);
   often_.setInterval(5000);
   connect(&often_, &QTimer::timeout, this, &StatusStrip::refresh);
   connect(&session_, &Session::changed, this, &StatusStrip::refresh);
+  connect(qApp, &QGuiApplication::screenAdded, this, &StatusStrip::refresh);
+  connect(qApp, &QGuiApplication::screenRemoved, this, &StatusStrip::refresh);
   often_.start();
   refresh();
 }
 
+/// Its size, and what it is; that it is not there where nobody waits for it, either.
+QString StatusStrip::projectorText() const {
+  Size size = session_.projectorSize();
+  QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
+  if (const ScreenRigSettings* screen = session_.screenRig()) {
+    kind = QString::fromStdString(screen->display.connector);
+    if (findScreen(identityOf(screen->display)) == nullptr) kind = tr("%1, unplugged").arg(kind);
+  }
+  return QString("%1, %2").arg(sizeText(size.width, size.height), kind);
+}
+
+void StatusStrip::showRoomLight() {
+  const std::optional<RoomLight>& light = session_.roomLight();
+  room_->setVisible(session_.isOpen() && light.has_value());
+  if (!light) return;
+  QString share = percentText(light->share);
+  roomLight_->setText(light->isSteady ? tr("%1 of full light, steady").arg(share)
+                                      : tr("%1 of full light, changed").arg(share));
+  setRole(roomLight_, light->isSteady ? "note" : "amber");
+}
+
 void StatusStrip::refresh() {
+  showRoomLight();
   if (!session_.isOpen()) {
     projector_->setText(tr("none chosen"));
     camera_->setText(tr("none chosen"));
@@ -50,11 +84,8 @@ void StatusStrip::refresh() {
     saved_->clear();
     return;
   }
-  Size size = session_.projectorSize();
+  projector_->setText(projectorText());
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
-  if (const ScreenRigSettings* screen = session_.screenRig())
-    kind = QString::fromStdString(screen->display.connector);
-  projector_->setText(QString("%1, %2").arg(sizeText(size.width, size.height), kind));
   if (const ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
   camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));

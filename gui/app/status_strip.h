@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// Projector, camera, disk, and what was saved last.
+/// Projector, camera, disk, the room's light once it is known, and what was saved last.
 class StatusStrip : public QFrame {
   Q_OBJECT
 
@@ -18,8 +18,12 @@ class StatusStrip : public QFrame {
 
  private:
   void refresh();
+  QString projectorText() const;
+  void showRoomLight();
   Session& session_;
   QLabel *projector_, *camera_, *disk_, *saved_;
+  QWidget* room_;
+  QLabel* roomLight_;
   QTimer often_;
 };
 

@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QDir>
 #include <QFontDatabase>
+#include <QScreen>
 #include <QSettings>
 #include <QStandardPaths>
 #include <cstring>
@@ -24,6 +25,12 @@ void addPackedFonts() {
 
 }  // namespace
 
+bool hasRoom(QSize window, QSize screen) {
+  constexpr QSize frame(8, 40);  // what desktops put round a window, about
+  window += frame;
+  return window.width() <= screen.width() && window.height() <= screen.height();
+}
+
 bool asksForWizard(int argc, char** argv) {
   if (argc == 1) return true;
   return argc == 2 && argv[1][0] != '-' && std::strcmp(argv[1], "show") != 0;
@@ -41,13 +48,19 @@ int runWizardCommand(int argc, char** argv) {
   QSettings settings;
   QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/venues";
   WizardWindow wizard(settings, cache.toStdString());
-  wizard.window().resize(settings.value("window/size", QSize(1366, 768)).toSize());
-  wizard.window().show();
+  QSize size = settings.value("window/size", QSize(1366, 768)).toSize();
+  wizard.window().resize(size);
+  if (settings.value("window/maximized").toBool() ||
+      !hasRoom(size, wizard.window().screen()->availableSize()))
+    wizard.window().showMaximized();
+  else
+    wizard.window().show();
   if (argc == 2) wizard.venue().open(QDir().absoluteFilePath(QApplication::arguments().at(1)));
   Termination termination;
   QObject::connect(&termination, &Termination::requested, qApp, [&wizard] { wizard.window().close(); });
   int status = QApplication::exec();
-  settings.setValue("window/size", wizard.window().size());
+  settings.setValue("window/size", wizard.window().normalGeometry().size());
+  settings.setValue("window/maximized", wizard.window().isMaximized());
   return status;
 }
 

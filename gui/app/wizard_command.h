@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QSize>
 #include <QStringList>
 
 namespace relucent {
 
 /// Whether the arguments ask for the wizard: none at all, or the folder of one calibration.
 bool asksForWizard(int argc, char** argv);
+
+/// Whether a window of that size has room on the screen, with what the desktop puts round it.
+bool hasRoom(QSize window, QSize screen);
 
 /// `relucent [CALIBRATION]`. Exit status: 0.
 int runWizardCommand(int argc, char** argv);

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <new>
 
+#include "devices/screen_proof.h"
 #include "jobs/core_sentences.h"
 
 namespace relucent {
@@ -13,14 +14,22 @@ struct Words {
   Q_DECLARE_TR_FUNCTIONS(Failure)
 };
 
+Failure failureOf(const Error& error) {
+  return {error.kind(), fullSentence(error.summary()), fullSentence(error.advice()),
+          QString::fromStdString(std::string(toString(error.kind())) + ": " + error.what())};
+}
+
 }  // namespace
 
 Failure failureOf(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
+  } catch (const ScreenNotSeen& error) {
+    Failure failure = failureOf(static_cast<const Error&>(error));
+    failure.heading = Words::tr("The camera does not see this projector");
+    return failure;
   } catch (const Error& error) {
-    return {error.kind(), fullSentence(error.summary()), fullSentence(error.advice()),
-            QString::fromStdString(std::string(toString(error.kind())) + ": " + error.what())};
+    return failureOf(error);
   } catch (const std::bad_alloc&) {
     return {ErrorKind::memory, Words::tr("The computer has no memory left."),
             Words::tr("Close other programs, or choose fewer pixels."), "bad_alloc"};

@@ -14,6 +14,8 @@ struct Failure {
   QString what;
   QString advice;
   QString details;
+  /// A title, where the kind alone would say something else; empty: the kind's.
+  QString heading{};
 };
 
 /// Of whatever was thrown.

@@ -2,6 +2,7 @@
 #include "output/installation.h"
 
 #include <QDir>
+#include <QFile>
 #include <QFileInfo>
 #include <filesystem>
 
@@ -131,6 +132,13 @@ QString install(Start start, const QString& config, const QString& program, cons
 
 bool isInstalled(Start start, const QString& config) {
   return QFileInfo::exists(fileOf(start, config));
+}
+
+bool isInstalled(Start start, const QString& config, const QString& argument) {
+  QFile file(fileOf(start, config));
+  if (!file.open(QIODevice::ReadOnly)) return false;
+  const QString word = start == Start::service ? systemdWord(argument, false) : desktopWord(argument);
+  return QString::fromUtf8(file.readAll()).contains(' ' + word);
 }
 
 QString uninstall(Start start, const QString& config) {

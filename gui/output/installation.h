@@ -25,8 +25,10 @@ QString autostartEntry(const QString& program, const QStringList& arguments);
 /// Throws: Error{input, disk}.
 QString install(Start start, const QString& config, const QString& program, const QStringList& arguments);
 
-/// Whether it is there.
+/// Whether it is there, for any venue.
 bool isInstalled(Start start, const QString& config);
+/// Whether it is there with that argument among others: the folder of the venue that it plays.
+bool isInstalled(Start start, const QString& config, const QString& argument);
 
 /// Takes it away again. Returns the file, or nothing if there was none. Throws: Error{disk}.
 QString uninstall(Start start, const QString& config);

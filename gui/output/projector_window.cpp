@@ -66,7 +66,10 @@ void ProjectorWindow::goTo(QScreen* screen) {
   connect(screen, &QScreen::geometryChanged, this, &ProjectorWindow::follow, Qt::UniqueConnection);
   setScreen(screen);
   setGeometry(screen->geometry());
-  showFullScreen();
+  // showFullScreen() would ask for the keys, too.
+  setWindowStates(Qt::WindowFullScreen);
+  setVisible(true);
+  if (!flags().testFlag(Qt::WindowDoesNotAcceptFocus)) requestActivate();
   update();
 }
 

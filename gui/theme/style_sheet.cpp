@@ -94,6 +94,7 @@ QTextBrowser { background: {card}; border: 1px solid {line}; border-radius: 8px;
 QTextBrowser:focus { border: 2px solid {text}; }
 QTableWidget { background: transparent; border: none; gridline-color: transparent; selection-background-color: {accentGround};
   selection-color: {text}; }
+QTableWidget::item { padding: 0 5px; }
 QTableWidget:focus { border: 2px solid {text}; border-radius: 6px; }
 QHeaderView { background: transparent; }
 QHeaderView::section { background: transparent; border: none; color: {secondary}; font-size: 12px; padding: 2px 8px; }

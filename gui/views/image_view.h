@@ -29,8 +29,6 @@ class ImageView : public PlaneView {
   QRectF dividerTag(bool right) const;
 
  protected:
-  /// What no words may lie on.
-  virtual std::vector<QRectF> keptFree() const { return {}; }
   QSize planeSize() const override { return picture_.size(); }
   QRectF frame() const override;
   void paintPlane(QPainter& painter) override;

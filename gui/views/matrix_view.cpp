@@ -152,6 +152,10 @@ QRectF MatrixView::lensFrame() const {
   return right.adjusted(-gap, -gap, gap, gap).contains(pick) ? left : right;
 }
 
+std::vector<QRectF> MatrixView::keptFree() const {
+  return hasLens() ? std::vector{lensFrame()} : std::vector<QRectF>();
+}
+
 std::optional<MatrixPart> MatrixView::lensPart() const {
   std::optional<QPoint> pick = link().pick();
   if (!pick || !matrix_ || !looked().contains(QPointF(*pick) + QPointF(0.5, 0.5))) return std::nullopt;

@@ -44,6 +44,7 @@ class MatrixView : public PlaneView {
   QSize planeSize() const override;
   bool keepsAspect() const override { return false; }
   QRectF frame() const override;
+  std::vector<QRectF> keptFree() const override;
   void arrange() override;
   void paintOver(QPainter& painter) override;
 

@@ -40,7 +40,11 @@ QString countText(std::uint64_t count) {
 }
 
 QString bytesText(std::uint64_t bytes) {
-  return isolated(QLocale().formattedDataSize(static_cast<qint64>(bytes), 1, QLocale::DataSizeSIFormat));
+  double shown = static_cast<double>(bytes);
+  while (shown >= 999.5) shown /= 1000.0;
+  const int decimals = shown >= 99.95 ? 0 : 1;  // three digits are enough
+  return isolated(
+      QLocale().formattedDataSize(static_cast<qint64>(bytes), decimals, QLocale::DataSizeSIFormat));
 }
 
 QString exposureText(double seconds) {

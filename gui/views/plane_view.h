@@ -5,6 +5,7 @@
 #include <QWidget>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "views/view_link.h"
 
@@ -58,6 +59,8 @@ class PlaneView : public QWidget {
   virtual bool keepsAspect() const { return true; }
   /// What the plane may fill.
   virtual QRectF frame() const { return rect(); }
+  /// Where words must not stand.
+  virtual std::vector<QRectF> keptFree() const { return {}; }
   /// False: something else is seen than the plane, and nothing is picked in it.
   virtual bool isFlat() const { return true; }
   virtual void paintPlane(QPainter&) {}

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "theme/theme.h"
 #include "views/plane_view.h"
@@ -34,10 +35,18 @@ void PlaneView::paintPick(QPainter& painter) {
   QString text = readout_(*pick);
   if (text.isEmpty()) return;
   bool right = place.x() > frame().center().x();
-  double height = tagSize(text).height();
-  bool above = place.y() > frame().top() + height + 24.0;
-  double y = above ? place.y() - height - 20.0 : place.y() + 20.0;
-  drawTag(painter, {right ? place.x() - 12.0 : place.x() + 12.0, y}, text, dark().text, right);
+  const QSizeF size = tagSize(text);
+  bool above = place.y() > frame().top() + size.height() + 24.0;
+  std::vector<QPointF> places;
+  for (auto [toLeft, upwards] : {std::pair(right, above), std::pair(right, !above), std::pair(!right, above),
+                                 std::pair(!right, !above)}) {
+    QPointF corner(toLeft ? place.x() - size.width() - 12.0 : place.x() + 12.0,
+                   upwards ? place.y() - size.height() - 20.0 : place.y() + 20.0);
+    corner.setX(
+        std::clamp(corner.x(), frame().left(), std::max(frame().left(), frame().right() - size.width())));
+    if (places.empty() || frame().contains(QRectF(corner, size))) places.push_back(corner);
+  }
+  drawTag(painter, tagBox(size, places, keptFree()).topLeft(), text, dark().text);
 }
 
 void PlaneView::paintScaleBar(QPainter& painter) {

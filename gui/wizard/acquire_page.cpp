@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/acquire_page.h"
 
+#include <numeric>
+#include <utility>
+
+#include "acquisition/forecast.h"
 #include "calibration/results.h"
 #include "jobs/core_sentences.h"
 #include "pipeline/measuring.h"
@@ -30,14 +34,20 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
       if (isMeasuring()) Q_EMIT changed();
     });
   });
-  connect(&session_, &Session::changed, this, &AcquirePage::changed);
+  connect(&session_, &Session::changed, this, [this] {
+    lookAtResponse();
+    Q_EMIT changed();
+  });
   connect(&job_, &Job::progressed, this, &AcquirePage::changed);
   connect(&job_, &Job::expected, this, [this](const WorkLeft& left) {
     forecast_ = left;
     left_.expect(left, Clock::now());
   });
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
-  connect(&trace_, &AcquisitionTrace::changed, this, &AcquirePage::changed);
+  connect(&trace_, &AcquisitionTrace::changed, this, [this] {
+    if (auto light = trace_.roomLight()) session_.setRoomLight(*light);
+    Q_EMIT changed();
+  });
   second_.setInterval(1000);
   connect(&second_, &QTimer::timeout, this, &AcquirePage::tick);
 }
@@ -52,7 +62,8 @@ StepStatus AcquirePage::status() const {
   switch (session_.progress(Step::acquisition)) {
     case StepProgress::done:
       if (auto patterns = figure("patterns"))
-        return {StepState::done, tr("%n pattern(s), %1", nullptr, static_cast<int>(*patterns))
+        return {StepState::done, groupedText(tr("%n pattern(s), %1", nullptr, static_cast<int>(*patterns)),
+                                             static_cast<int>(*patterns))
                                      .arg(durationText(figure("seconds").value_or(0.0)))};
       return {StepState::done, tr("Measured")};
     case StepProgress::stale:
@@ -73,6 +84,12 @@ QString AcquirePage::hint() const {
   if (session_.progress(Step::acquisition) == StepProgress::done)
     return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
+  if (auto work = kept_ == 0 ? expected() : std::nullopt) {
+    const auto patterns = static_cast<int>(work->shots);
+    return groupedText(tr("About %n pattern(s), %1. Leave the room dark and still.", nullptr, patterns),
+                       patterns)
+        .arg(durationText(work->seconds));
+  }
   return tr("Leave the room dark and still, then start.");
 }
 
@@ -185,6 +202,38 @@ std::optional<double> AcquirePage::figure(const char* name) const {
   return stored->values["cost"].value(name, 0.0);
 }
 
+std::optional<double> AcquirePage::verificationError() const {
+  const auto& stored = session_.result(Step::acquisition);
+  if (!stored || !stored->values.contains("verification_error")) return std::nullopt;
+  return stored->values["verification_error"].get<double>();
+}
+
+/// Tells nobody what cannot be read: Linearize does.
+void AcquirePage::lookAtResponse() {
+  const auto& stored = session_.result(Step::linearization);
+  std::string when = stored ? stored->stored + stored->inputs : std::string();
+  if (std::exchange(responseStored_, when) == when) return;
+  response_.reset();
+  if (!stored) return;
+  try {
+    response_ = loadLinearization(*stored);
+  } catch (const std::exception&) {
+    response_.reset();
+  }
+}
+
+std::optional<WorkLeft> AcquirePage::expected() const {
+  if (!response_ || response_->exposures.empty()) return std::nullopt;
+  const std::vector<double>& exposures = response_->exposures;
+  const double mean =
+      std::accumulate(exposures.begin(), exposures.end(), 0.0) / static_cast<double>(exposures.size());
+  const Size projector = session_.projectorSize();
+  if (projector.empty()) return std::nullopt;
+  // Photographs are counted, not their pixels.
+  return relucent::forecast(Rasters(projector), Rasters(projector), exposures.size(), mean,
+                            session_.settings().acquisition, response_->times, {});
+}
+
 void AcquirePage::pause() {
   session_.live().pause();
   left_.pause(Clock::now());
@@ -236,7 +285,7 @@ void AcquirePage::finish() {
 
 void AcquirePage::askAbout(const Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
-                  QString::fromStdString(alarm.sentence())};
+                  QString::fromStdString(alarm.sentence()), AcquisitionTrace::headingOf(alarm.kind)};
   Command again{tr("Measure again"), Icon::retry, true, {}, [this] { answer(Answer::retry); }};
   Command keep{tr("Stop and keep"), Icon::save, true, {}, [this] { answer(Answer::keepAndStop); }};
   Q_EMIT failed({failure, fullSentence(alarm.safe), again, keep});

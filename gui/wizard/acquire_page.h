@@ -6,6 +6,7 @@
 
 #include "jobs/job.h"
 #include "jobs/time_left.h"
+#include "linearization/linearization.h"
 #include "wizard/acquisition_trace.h"
 #include "wizard/asking.h"
 #include "wizard/device_page.h"
@@ -29,6 +30,7 @@ class AcquirePage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
+  QString cause() const override { return session_.mayMeasure() ? QString() : "room-is-clear"; }
   Command primary() const override;
   std::vector<Command> secondary() const override;
   std::optional<double> progress() const override;
@@ -58,8 +60,12 @@ class AcquirePage : public DevicePage {
   const AcquisitionTrace& trace() const { return trace_; }
   /// How often light and view are compared, and what follows.
   QString watching() const;
-  /// What was measured, as far as the folder tells: "patterns", "seconds", ...
+  /// What it cost, as far as the folder tells: "patterns", "seconds", ...
   std::optional<double> figure(const char* name) const;
+  /// Error of patterns that were only predicted, relative; none before it was measured.
+  std::optional<double> verificationError() const;
+  /// What measuring with these settings will about take, by what the response took; none before that.
+  std::optional<WorkLeft> expected() const;
 
   void pause();
   void resume();
@@ -77,11 +83,14 @@ class AcquirePage : public DevicePage {
   void answer(Answer answer);
   void ended();
   void tick();
+  void lookAtResponse();
 
   std::shared_ptr<Asking> asking_;
   AcquisitionTrace trace_;
   TimeLeft left_;
   std::optional<WorkLeft> forecast_;
+  std::optional<Linearization> response_;
+  std::string responseStored_;  // when that was
   int kept_ = 0;
   QTimer second_;
   double rate_ = 0.0;

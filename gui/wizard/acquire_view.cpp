@@ -38,12 +38,16 @@ QWidget* stageOf(AcquirePage& model) {
   seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   row->addWidget(sent, 1);
   row->addWidget(seen, 1);
-  auto refresh = [&model, pattern, photograph, seen, sent] {
+  auto refresh = [&model, pattern, photograph, seen] {
     LivePictures live = model.pictures();
-    if (live.pattern.empty() || live.frame.signal.empty()) return;
+    // The last ones of another step say nothing here.
+    if (!model.isMeasuring() && model.trace().seconds() <= 0.0) {
+      for (ImageView* view : {pattern, photograph}) view->setPicture({});
+      return seen->setSubtitle({});
+    }
+    if (live.photographs == 0 || live.pattern.empty()) return;
     pattern->setPicture(encodedPictureOf(live.pattern));
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
-    sent->setSubtitle(model.stage());
     seen->setSubtitle(exposureText(live.frame.seconds));
   };
   QObject::connect(&model, &AcquirePage::changed, stage, refresh);
@@ -76,7 +80,27 @@ QWidget* planOf(AcquirePage& model) {
   column->addWidget(
       labelOf(AcquirePage::tr("White only is three times faster, with colours a few percent off."), "note"));
   QObject::connect(colour, &Segmented::chosen, &model, [&model](int index) { model.setWhite(index == 1); });
-  auto refresh = [&model, group, colour] {
+  auto* result = new QWidget;
+  auto* rows = new QVBoxLayout(result);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->addWidget(lineOf());
+  rows->addWidget(labelOf(AcquirePage::tr("What was measured"), "section"));
+  auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
+  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
+  auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
+  for (ValueRow* row : {patterns, photographs, error}) rows->addWidget(row);
+  rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
+                                          "photographed: this is how far the two differ."),
+                          "note"));
+  column->addWidget(result);
+  auto refresh = [&model, group, colour, result, patterns, photographs, error] {
+    auto count = [&model](const char* name) {
+      return countText(static_cast<std::uint64_t>(model.figure(name).value_or(0.0)));
+    };
+    result->setVisible(model.verificationError().has_value());
+    patterns->setValue(count("patterns"));
+    photographs->setValue(count("exposures"));
+    error->setValue(percentText(model.verificationError().value_or(0.0)));
     group->button(static_cast<int>(model.fineness()))->setChecked(true);
     colour->setCurrent(model.isWhite() ? 1 : 0);
   };
@@ -110,7 +134,9 @@ QWidget* runOf(AcquirePage& model) {
       left->setText(AcquirePage::tr("About %1 left").arg(durationText(*seconds)));
     else
       left->setText(AcquirePage::tr("Measuring"));
-    counts->setText(model.stage());
+    QString stage = model.stage();
+    if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
+    counts->setText(stage);
     rate->setValue(numberText(model.rate()));
     taken->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
     if (const auto& work = model.forecast()) {

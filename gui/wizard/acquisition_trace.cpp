@@ -63,6 +63,29 @@ QString patternsOf(const Retake& retake) {
 
 }  // namespace
 
+QString AcquisitionTrace::headingOf(AlarmKind kind) {
+  switch (kind) {
+    case AlarmKind::flicker:
+      return tr("The light flickers");
+    case AlarmKind::ambientChanged:
+      return tr("Room light changed");
+    case AlarmKind::lampChanged:
+      return tr("The projector's light changed");
+    case AlarmKind::moved:
+      return tr("The camera or the projector moved");
+    case AlarmKind::localChange:
+      return tr("Something stands in the view");
+    case AlarmKind::mirroredScreen:
+    case AlarmKind::wrongScreen:
+      return tr("The picture is not the one sent");
+    case AlarmKind::coveredLens:
+      return tr("The camera sees nothing");
+    case AlarmKind::projectorAsleep:
+      return tr("The projector shows nothing");
+  }
+  return {};
+}
+
 void AcquisitionTrace::clear() {
   points_.clear();
   marks_.clear();
@@ -107,6 +130,12 @@ void AcquisitionTrace::takenAgain(const Retake& retake) {
         Q_EMIT changed();
       },
       Qt::QueuedConnection);
+}
+
+std::optional<RoomLight> AcquisitionTrace::roomLight() const {
+  if (points_.empty()) return std::nullopt;
+  const Reading& now = points_.back().reading;
+  return RoomLight{now.roomLight, !isOf(now, {AlarmKind::ambientChanged})};
 }
 
 std::array<WatchState, 4> AcquisitionTrace::states() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "acquisition/observer.h"
+#include "wizard/session.h"
 
 namespace relucent {
 
@@ -41,6 +42,9 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
     Retake retake;
   };
 
+  /// What such an alarm is called, a title.
+  static QString headingOf(AlarmKind kind);
+
   /// What was told is forgotten, and nothing is listened to until begin().
   void clear();
   /// Anew. To be called before the measuring thread begins.
@@ -53,6 +57,8 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
   const std::vector<Mark>& marks() const { return marks_; }
   /// Room light, the view, the projector, flicker.
   std::array<WatchState, 4> states() const;
+  /// As it was seen last; none before it was.
+  std::optional<RoomLight> roomLight() const;
   /// The last ones, newest first.
   std::vector<TakenAgain> takenAgain(std::size_t most) const;
 

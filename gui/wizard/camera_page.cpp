@@ -135,7 +135,7 @@ Command CameraPage::primary() const {
   auto* self = const_cast<CameraPage*>(this);
   bool seen = look_.has_value() || session_.progress(Step::camera) == StepProgress::done;
   bool free = session_.busy().isEmpty() || isLooking();
-  return {tr("Measure response"), Icon::next, seen && free, {}, [self] {
+  return {tr("Keep exposures"), Icon::next, seen && free, {}, [self] {
             if (self->look_) {
               self->goOn_ = true;
               if (self->isLooking())
@@ -189,6 +189,16 @@ void CameraPage::watch(const Region& area) {
     shared_->area = area;
   }
   Q_EMIT changed();
+}
+
+bool CameraPage::isFocusJudged() const {
+  if (!look_) return false;
+  const Size size = look_->frame.signal.size();
+  int bright = 0, all = 0;
+  for (int y = std::max(0, area_.y); y < std::min(size.height, area_.y + area_.height); ++y)
+    for (int x = std::max(0, area_.x); x < std::min(size.width, area_.x + area_.width); ++x, ++all)
+      if (look_->check.exposed[indexOf(size, {x, y})] == Exposed::tooBright) ++bright;
+  return 2 * bright <= all;
 }
 
 void CameraPage::chooseExposure(std::size_t index) {

@@ -69,6 +69,8 @@ class CameraPage : public PageModel {
   /// The focus area, in pixels of the camera.
   Region focusArea() const { return area_; }
   void setFocusArea(const Region& area);
+  /// In the focus area there is something to judge: most of it is not too bright.
+  bool isFocusJudged() const;
   /// Sharpness relative to the best so far, 0 to 1.
   double focus() const { return best_ > 0.0 && look_ ? look_->sharpness / best_ : 0.0; }
 

@@ -71,6 +71,9 @@ QString verdictLines(const std::optional<RigCheck>& check) {
   return lines.join('\n');
 }
 
+/// Of the best so far: what noise alone takes away is no fault of the lens.
+constexpr double goodFocus = 0.9;
+
 class FocusMeter : public QWidget {
  public:
   FocusMeter() { setFixedHeight(24); }
@@ -88,7 +91,7 @@ class FocusMeter : public QWidget {
     QRectF bar(0, 7, width() - 2.0, 10);
     painter.setBrush(colours().line);
     painter.drawRoundedRect(bar, 3, 3);
-    painter.setBrush(value_ > 0.95 ? colours().good : colours().amber);
+    painter.setBrush(value_ > goodFocus ? colours().good : colours().amber);
     painter.drawRoundedRect(QRectF(bar.left(), bar.top(), bar.width() * value_, bar.height()), 3, 3);
     painter.setPen(QPen(colours().text, 2.0));
     painter.drawLine(QPointF(bar.right(), 1), QPointF(bar.right(), 23));
@@ -98,6 +101,11 @@ class FocusMeter : public QWidget {
   double value_ = 0.0;
 };
 
+/// Where nothing but full light is seen, nothing can be sharp.
+QString focusText(const CameraPage& model) {
+  return model.isFocusJudged() ? percentText(model.focus()) : CameraPage::tr("too bright to tell");
+}
+
 class CameraStage : public Card {
  public:
   explicit CameraStage(CameraPage& model) : Card(CameraPage::tr("Camera view")), model_(model) {
@@ -106,6 +114,14 @@ class CameraStage : public Card {
     view_->setAccessibleName(CameraPage::tr("What the camera sees now"));
     view_->setScaleBar(true);
     body()->addWidget(view_, 1);
+    // What the hatches mean.
+    for (auto [label, role, name] :
+         {std::tuple(&bright_, "amber", "too-bright"), std::tuple(&dark_, "information", "too-dark")}) {
+      addAction(*label = labelOf({}, role));
+      (*label)->setObjectName(name);
+      (*label)->setWordWrap(false);
+      (*label)->hide();
+    }
     connect(&view_->link(), &ViewLink::picked, this, [this] {
       if (auto pick = view_->link().pick()) moveArea(*pick);
     });
@@ -124,6 +140,8 @@ class CameraStage : public Card {
     if (!model_.look()) {
       view_->setPicture({});
       setSubtitle({});
+      bright_->hide();
+      dark_->hide();
       view_->setEmptyText(model_.isLooking() ? model_.stage()
                                              : CameraPage::tr("The camera is not being looked through."));
       return;
@@ -131,11 +149,16 @@ class CameraStage : public Card {
     const CameraLook& look = *model_.look();
     setSubtitle(CameraPage::tr("exposure %1. Click where the focus is to be judged.")
                     .arg(exposureText(look.frame.seconds)));
+    bright_->setVisible(look.check.tooBright > 0.0);
+    bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look.check.tooBright)));
+    dark_->setVisible(look.check.tooDark > 0.0);
+    dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look.check.tooDark)));
     view_->setPicture(pictureOf(look.frame.signal, 1.0f));
     view_->setOverlay(overlayOf(look, model_.focusArea()));
   }
   CameraPage& model_;
   ImageView* view_;
+  QLabel *bright_, *dark_;
 };
 
 class CameraInspector {
@@ -187,8 +210,10 @@ class CameraInspector {
         histogram->setAxes({0.0, 1.0, false, CameraPage::tr("Signal, share of full")},
                            {1.0, tallest(model.look()->check), true, CameraPage::tr("Pixels")});
         histogram->setCurves(histogramOf(model.look()->check));
+      } else {
+        histogram->setCurves({});  // of another venue
       }
-      focus->setValue(seen ? percentText(model.focus()) : QString::fromUtf8("–"));
+      focus->setValue(seen ? focusText(model) : QString::fromUtf8("–"));
       meter->setValue(model.focus());
       const std::vector<double>& exposures = model.exposures();
       for (int i = 0; i < 4; ++i) {
@@ -198,7 +223,9 @@ class CameraInspector {
         if (used) group->button(i)->setChecked(static_cast<std::size_t>(i) == model.exposure());
       }
       using Kind = Remark::Kind;
-      if (exposures.empty())
+      if (model.needsCamera())
+        sees->show(Kind::watch, CameraPage::tr("No camera is chosen yet"), {});
+      else if (exposures.empty())
         sees->show(Kind::watch, CameraPage::tr("Looking for the projector's light"), {});
       else
         sees->show(Kind::good, CameraPage::tr("The camera sees the projector"),
@@ -210,7 +237,9 @@ class CameraInspector {
         if (*share > 0.02)
           verdict->show(Kind::warning, bad.arg(percentText(*share)), advice);
         else
-          verdict->show(Kind::good, good, CameraPage::tr("All but %1 of the view.").arg(percentText(*share)));
+          verdict->show(Kind::good, good,
+                        *share < 0.0005 ? CameraPage::tr("All of the view.")
+                                        : CameraPage::tr("All but %1 of the view.").arg(percentText(*share)));
       };
       judge(bright, model.tooBrightEverywhere(), CameraPage::tr("Bright parts are covered"),
             CameraPage::tr("%1 is too bright in every exposure"),

@@ -21,7 +21,9 @@ std::vector<CutHistogram::Bar> barsOf(const std::vector<ClusterSize>& sizes) {
   for (double from = 1.0; from < 1024.0; from *= 2.0) bars.push_back({from, 2.0 * from, 0.0});
   for (const ClusterSize& size : sizes) {
     if (size.unknowns == 0) continue;
-    auto bin = std::min(static_cast<std::size_t>(std::log2(size.unknowns)), bars.size() - 1);
+    // The upper end is the bar's own: what is as large as the cap stands below it.
+    double inside = std::max(1.0, static_cast<double>(size.unknowns) - 0.5);
+    auto bin = std::min(static_cast<std::size_t>(std::log2(inside)), bars.size() - 1);
     bars[bin].count += 1.0;
   }
   return bars;
@@ -126,7 +128,7 @@ class ClusterStage : public QWidget {
       error_->setValues({});
       return error_->setPicture({});
     }
-    error_->setScale(shown_->errorScale, ClusterPage::tr("rel. RMS"), true);
+    error_->setScale(shown_->errorScale, ClusterPage::tr("error"), true);
     error_->setPicture(shown_->errorPicture);
     error_->setValues(Image(shown_->camera, 1, shown_->error));
     form_->setEnabled(error_->canRise());
@@ -231,8 +233,7 @@ QWidget* inspectorOf(ClusterPage& model) {
     const ClusteringSettings& settings = model.settings();
     distance->set(static_cast<int>(settings.patchRadius), ClusterPage::tr("%1 px").arg(settings.patchRadius));
     share->set(static_cast<int>(std::lround(100.0 * settings.patchCut)), percentText(settings.patchCut));
-    largest->set(settings.mostUnknowns / 16,
-                 ClusterPage::tr("%n unknown(s)", nullptr, settings.mostUnknowns));
+    largest->set(settings.mostUnknowns / 16, ClusterPage::tr("%1 px").arg(settings.mostUnknowns));
     const auto& result = model.result();
     percolated->setVisible(false);
     if (!result) return;

@@ -22,6 +22,7 @@ class LinearizePage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
+  QString cause() const override { return session_.mayMeasure() ? QString() : "room-is-clear"; }
   Command primary() const override;
   std::vector<Command> secondary() const override;
   std::optional<double> progress() const override;

@@ -2,6 +2,7 @@
 #include "wizard/output_inspector.h"
 
 #include <QComboBox>
+#include <QDir>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -126,6 +127,9 @@ QWidget* handOverPart(OutputPage& page) {
   QPushButton* report = buttonOf(OutputPage::tr("Save report"));
   report->setObjectName("report");
   column->addWidget(report);
+  QLabel* written = labelOf({}, "note");
+  written->setObjectName("report-written");
+  column->addWidget(written);
   auto* starts = new Tick(OutputPage::tr("Start the show with this computer"));
   starts->setObjectName("start-with-computer");
   column->addWidget(starts);
@@ -137,6 +141,9 @@ QWidget* handOverPart(OutputPage& page) {
   auto refresh = [=, &page] {
     report->setEnabled(page.proof().isPossible());
     report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));
+    written->setVisible(!page.reportFile().isEmpty());
+    written->setText(OutputPage::tr("Written to %1, and for paper to report.pdf beside it.")
+                         .arg(QDir::toNativeSeparators(page.reportFile())));
     QSignalBlocker quiet(starts);
     starts->setChecked(page.startsWithComputer());
     state->setText(
@@ -166,6 +173,9 @@ QWidget* outputInspector(OutputPage& page) {
   column->addWidget(screenBox(page));
   auto* differs = new Note(Note::Kind::information);
   column->addWidget(differs);
+  auto* moved = new Note(Note::Kind::information);
+  moved->setObjectName("moved-screen");
+  column->addWidget(moved);
   column->addWidget(labelOf(OutputPage::tr("Playlist"), "section"));
   column->addWidget(playlistPart(page));
   auto* method = new Note(Note::Kind::information);
@@ -183,6 +193,9 @@ QWidget* outputInspector(OutputPage& page) {
     differs->setText(
         OutputPage::tr("This screen's resolution is not that of the projector that was measured."),
         OutputPage::tr("The picture stands in its middle, pixel for pixel."));
+    QString meaning = page.meaningOfScreen();
+    moved->setVisible(!meaning.isEmpty() && page.chosen());
+    moved->setText(OutputPage::tr("The projector is another screen now"), meaning);
     QString still = page.stillMethod();
     method->setVisible(!still.isEmpty());
     method->setText(OutputPage::tr("Still pictures: %1").arg(still),

@@ -5,7 +5,6 @@
 #include <QDesktopServices>
 #include <QFileInfo>
 #include <QGuiApplication>
-#include <QScreen>
 #include <QStandardPaths>
 #include <QUrl>
 
@@ -22,11 +21,16 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&session_, &Session::opened, this, [this] {
     close();
     projection_.mirrorProjector(projector());
+    chosen_.clear();
+    reportFile_.clear();
+    listScreens();
+    lookForShow();
     preferred_ = QString::fromStdString(session_.settings().content.picture);
     playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
                    preferred_);
   });
   connect(&session_, &Session::changed, this, [this] {
+    followScreen();
     QString picture = QString::fromStdString(session_.settings().content.picture);
     if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
     if (chosen_.size() != projectors()) return listScreens();
@@ -39,8 +43,11 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&proof_, &OutputProof::changed, this, &OutputPage::changed);
   connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
-  connect(&proof_, &OutputProof::reported, this,
-          [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
+  connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
+    reportFile_ = file;
+    QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+    Q_EMIT changed();
+  });
   connect(&projection_, &OutputProjection::changed, this, &OutputPage::changed);
   connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
@@ -58,63 +65,14 @@ void OutputPage::finish() {
   close();
 }
 
-void OutputPage::listScreens() {
-  std::vector<std::optional<ScreenIdentity>> before;
-  for (const auto& screen : chosen_)
-    before.push_back(screen ? std::optional(screens_[*screen].identity) : std::nullopt);
-  screens_.clear();
-  for (QScreen* screen : QGuiApplication::screens())
-    screens_.push_back(
-        {identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen()});
-  chosen_.assign(session_.projectors(), std::nullopt);
-  for (std::size_t projector = 0; projector < std::min(chosen_.size(), before.size()); ++projector)
-    for (std::size_t i = 0; i < screens_.size(); ++i)
-      if (before[projector] && screens_[i].identity == *before[projector]) chosen_[projector] = i;
-  // One that has just been unplugged is not replaced unasked.
-  for (std::size_t projector = 0; projector < chosen_.size(); ++projector)
-    if (projector >= before.size() || !before[projector]) chooseFreeScreen(projector);
-  Q_EMIT changed();
-}
-
-/// The first that is neither the operator's nor another projector's.
-void OutputPage::chooseFreeScreen(std::size_t projector) {
-  for (std::size_t i = 0; i < screens_.size(); ++i) {
-    bool taken = std::find(chosen_.begin(), chosen_.end(), std::optional(i)) != chosen_.end();
-    if (taken || screens_[i].operators) continue;
-    chosen_[projector] = i;
-    return;
-  }
-}
-
-void OutputPage::choose(std::size_t index) {
-  if (isOpen()) close();
-  std::optional<std::size_t>& mine = chosen_[projector()];
-  auto other = std::find(chosen_.begin(), chosen_.end(), std::optional(index));
-  if (other != chosen_.end()) *other = mine;
-  mine = index;
-  Q_EMIT changed();
-}
-
-std::optional<std::size_t> OutputPage::projectorWithoutScreen() const {
-  auto missing = std::find(chosen_.begin(), chosen_.end(), std::nullopt);
-  if (missing == chosen_.end()) return std::nullopt;
-  return static_cast<std::size_t>(missing - chosen_.begin());
-}
-
-QString OutputPage::missingScreen(std::size_t projector) const {
-  if (projectors() == 1) return tr("Choose the projector's screen.");
-  if (screens_.size() < projectors())
-    return tr("Each of the %n projector(s) needs a screen of its own. Plug in another one.", nullptr,
-              static_cast<int>(projectors()));
-  return tr("Choose a screen for projector %1.").arg(projector + 1);
-}
-
 void OutputPage::enter() {
   listScreens();
+  lookForShow();
 }
 
 StepStatus OutputPage::status() const {
   if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
+  if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
 }
 
@@ -122,19 +80,22 @@ QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
-  if (auto missing = projectorWithoutScreen()) return missingScreen(*missing);
+  if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
+  if (isOpen() && isInstalled())
+    return tr("Installed: the show starts at the next log-in. Hold A to compare.");
   if (isOpen())
     return proof_.proof() ? tr("Playing. Hold A to compare.")
                           : tr("Take a verification photograph, or install without proof.");
-  if (screens_.size() < 2)
-    return tr("There is one screen only. The output will cover it; Esc closes the output.");
+  if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
 }
 
 Command OutputPage::primary() const {
   auto* self = const_cast<OutputPage*>(this);
   if (isOpen())
-    return {proof_.proof() ? tr("Install show") : tr("Install without proof"),
+    return {isInstalled()    ? tr("Install again")
+            : proof_.proof() ? tr("Install show")
+                             : tr("Install without proof"),
             Icon::power,
             !playlist_.isEmpty(),
             {},
@@ -257,8 +218,16 @@ void OutputPage::setStartsWithComputer(bool starts) {
   Q_EMIT changed();
 }
 
-bool OutputPage::isInstalled() const {
-  return relucent::isInstalled(Start::service, config_) || relucent::isInstalled(Start::autostart, config_);
+void OutputPage::setConfigFolder(const QString& folder) {
+  config_ = folder;
+  lookForShow();
+}
+
+void OutputPage::lookForShow() {
+  const QString venue = QString::fromStdString(session_.path().string());
+  installed_ = session_.isOpen() && (relucent::isInstalled(Start::service, config_, venue) ||
+                                     relucent::isInstalled(Start::autostart, config_, venue));
+  Q_EMIT changed();
 }
 
 QStringList OutputPage::showArguments() const {
@@ -290,7 +259,7 @@ void OutputPage::install() {
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }
-  Q_EMIT changed();
+  lookForShow();
 }
 
 void OutputPage::tell(const Failure& failure) {

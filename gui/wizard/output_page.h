@@ -29,6 +29,7 @@ class OutputPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
+  QString cause() const override { return projectorWithoutScreen() ? "output-screen" : QString(); }
   Command primary() const override;
   std::vector<Command> secondary() const override;
   std::optional<double> progress() const override;
@@ -38,11 +39,14 @@ class OutputPage : public DevicePage {
   const std::vector<OutputScreen>& screens() const { return screens_; }
   /// The shown projector's screen.
   std::optional<std::size_t> chosen() const { return screenOf(projector()); }
-  /// Another projector that had that screen gets this one's in return.
+  /// Another projector that had that screen gets this one's in return. Of a calibration whose projector is a
+  /// screen, another of its pixels becomes that projector's.
   void choose(std::size_t index);
   std::optional<std::size_t> screenOf(std::size_t projector) const {
     return projector < chosen_.size() ? chosen_[projector] : std::nullopt;
   }
+  /// What it means for what is measured that the projector is another screen now; empty: nothing.
+  QString meaningOfScreen() const;
 
   const OutputPlaylist& playlist() const { return playlist_; }
   void addFiles(const QStringList& files);
@@ -77,21 +81,28 @@ class OutputPage : public DevicePage {
   }
   /// Writes the report and lets the desktop show it.
   void report();
+  /// Where it is; empty: not written since the calibration was opened.
+  const QString& reportFile() const { return reportFile_; }
 
   /// Whether installing makes the show start with the computer; yes at first.
   bool startsWithComputer() const { return starts_; }
   void setStartsWithComputer(bool starts);
-  bool isInstalled() const;
+  /// The show that starts with the computer is this venue's.
+  bool isInstalled() const { return installed_; }
   /// Keeps the playlist and makes the show start at log-in, or no more.
   void install();
   /// Of the user; tests have their own.
-  void setConfigFolder(const QString& folder) { config_ = folder; }
+  void setConfigFolder(const QString& folder);
 
  private:
   void listScreens();
-  void chooseFreeScreen(std::size_t projector);
+  void lookForShow();
   std::optional<std::size_t> projectorWithoutScreen() const;
-  QString missingScreen(std::size_t projector) const;
+  bool coversOperator() const;
+  QString screenHint(std::size_t projector) const;
+  std::optional<std::size_t> usualScreen() const;
+  void keepScreen();
+  void followScreen();
   void projectorChanged() override { projection_.mirrorProjector(projector()); }
   void edit(const QString& what, const PlaylistSettings& after);
   void setPlaylist(const PlaylistSettings& settings);
@@ -106,9 +117,12 @@ class OutputPage : public DevicePage {
   OutputProjection projection_;
   std::vector<OutputScreen> screens_;
   std::vector<std::optional<std::size_t>> chosen_;  // a projector's
+  ScreenIdentity screenBefore_;                     // the calibration's
   bool reopen_ = false;                             // when the photographs are taken
   QString preferred_;                               // Preview's picture
   QString config_;
+  bool installed_ = false;
+  QString reportFile_;
   bool starts_ = true;
 };
 

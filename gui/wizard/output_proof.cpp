@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "handover/report_pdf.h"
 #include "image/exr.h"
+#include "wizard/proof_file.h"
 
 namespace relucent {
 namespace {
@@ -63,7 +64,7 @@ OutputProof::OutputProof(Session& session, std::function<QString()> who, QObject
     : QObject(parent), session_(session), who_(std::move(who)) {
   connect(&session_, &Session::opened, this, [this] {
     job_.cancel();
-    proof_ = nullptr;
+    recall();
     found_ = nullptr;
     drift_.reset();
     Q_EMIT changed();
@@ -73,9 +74,19 @@ OutputProof::OutputProof(Session& session, std::function<QString()> who, QObject
   connect(&job_, &Job::ended, this, &OutputProof::finished);
 }
 
+/// Somebody photographed it earlier, and nothing has changed since.
+void OutputProof::recall() {
+  proof_ = session_.isOpen() ? loadProof(proofFolder(session_.path())) : nullptr;
+  if (proof_ && !holds(*proof_)) proof_ = nullptr;
+}
+
+bool OutputProof::holds(const Proof& proof) const {
+  return proof.content == session_.settings().content && proof.measured == measurementOf(session_);
+}
+
 void OutputProof::forgetWhatIsNoProof() {
   if (!proof_ || !session_.isOpen()) return;
-  if (proof_->content == session_.settings().content && proof_->measured == measurementOf(session_)) return;
+  if (holds(*proof_)) return;
   proof_ = nullptr;
   Q_EMIT changed();
 }
@@ -94,7 +105,7 @@ void OutputProof::photograph(const QString& picture) {
         [found = found_, work = workOf(session_), picture, content = session_.settings().content,
          measured = measurementOf(session_)](Progress& progress) {
           ProveSettings settings;
-          settings.out = work.path / "verification";
+          settings.out = proofFolder(work.path);
           settings.image = fileOf(picture, settings.out);
           settings.method = content.method;
           settings.target = targetOf(content);
@@ -104,6 +115,7 @@ void OutputProof::photograph(const QString& picture) {
           auto proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
           proof->content = content;
           proof->measured = measured;
+          saveProof(*proof, settings.out);
           found->proof = proof;
         });
 }
@@ -127,7 +139,7 @@ void OutputProof::report(const QString& picture) {
                        logs = showLogs()](Progress& progress) {
     ReportSettings settings;
     settings.out = path / "report.html";
-    settings.images = {fileOf(picture, path / "verification")};
+    settings.images = {fileOf(picture, proofFolder(path))};
     settings.bundle = path / "support.zip";
     settings.attachments = logs;
     settings.evaluate = false;  // what was measured, not what a simulation knows

@@ -66,6 +66,8 @@ class OutputProof : public QObject {
  private:
   void start(Work work, Job::Work job);
   void finished();
+  void recall();
+  bool holds(const Proof& proof) const;
   void forgetWhatIsNoProof();
 
   Session& session_;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QComboBox>
 #include <QDropEvent>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QShortcut>
 #include <cmath>
@@ -53,7 +58,8 @@ class PlaybackCard : public Card {
     time_->setValue(open && s.frameSeconds > 0.0
                         ? OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.frameSeconds, 1))
                         : none);
-    late_->setValue(open ? countText(s.late) : none, s.late > 0);
+    // A picture that stands is not late for anything.
+    late_->setValue(open && moves ? countText(s.late) : none, moves && s.late > 0);
     setSubtitle(!open   ? OutputPage::tr("closed")
                 : moves ? OutputPage::tr("on %1").arg(page_.projection().engineName())
                         : OutputPage::tr("still picture, on %1").arg(page_.projection().engineName()));
@@ -99,7 +105,16 @@ class MirrorView : public ImageView {
   OutputProjection& projection_;
 };
 
-/// Pictures beside each other. While it has the focus: A held shows the original, space freezes, B blackens.
+/// Whether the widget has a use of its own for letters.
+bool takesLetters(const QWidget* widget) {
+  return qobject_cast<const QLineEdit*>(widget) != nullptr ||
+         qobject_cast<const QAbstractItemView*>(widget) != nullptr ||
+         qobject_cast<const QAbstractSpinBox*>(widget) != nullptr ||
+         qobject_cast<const QComboBox*>(widget) != nullptr;
+}
+
+/// Pictures beside each other. A held shows the original wherever on the page the focus is; while it has the
+/// focus itself: space freezes, B blackens.
 class OutputStage : public QWidget {
  public:
   explicit OutputStage(OutputPage& page) : page_(page) {
@@ -119,15 +134,26 @@ class OutputStage : public QWidget {
     connect(new QShortcut(QKeySequence("Ctrl+Shift+V"), this), &QShortcut::activated, &page_,
             &OutputPage::verify);
     connect(&page_, &OutputPage::changed, this, [this] { refresh(); });
+    qApp->installEventFilter(this);
     refresh();
   }
 
  protected:
+  /// Comparing is told of in the action bar: it must not depend on what was clicked last.
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if ((event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) || !isVisible())
+      return false;
+    auto* key = static_cast<QKeyEvent*>(event);
+    auto* widget = qobject_cast<QWidget*>(watched);
+    if (key->key() != Qt::Key_A || key->modifiers() != Qt::NoModifier || widget == nullptr ||
+        widget->window() != window() || takesLetters(QApplication::focusWidget()))
+      return false;
+    if (!key->isAutoRepeat()) page_.setCompensated(event->type() == QEvent::KeyRelease);
+    return true;
+  }
   void keyPressEvent(QKeyEvent* event) override {
     if (event->isAutoRepeat()) return;
     switch (event->key()) {
-      case Qt::Key_A:
-        return page_.setCompensated(false);
       case Qt::Key_Space:
         return page_.setFrozen(!page_.isFrozen());
       case Qt::Key_B:
@@ -135,10 +161,6 @@ class OutputStage : public QWidget {
       default:
         QWidget::keyPressEvent(event);
     }
-  }
-  void keyReleaseEvent(QKeyEvent* event) override {
-    if (event->key() == Qt::Key_A && !event->isAutoRepeat()) return page_.setCompensated(true);
-    QWidget::keyReleaseEvent(event);
   }
   void dragEnterEvent(QDragEnterEvent* event) override {
     if (!draggedFiles(*event->mimeData()).isEmpty()) event->acceptProposedAction();
@@ -199,9 +221,10 @@ class OutputStage : public QWidget {
   QString figures() const {
     PlayerStatistics s = page_.projection().statistics();
     if (!page_.isOpen() || s.frames == 0) return {};
-    QString clipped = OutputPage::tr("%1 out of reach").arg(percentText(s.clipped));
-    if (!(s.framesPerSecond > 0.0)) return OutputPage::tr("still picture, %1").arg(clipped);
-    return OutputPage::tr("%1 fps, %2 ms, %3")
+    QString clipped = percentText(s.clipped);
+    if (!(s.framesPerSecond > 0.0))
+      return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);
+    return OutputPage::tr("%1 fps, %2 ms, %3 of the pixels at their limit")
         .arg(decimalText(s.framesPerSecond, 1), decimalText(1000.0 * s.frameSeconds, 1), clipped);
   }
   void showProof() {

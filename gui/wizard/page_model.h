@@ -60,6 +60,8 @@ class PageModel : public QObject {
   virtual StepStatus status() const = 0;
   /// Beside the buttons: the time, or why the primary command is not possible.
   virtual QString hint() const { return {}; }
+  /// The name of the widget that can change what the hint says; empty: none can.
+  virtual QString cause() const { return {}; }
   virtual Command primary() const = 0;
   virtual std::vector<Command> secondary() const { return {}; }
   /// Of a measurement under way, 0 to 1.

@@ -224,7 +224,7 @@ QString PreviewPage::hint() const {
 
 Command PreviewPage::primary() const {
   auto* self = const_cast<PreviewPage*>(this);
-  return {tr("Open output"), Icon::next, preview_ != nullptr, {}, [self] { self->accept(); }};
+  return {tr("Go to output"), Icon::next, preview_ != nullptr, {}, [self] { self->accept(); }};
 }
 
 std::optional<double> PreviewPage::progress() const {

@@ -134,7 +134,8 @@ class PreviewStage : public QWidget {
                         PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
                         decimalText(method.ssim, 3),
                         isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
-                        method.seconds < 1.0
+                        method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
+                        : method.seconds < 1.0
                             ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
                             : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1)),
                         noteOf(method.method)};
@@ -161,7 +162,9 @@ class PreviewStage : public QWidget {
     Size size = preview->with.size();
     views_[picture]->setPicture(pictureOf(preview->without, preview->white));
     views_[picture]->setCompared(pictureOf(preview->with, preview->white), PreviewPage::tr("Uncorrected"),
-                                 PreviewPage::tr("Corrected, predicted"));
+                                 page_.settings().method == toString(Method::none)
+                                     ? PreviewPage::tr("Uncorrected, too")
+                                     : PreviewPage::tr("Corrected, predicted"));
     ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};
     views_[reachable]->setScale(reach, PreviewPage::tr("of white"), true);
     views_[reachable]->setPicture(mapped(preview->reach, size, reach));

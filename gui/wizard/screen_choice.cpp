@@ -5,8 +5,10 @@
 #include <QGuiApplication>
 #include <QScreen>
 #include <cmath>
+#include <utility>
 
 #include "output/window_projector.h"
+#include "views/number_text.h"
 #include "wizard/identify_overlay.h"
 
 namespace relucent {
@@ -48,6 +50,36 @@ std::vector<ScreenChoice> screenChoices() {
   const QList<QScreen*> screens = QGuiApplication::screens();
   for (const QScreen* screen : screens) choices.push_back(choiceOf(*screen, screens.size() == 1));
   return choices;
+}
+
+std::vector<ScreenChoice> screenChoicesFor(Size projector) {
+  std::vector<ScreenChoice> choices = screenChoices();
+  for (ScreenChoice& choice : choices)
+    if (choice.refusal.isEmpty() && choice.size != projector)
+      choice.refusal = Words::tr("The projector was measured with %1 pixels. Set this screen to that size.")
+                           .arg(sizeText(projector.width, projector.height));
+  return choices;
+}
+
+ScreenRigSettings withScreen(ScreenRigSettings settings, const ScreenChoice& choice) {
+  settings.display = choice.display;
+  settings.projector = choice.size;
+  settings.frameRate = choice.frameRate;
+  return settings;
+}
+
+QString meaningOfMove(const ScreenRigSettings::Display& measured, const ScreenRigSettings::Display& now) {
+  const bool alike = measured.manufacturer == now.manufacturer && measured.model == now.model &&
+                     measured.serialNumber == now.serialNumber;
+  if (!alike)
+    return Words::tr(
+        "This is another projector than the one that was measured. Its light and its place differ: take a "
+        "verification photograph, and measure again where that does not look as predicted.");
+  if (!measured.serialNumber.empty() || measured.connector == now.connector) return {};
+  return Words::tr(
+             "Measured at %1, used at %2. If it is the same projector in the same place, everything that was "
+             "measured holds; a verification photograph tells.")
+      .arg(QString::fromStdString(measured.connector), QString::fromStdString(now.connector));
 }
 
 }  // namespace relucent

@@ -22,5 +22,13 @@ struct ScreenChoice {
 
 /// All that are there, in the desktop's order. The operator's own is refused unless it is the only one.
 std::vector<ScreenChoice> screenChoices();
+/// The same for what was measured with a projector of so many pixels: screens of others are refused.
+std::vector<ScreenChoice> screenChoicesFor(Size projector);
+
+/// The settings with that screen in place of theirs.
+ScreenRigSettings withScreen(ScreenRigSettings settings, const ScreenChoice& choice);
+/// What it means for a measurement that its projector is now seen as another screen, a sentence; empty: it is
+/// the same one. Screens that tell no serial number are told from each other by their connectors.
+QString meaningOfMove(const ScreenRigSettings::Display& measured, const ScreenRigSettings::Display& now);
 
 }  // namespace relucent

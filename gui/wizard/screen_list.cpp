@@ -37,11 +37,20 @@ std::vector<QSize> drawnToScale(const std::vector<Size>& screens, QSize room, in
   return drawn;
 }
 
-ScreenList::ScreenList(Chosen chosen) : tell_(std::move(chosen)), row_(new QHBoxLayout(this)) {
+ScreenList::ScreenList(Chosen chosen, Offer offer)
+    : tell_(std::move(chosen)), offer_(std::move(offer)), row_(new QHBoxLayout(this)) {
+  setObjectName("screens");
   row_->setContentsMargins(0, 0, 0, 0);
   row_->setSpacing(space::gap);
   connect(qApp, &QGuiApplication::screenAdded, this, [this] { fill(); });
   connect(qApp, &QGuiApplication::screenRemoved, this, [this] { fill(); });
+  fill();
+}
+
+void ScreenList::start(const ScreenRigSettings::Display& chosen) {
+  chosen_.reset();
+  for (const ScreenChoice& choice : offer_())
+    if (choice.display == chosen) chosen_ = choice;
   fill();
 }
 
@@ -52,7 +61,7 @@ void ScreenList::fill() {
   }
   tiles_.clear();
   row_->addStretch(1);
-  const std::vector<ScreenChoice> choices = screenChoices();
+  const std::vector<ScreenChoice> choices = offer_();
   for (const ScreenChoice& choice : choices) add(tileOf(choice), choice.size);
   const bool there = std::any_of(choices.begin(), choices.end(), [this](const ScreenChoice& choice) {
     return chosen_ && choice.display == chosen_->display;
@@ -114,7 +123,7 @@ void ScreenList::dropGone() {
     if (tile->isDashed()) tile->deleteLater();
 }
 
-Card* screensCard(QWidget* stage, ScreenList::Chosen chosen) {
+Card* screensCard(QWidget* stage, ScreenList* list) {
   auto* card = new Card(VenuePage::tr("Screens"));
   card->setSubtitle(
       VenuePage::tr("Choose the one that shines on the surface. Its pixels are the projector's."));
@@ -129,7 +138,7 @@ Card* screensCard(QWidget* stage, ScreenList::Chosen chosen) {
   QObject::connect(key, &QShortcut::activated, overlay, &IdentifyOverlay::show);
   QObject::connect(new QShortcut(QKeySequence(Qt::Key_Escape), stage), &QShortcut::activated, overlay,
                    &IdentifyOverlay::hide);
-  card->body()->addWidget(new ScreenList(std::move(chosen)));
+  card->body()->addWidget(list);
   return card;
 }
 

@@ -23,7 +23,11 @@ std::vector<QSize> drawnToScale(const std::vector<Size>& screens, QSize room, in
 class ScreenList : public QWidget {
  public:
   using Chosen = std::function<void(const ScreenChoice&)>;
-  explicit ScreenList(Chosen chosen);
+  /// What is offered, asked for whenever a screen comes or goes.
+  using Offer = std::function<std::vector<ScreenChoice>()>;
+  explicit ScreenList(Chosen chosen, Offer offer = screenChoices);
+  /// Offers anew, with that screen chosen if it is there.
+  void start(const ScreenRigSettings::Display& chosen);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -36,12 +40,13 @@ class ScreenList : public QWidget {
   void dropGone();
 
   Chosen tell_;
+  Offer offer_;
   QHBoxLayout* row_;
   std::vector<std::pair<QPointer<Tile>, Size>> tiles_;
   std::optional<ScreenChoice> chosen_;
 };
 
-/// The list on a card with the button that shows a number on each screen.
-Card* screensCard(QWidget* stage, ScreenList::Chosen chosen);
+/// A list on a card with the button that shows a number on each screen.
+Card* screensCard(QWidget* stage, ScreenList* list);
 
 }  // namespace relucent

@@ -2,12 +2,14 @@
 #include "wizard/session.h"
 
 #include <QPointer>
+#include <utility>
 
 #include "base/error.h"
 #include "calibration/results.h"
 #include "devices/test_exposure.h"
 #include "output/window_projector.h"
 #include "pipeline/measuring.h"
+#include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
 #include "rig/watched_rig.h"
 #include "wizard/other_screens.h"
@@ -168,6 +170,7 @@ void Session::adopt(const CalibrationFolder& folder) {
   live_ = std::make_shared<LiveRig>();
   look(folder);
   roomClear_ = false;
+  roomLight_.reset();
   slowDown();
   equip();
   Q_EMIT opened();
@@ -210,6 +213,22 @@ void Session::changeRig(const RigSettings& rig) {
   Q_EMIT changed();
 }
 
+void Session::changeScreen(const ScreenRigSettings& screen) {
+  devices_ = nullptr;
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    try {
+      relucent::changeScreen(folder, screen);
+    } catch (...) {
+      equip();
+      throw;
+    }
+    look(folder);
+  }
+  equip();
+  Q_EMIT changed();
+}
+
 void Session::close() {
   path_.clear();
   devices_ = nullptr;
@@ -223,6 +242,9 @@ void Session::close() {
 
 void Session::look(const CalibrationFolder& folder) {
   settings_ = settingsOf(folder);
+  const RigSettings measured = rigFromJson(folder.rig());
+  const auto* screen = std::get_if<ScreenRigSettings>(&measured);
+  measuredDisplay_ = screen != nullptr ? screen->display : ScreenRigSettings::Display();
   for (Step step : allSteps)
     steps_[static_cast<std::size_t>(step)] = {progressOf(folder, step), resultOf(folder, step)};
 }
@@ -326,6 +348,10 @@ void Session::setRoomClear(bool clear) {
   roomClear_ = clear;
   slowDown();
   Q_EMIT changed();
+}
+
+void Session::setRoomLight(const RoomLight& light) {
+  if (std::exchange(roomLight_, light) != light) Q_EMIT changed();
 }
 
 void Session::setBusy(const QString& who) {

@@ -70,6 +70,13 @@ class SessionDevices {
   std::optional<double> latency_;
 };
 
+/// What of the room's light was seen when it was checked last.
+struct RoomLight {
+  double share = 0.0;  // of the projectors' full light
+  bool isSteady = true;
+  bool operator==(const RoomLight&) const = default;
+};
+
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
 /// locked only while something is read or written, so that a show can read it beside the wizard.
 class Session : public QObject {
@@ -113,6 +120,13 @@ class Session : public QObject {
   void decide(Step step, Json values);
   /// Other devices, before anything is measured. Throws: as changeRig().
   void changeRig(const RigSettings& rig);
+  /// The projector is another screen from now on; nothing that was measured becomes stale.
+  /// Contract: screenRig(). Throws: as relucent::changeScreen().
+  void changeScreen(const ScreenRigSettings& screen);
+  /// As which screen the projector was measured; see screenRig() for what it is now.
+  const ScreenRigSettings::Display& measuredDisplay() const { return measuredDisplay_; }
+  /// Something was measured that belongs to these devices.
+  bool isMeasured() const { return result(Step::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
   /// Looks at the folder again, after some work wrote into it.
   void reload();
@@ -141,6 +155,10 @@ class Session : public QObject {
   /// The projector's screen is unplugged, and work waits for it.
   bool isScreenMissing() const { return screenMissing_; }
 
+  /// Since the calibration was opened; none before it was measured.
+  const std::optional<RoomLight>& roomLight() const { return roomLight_; }
+  void setRoomLight(const RoomLight& light);
+
   /// Devices are used by one page at a time. `who`: its name; empty: nobody.
   const QString& busy() const { return busy_; }
   void setBusy(const QString& who);
@@ -167,6 +185,7 @@ class Session : public QObject {
 
   std::filesystem::path path_, cache_;
   CalibrateSettings settings_;
+  ScreenRigSettings::Display measuredDisplay_;
   std::array<StepState, allSteps.size()> steps_;
   std::shared_ptr<LiveRig> live_;
   std::shared_ptr<SessionDevices> devices_;
@@ -177,6 +196,7 @@ class Session : public QObject {
   int flashLimit_ = 0;
   bool roomClear_ = false;
   bool screenMissing_ = false;
+  std::optional<RoomLight> roomLight_;
   CheckPatience patience_;
   Latest<std::shared_ptr<const Acquisition>> reading_;
 };

@@ -102,6 +102,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
   connect(&session_, &Session::opened, this, [this] {
     cut_ = session_.settings().threshold;
     shareOfRow_ = cut_.shareOfRowMax > 0.0f;
+    absoluteBefore_ = shareBefore_ = 0.0f;
     forget();
   });
   connect(&session_, &Session::changed, this, [this] {
@@ -174,12 +175,15 @@ std::optional<Banner> ThresholdPage::banner() const {
 }
 
 void ThresholdPage::setShareOfRow(bool share) {
-  shareOfRow_ = share;
-  // One way at a time; the other one drops nothing.
-  if (share)
-    cut_.absolute = 0.0f;
-  else
-    cut_.shareOfRowMax = 0.0f;
+  if (std::exchange(shareOfRow_, share) == share) return;
+  // One way at a time; the other one drops nothing, and is found again as it was left.
+  if (share) {
+    absoluteBefore_ = std::exchange(cut_.absolute, 0.0f);
+    cut_.shareOfRowMax = shareBefore_;
+  } else {
+    shareBefore_ = std::exchange(cut_.shareOfRowMax, 0.0f);
+    cut_.absolute = absoluteBefore_;
+  }
   compute();
 }
 

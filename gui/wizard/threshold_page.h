@@ -76,6 +76,7 @@ class ThresholdPage : public DevicePage {
   std::shared_ptr<const Acquisition> adopted_;
   ThresholdSettings cut_;
   bool shareOfRow_ = false;
+  float absoluteBefore_ = 0.0f, shareBefore_ = 0.0f;  // of the way that is not used now
   std::optional<TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;
   std::optional<Pixel> picked_, pickedProjector_;

@@ -24,7 +24,9 @@ QWidget* devicesStage(VenuePage& model) {
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  column->addWidget(screensCard(stage, [&model](const ScreenChoice& choice) { model.chooseScreen(choice); }),
+  column->addWidget(screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
+                                  model.chooseScreen(choice);
+                                })),
                     1);
   auto* note = new Note(Note::Kind::amber);
   column->addWidget(note);

@@ -4,15 +4,13 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
-#include <QStorageInfo>
 
-#include "acquisition/forecast.h"
 #include "views/number_text.h"
 
 namespace relucent {
 namespace {
 
-constexpr Size usualScreen{1920, 1080};
+const QString manifestName = "calibration.relucent";
 
 QString sizeText(Size size) {
   return relucent::sizeText(size.width, size.height);
@@ -21,7 +19,7 @@ QString sizeText(Size size) {
 }  // namespace
 
 VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
-    : PageModel(parent), session_(session), recent_(recent) {
+    : PageModel(parent), session_(session), recent_(recent), openScreen_(session) {
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = {
       {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
@@ -43,6 +41,7 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   size_ = 1;
   script_.projector = {1024, 768};
   connect(&session_, &Session::changed, this, &VenuePage::changed);
+  connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::changed);
   connect(&session_, &Session::opened, this, [this] {
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
     mode_ = Mode::start;
@@ -61,6 +60,8 @@ QString VenuePage::title() const {
       return tr("New venue by script");
     case Mode::devices:
       return tr("New venue");
+    case Mode::screen:
+      return tr("The projector's screen");
     case Mode::start:
       break;
   }
@@ -75,6 +76,8 @@ QString VenuePage::subtitle() const {
       return tr("Say which screen shines, which programs show and photograph, and where the work is kept.");
     case Mode::devices:
       return tr("Say which screen shines on the surface, and where the work is kept.");
+    case Mode::screen:
+      return tr("Say which screen the projector is now. What was measured stays.");
     case Mode::start:
       break;
   }
@@ -95,6 +98,7 @@ QString VenuePage::hint() const {
     return session_.isOpen() ? tr("%1 is open").arg(session_.name())
                              : tr("Enter opens the highlighted choice");
   if (QString wrong = problem(); !wrong.isEmpty()) return wrong;
+  if (mode_ == Mode::screen) return tr("Nothing is measured again.");
   WorkLeft work = expected();
   const auto patterns = static_cast<int>(work.shots);
   return groupedText(tr("About %n pattern(s), %1", nullptr, patterns), patterns)
@@ -107,11 +111,31 @@ Command VenuePage::primary() const {
     if (!session_.isOpen()) return {};
     return {tr("Check camera"), Icon::next, true, {}, [self] { Q_EMIT self->nextWanted(); }};
   }
+  if (mode_ == Mode::screen)
+    return {tr("Use this screen"), Icon::projector, problem().isEmpty(), {}, [self] { self->useScreen(); }};
   return {mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"),
           mode_ == Mode::rehearse ? Icon::play : Icon::next,
           problem().isEmpty(),
           {},
           [self] { self->begin(); }};
+}
+
+std::vector<Command> VenuePage::secondary() const {
+  // Where it is missing, the banner has the same.
+  if (mode_ != Mode::start || !openScreen_.isChangeable() || openScreen_.isMissing()) return {};
+  auto* self = const_cast<VenuePage*>(this);
+  return {{tr("Change the screen"), Icon::projector, true, {}, [self] { self->setMode(Mode::screen); }}};
+}
+
+std::optional<Banner> VenuePage::banner() const {
+  if (mode_ != Mode::start || !openScreen_.isChangeable() || !openScreen_.isMissing()) return std::nullopt;
+  auto* self = const_cast<VenuePage*>(this);
+  return Banner{Banner::Kind::amber,
+                tr("The projector's screen %1 is not there")
+                    .arg(QString::fromStdString(session_.screenRig()->display.connector)),
+                tr("Plug it in, or say which screen the projector is now."),
+                {tr("Change the screen"), Icon::projector, true, {}, [self] { self->setMode(Mode::screen); }},
+                {}};
 }
 
 bool VenuePage::goBack() {
@@ -128,18 +152,38 @@ void VenuePage::setRoomClear(bool clear) {
 void VenuePage::setMode(Mode mode) {
   mode_ = mode;
   roomClear_ = false;
+  openScreen_.forget();
   if (mode != Mode::start) suggestName();
   Q_EMIT changed();
+}
+
+bool VenuePage::isOpenNow(const RecentVenue& venue) const {
+  return session_.isOpen() &&
+         QDir::cleanPath(QString::fromStdString(session_.path().string())) == venue.folder;
 }
 
 void VenuePage::open(const QString& path) {
   try {
     QFileInfo file(path);
-    bool within = file.isFile() && file.fileName() == "calibration.relucent";
-    session_.open((within ? file.path() : path).toStdString());
+    bool within = file.isFile() && file.fileName() == manifestName;
+    QDir folder(within ? file.path() : path);
+    if (folder.exists() && !folder.exists(manifestName)) return tellNoVenue(folder);
+    session_.open(folder.path().toStdString());
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder."), {}, {}});
   }
+}
+
+void VenuePage::tellNoVenue(const QDir& folder) {
+  int within = 0;
+  for (const QString& child : folder.entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+    if (folder.exists(child + '/' + manifestName)) ++within;
+  Failure failure{ErrorKind::input,
+                  tr("%1 is not the folder of a venue: it has no %2 in it.").arg(folder.path(), manifestName),
+                  within > 0 ? tr("There are %n venue(s) within it: open one of them.", nullptr, within)
+                             : tr("Choose a venue's own folder. It has the venue's name."),
+                  folder.path(), tr("This folder is not a venue")};
+  Q_EMIT failed({failure, tr("Nothing was changed in that folder."), {}, {}});
 }
 
 void VenuePage::chooseVenue(std::size_t index) {
@@ -202,65 +246,18 @@ void VenuePage::suggestName() {
     venueName_ = QString("%1 %2").arg(base).arg(number);
 }
 
-std::uint64_t VenuePage::freeBytes() const {
-  QString existing = parent_;
-  while (!QFileInfo::exists(existing) && existing != QDir(existing).absolutePath().section('/', 0, 0))
-    existing = QFileInfo(existing).path();
-  return static_cast<std::uint64_t>(std::max<qint64>(0, QStorageInfo(existing).bytesAvailable()));
-}
-
-CalibrateSettings VenuePage::wanted() const {
-  CalibrateSettings settings;
-  if (isReal()) {
-    if (mode_ == Mode::script)
-      settings.rig = script_;
-    else
-      settings.rig = screen_;
-    return settings;
+void VenuePage::useScreen() {
+  if (!problem().isEmpty()) return;
+  try {
+    openScreen_.apply();
+    setMode(Mode::start);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
   }
-  VenueSettings venue;
-  venue.name = venues_[venue_].id;
-  venue.projector = sizes_[size_].projector;
-  venue.camera = sizes_[size_].camera;
-  settings.rig = venue;
-  return settings;
-}
-
-WorkLeft VenuePage::expected() const {
-  Size projector = sizes_[size_].projector, camera = sizes_[size_].camera;
-  if (mode_ == Mode::script) {
-    projector = script_.projector;
-    camera = script_.camera.value_or(projector);
-  } else if (mode_ == Mode::devices) {
-    // A camera is chosen later; until then one of as many pixels.
-    projector = camera = screen_.projector.empty() ? usualScreen : screen_.projector;
-  }
-  constexpr std::size_t exposures = 2;
-  constexpr double meanExposure = 0.1;
-  Rasters projectors(std::vector<Size>(Session::projectorsOf(wanted().rig), projector));
-  return forecast(Rasters(camera), projectors, exposures, meanExposure, {}, {}, {});
-}
-
-QString VenuePage::problem() const {
-  if (mode_ == Mode::start) return {};
-  if (venueName_.trimmed().isEmpty()) return tr("Give the venue a name.");
-  if (venueName_.contains('/')) return tr("A name cannot hold a slash.");
-  if (QFileInfo::exists(target())) return tr("There is a folder of that name. Choose another name.");
-  if (mode_ == Mode::devices && screen_.projector.empty())
-    return tr("Choose the screen that shines on the surface.");
-  if (std::vector<std::string> found = problems(wanted()); !found.empty()) {
-    QString sentence = QString::fromStdString(found.front());
-    sentence[0] = sentence[0].toUpper();
-    return sentence + '.';
-  }
-  std::uint64_t needed = expected().diskBytes, free = freeBytes();
-  if (free < needed) return tr("Free %1 or choose another folder.").arg(bytesText(needed - free));
-  if (needsConsent() && !roomClear_) return tr("Confirm that the room is clear.");
-  return {};
 }
 
 void VenuePage::begin() {
-  if (!problem().isEmpty()) return;
+  if (mode_ == Mode::screen || !problem().isEmpty()) return;
   try {
     QDir().mkpath(parent_);
     bool clear = roomClear_;  // begun, the page starts over

@@ -5,6 +5,9 @@
 #include "wizard/recent_venues.h"
 #include "wizard/screen_choice.h"
 #include "wizard/session.h"
+#include "wizard/venue_screen.h"
+
+class QDir;
 
 namespace relucent {
 
@@ -25,7 +28,7 @@ class VenuePage : public PageModel {
   Q_OBJECT
 
  public:
-  enum class Mode { start, rehearse, script, devices };
+  enum class Mode { start, rehearse, script, devices, screen };
 
   VenuePage(Session& session, RecentVenues recent, QObject* parent = nullptr);
 
@@ -34,7 +37,10 @@ class VenuePage : public PageModel {
   QString subtitle() const override;
   StepStatus status() const override;
   QString hint() const override;
+  QString cause() const override { return firstProblem().cause; }
   Command primary() const override;
+  std::vector<Command> secondary() const override;
+  std::optional<Banner> banner() const override;
   bool goBack() override;
   bool canGoBack() const override { return mode_ != Mode::start; }
   bool usesInspector() const override { return mode_ != Mode::start; }
@@ -42,6 +48,7 @@ class VenuePage : public PageModel {
   Mode mode() const { return mode_; }
   void setMode(Mode mode);
   QList<RecentVenue> recent() const { return recent_.list(); }
+  bool isOpenNow(const RecentVenue& venue) const;
   /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened.
   void open(const QString& path);
 
@@ -64,6 +71,11 @@ class VenuePage : public PageModel {
   /// What choosing that screen means, a sentence; empty: nothing out of the ordinary.
   QString screenWarning() const { return screenWarning_; }
 
+  /// The screen of the calibration that is open, in the mode `screen`.
+  VenueScreen& openScreen() { return openScreen_; }
+  const VenueScreen& openScreen() const { return openScreen_; }
+  const Session& session() const { return session_; }
+
   /// Of the new calibration.
   QString venueName() const { return venueName_; }
   void setVenueName(const QString& name);
@@ -72,6 +84,8 @@ class VenuePage : public PageModel {
   /// Where new ones are kept as long as nobody says otherwise.
   void setUsualFolder(const QString& folder);
   std::uint64_t freeBytes() const;
+  /// Before a screen is chosen nobody knows the projector's pixels.
+  bool isExpectedKnown() const { return mode_ != Mode::devices || !screen_.projector.empty(); }
   /// What acquiring will about take.
   WorkLeft expected() const;
 
@@ -81,17 +95,25 @@ class VenuePage : public PageModel {
   void setRoomClear(bool clear);
 
   /// The first sentence against beginning; empty: nothing.
-  QString problem() const;
+  QString problem() const { return firstProblem().sentence; }
 
  private:
+  struct Problem {
+    QString sentence;
+    QString cause{};  // the widget's name
+  };
+  Problem firstProblem() const;
   bool isReal() const { return mode_ == Mode::script || mode_ == Mode::devices; }
   CalibrateSettings wanted() const;
   void begin();
+  void useScreen();
+  void tellNoVenue(const QDir& folder);
   void suggestName();
   QString target() const { return parent_ + '/' + venueName_; }
 
   Session& session_;
   RecentVenues recent_;
+  VenueScreen openScreen_;
   Mode mode_ = Mode::start;
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;

@@ -15,6 +15,9 @@ QWidget* scriptStage(VenuePage& model);
 QWidget* scriptInspector(VenuePage& model);
 QWidget* devicesStage(VenuePage& model);
 QWidget* devicesInspector(VenuePage& model);
+/// Another screen for the calibration that is open.
+QWidget* screenStage(VenuePage& model);
+QWidget* screenInspector(VenuePage& model);
 /// The warning of flashing light with its tick, for venues that are begun with real devices.
 QWidget* consentToBegin(VenuePage& model);
 /// Name, folder, and what it will take: the same for every kind of new venue.

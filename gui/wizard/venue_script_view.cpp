@@ -34,12 +34,11 @@ QWidget* scriptStage(VenuePage& model) {
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  column->addWidget(screensCard(stage,
-                                [&model](const ScreenChoice& choice) {
+  column->addWidget(screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
                                   CommandRigSettings script = model.script();
                                   script.projector = choice.size;
                                   model.setScript(script);
-                                }),
+                                })),
                     1);
   auto* programs = new Card(VenuePage::tr("Programs"));
   programs->setSubtitle(VenuePage::tr("Any projector and any camera that a command can drive"));

@@ -31,7 +31,9 @@ class RecentRow : public QFrame {
     state->setWordWrap(false);
     row->addWidget(state);
     row->addSpacing(8);
-    QPushButton* open = buttonOf(VenuePage::tr("Open"));
+    const bool isOpen = model.isOpenNow(venue);
+    QPushButton* open = buttonOf(isOpen ? VenuePage::tr("Is open") : VenuePage::tr("Open"));
+    open->setEnabled(!isOpen);
     open->setAccessibleName(VenuePage::tr("Open %1").arg(venue.name));
     QObject::connect(open, &QPushButton::clicked, &model,
                      [&model, folder = venue.folder] { model.open(folder); });
@@ -87,7 +89,8 @@ class StartStage : public QWidget {
   void fill() {
     QList<RecentVenue> venues = model_.recent();
     QStringList now;
-    for (const RecentVenue& venue : venues) now << venue.folder + venue.state;
+    for (const RecentVenue& venue : venues)
+      now << venue.folder + venue.state + (model_.isOpenNow(venue) ? "*" : "");
     if (now == shown_ && recent_->body()->count() > 0) return;
     shown_ = now;
     while (QLayoutItem* item = recent_->body()->takeAt(0)) {

@@ -30,6 +30,7 @@ class KeepingPart : public QWidget {
     column->addWidget(labelOf(VenuePage::tr("Folder"), "note"));
     auto* row = new QHBoxLayout;
     folder_ = new QLineEdit;
+    folder_->setObjectName("venue-folder");
     folder_->setAccessibleName(VenuePage::tr("Folder that holds the venue"));
     row->addWidget(folder_, 1);
     QToolButton* browse = toolOf(Icon::folder, VenuePage::tr("Choose a folder"));
@@ -56,6 +57,11 @@ class KeepingPart : public QWidget {
   void refresh() {
     if (name_->text() != model_.venueName()) name_->setText(model_.venueName());
     if (!folder_->hasFocus()) folder_->setText(model_.folder());
+    free_->setValue(bytesText(model_.freeBytes()));
+    if (!model_.isExpectedKnown()) {
+      patterns_->setValue(QString::fromUtf8("–"));
+      return disk_->setValue(QString::fromUtf8("–"));
+    }
     WorkLeft work = model_.expected();
     patterns_->setValue(VenuePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work.shots))));
     disk_->setValue(bytesText(work.diskBytes));
@@ -120,10 +126,11 @@ QWidget* rehearseInspector(VenuePage& model) {
 PageView viewOf(VenuePage& model) {
   auto* stages = new QStackedWidget;
   auto* inspectors = new QStackedWidget;
-  for (QWidget* stage : {startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model)})
+  for (QWidget* stage :
+       {startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model), screenStage(model)})
     stages->addWidget(stage);
-  for (QWidget* inspector :
-       {new QWidget, rehearseInspector(model), scriptInspector(model), devicesInspector(model)})
+  for (QWidget* inspector : {new QWidget, rehearseInspector(model), scriptInspector(model),
+                             devicesInspector(model), screenInspector(model)})
     inspectors->addWidget(inspector);
   auto refresh = [&model, stages, inspectors] {
     int mode = static_cast<int>(model.mode());

@@ -10,6 +10,7 @@
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/measuring.h"
+#include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
 
 using namespace relucent;
@@ -78,6 +79,52 @@ class TestSteps : public QObject {
     QVERIFY_THROWS_EXCEPTION(Error, openRig(settingsOf(folder).rig, {}, quiet));
     folder.store(stage::linearization, linearizationFingerprint(folder), Json::object());
     QVERIFY_THROWS_EXCEPTION(Error, changeRig(folder, screen));
+  }
+
+  void aScreenIsPluggedInElsewhereAndNothingIsStale() {
+    CalibrateSettings settings = tiny();
+    ScreenRigSettings screen{{"HDMI-1", "Maker", "Model", "1"}, {24, 18}};
+    settings.rig = screen;
+    CalibrationFolder folder = beginCalibration(path("replugged"), settings);
+    folder.store(stage::linearization, linearizationFingerprint(folder), Json::object());
+    folder.store(stage::acquisition, acquisitionFingerprint(folder), Json::object());
+    for (Step step : {Step::camera, Step::threshold, Step::clustering, Step::content})
+      storeDecision(folder, step, {{"figure", 1}});
+    const auto now = [&] { return std::get<ScreenRigSettings>(settingsOf(folder).rig); };
+
+    ScreenRigSettings elsewhere = now();
+    elsewhere.display = {"DP-2", "", "", ""};
+    elsewhere.frameRate = 50.0;
+    elsewhere.cameraAddress = "not taken";
+    changeScreen(folder, elsewhere);
+    QVERIFY(now().display == elsewhere.display);
+    QCOMPARE(now().frameRate, 50.0);
+    QVERIFY(now().cameraAddress.empty());
+    for (Step step : allSteps) QVERIFY2(progressOf(folder, step) == StepProgress::done, toString(step));
+    // What was measured stays on record, and a changed setting leaves the screen where it is.
+    QVERIFY(std::get<ScreenRigSettings>(rigFromJson(folder.rig())).display == screen.display);
+    CalibrateSettings changed = settingsOf(folder);
+    changed.clustering.patchRadius = 5.0;
+    changeSettings(folder, changed);
+    QVERIFY(now().display == elsewhere.display);
+
+    elsewhere.projector = {25, 18};
+    QVERIFY_THROWS_EXCEPTION(Error, changeScreen(folder, elsewhere));
+    CalibrationFolder simulated = beginCalibration(path("no-screen"), tiny());
+    QVERIFY_THROWS_EXCEPTION(Error, changeScreen(simulated, screen));
+  }
+
+  void devicesThatAreExchangedForgetWhereAScreenHung() {
+    CalibrateSettings settings = tiny();
+    ScreenRigSettings screen{{"HDMI-1", "", "", ""}, {24, 18}};
+    settings.rig = screen;
+    CalibrationFolder folder = beginCalibration(path("anew"), settings);
+    ScreenRigSettings elsewhere = screen;
+    elsewhere.display.connector = "DP-2";
+    changeScreen(folder, elsewhere);
+    screen.display.connector = "VGA-1";
+    changeRig(folder, screen);
+    QVERIFY(std::get<ScreenRigSettings>(settingsOf(folder).rig).display == screen.display);
   }
 
   void aChangedSettingMakesWhatFollowsStaleAndSettingItBackMakesItCurrent() {

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "app/help_window.h"
+#include "app/wizard_command.h"
 #include "app/wizard_window.h"
 #include "gui/output/two_screens.h"
 #include "theme/controls.h"
@@ -92,6 +93,39 @@ class TestWizardWindow : public QObject {
 
  private slots:
   void initTestCase() { start(); }
+
+  void aWindowThatHasNoRoomIsMaximized_data() {
+    QTest::addColumn<QSize>("screen");
+    QTest::addColumn<bool>("fits");
+    QTest::newRow("a laptop's, without its panel") << QSize(1366, 740) << false;
+    QTest::newRow("a laptop's, without any panel") << QSize(1366, 768) << false;
+    QTest::newRow("larger") << QSize(1920, 1040) << true;
+  }
+  void aWindowThatHasNoRoomIsMaximized() {
+    QFETCH(QSize, screen);
+    QFETCH(bool, fits);
+    QCOMPARE(hasRoom({1366, 768}, screen), fits);
+  }
+
+  void theFirstChoiceHasTheFocus() {
+    QTRY_VERIFY(wizard_->window().focusWidget() != nullptr);
+    QCOMPARE(wizard_->window().focusWidget()->objectName(), QString("rehearse"));
+  }
+
+  void aClickOnTheReasonLeadsToItsCause() {
+    wizard_->venue().setMode(VenuePage::Mode::devices);
+    wizard_->venue().chooseScreen({{"DUMMY1", "", "", ""}, {64, 48}, 60.0, "Screen 1", {}});
+    QCOMPARE(wizard_->venue().problem(), VenuePage::tr("Confirm that the room is clear."));
+    auto* tick = find<QAbstractButton>("room-is-clear");
+    wizard_->window().resize(1100, 700);  // the tick is below the edge
+    auto inSight = [tick] { return tick->visibleRegion().boundingRect() == tick->rect(); };
+    QTRY_VERIFY(!inSight());
+    QTest::mouseClick(find<QLabel>("hint"), Qt::LeftButton);
+    QVERIFY(tick->hasFocus());
+    QTRY_VERIFY(inSight());
+    wizard_->window().resize(1366, 768);
+    wizard_->venue().setMode(VenuePage::Mode::start);
+  }
 
   void laterStepsAreLockedAtFirst() {
     for (std::size_t i = 1; i < wizard_->wizard().count(); ++i) QVERIFY(wizard_->wizard().isLocked(i));
@@ -189,6 +223,10 @@ class TestWizardWindow : public QObject {
     Region before = wizard_->camera().focusArea();
     QTest::mouseClick(view, Qt::LeftButton, {}, view->widgetFromPicture({8.5, 8.5}).toPoint());
     QVERIFY(!(wizard_->camera().focusArea() == before));
+    // What the hatches mean is said where there are any, and the lens is not blamed for an exposure.
+    wizard_->camera().chooseExposure(0);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->camera().look()->check.tooBright > 0.0, patience);
+    QTRY_VERIFY(find<QLabel>("too-bright")->isVisible());
     click("primary");
     QTRY_COMPARE_WITH_TIMEOUT(page(), std::size_t{2}, patience);
   }
@@ -205,6 +243,11 @@ class TestWizardWindow : public QObject {
   }
 
   void theLightTransportIsMeasuredWithAPause() {
+    const std::optional<WorkLeft> expected = wizard_->acquire().expected();
+    QVERIFY(expected && expected->shots > 0 && expected->seconds > 0.0);
+    QVERIFY(!wizard_->acquire().verificationError());
+    QVERIFY(find<ImageView>("pattern-view")->picture().isNull());  // of the step before
+    QVERIFY(!find<QLabel>("room-light")->isVisible());
     click("primary");
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().photographs() > 5, patience);
     press(QKeySequence("Ctrl+P"));
@@ -213,6 +256,10 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(!wizard_->acquire().isPaused());
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Step::acquisition) == StepProgress::done, patience);
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->acquire().isMeasuring(), patience);
+    QVERIFY(wizard_->acquire().verificationError().has_value());
+    QVERIFY(wizard_->session().roomLight().has_value());
+    QVERIFY(find<QLabel>("room-light")->isVisible());
+    QVERIFY(find<QLabel>("room-light")->text().contains("steady"));
     click("primary");
     QTRY_COMPARE(page(), std::size_t{4});
   }
@@ -314,6 +361,8 @@ class TestWizardWindow : public QObject {
   void theOutputShinesOnTheSecondScreen() {
     QVERIFY(wizard_->output().chosen().has_value());
     QVERIFY(!wizard_->output().screens()[*wizard_->output().chosen()].operators);
+    wizard_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
     click("primary");
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->output().projection().onProjector().isNull(), patience);
     QTRY_VERIFY_WITH_TIMEOUT(!allBlack(seenOn("DUMMY1")), patience);
@@ -322,12 +371,20 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!view->picture().isNull(), patience);
     QVERIFY(!allBlack(view->picture()));
     QVERIFY(view->picture().width() <= view->width() * view->devicePixelRatioF());
-    // Only while the stage has the focus, and while A is held.
-    view->setFocus();
-    QTest::keyPress(view, Qt::Key_A);
-    QVERIFY(!wizard_->output().isCompensated());
-    QTest::keyRelease(view, Qt::Key_A);
+    // The projector's window left the keys where they were.
+    QVERIFY(wizard_->window().isActiveWindow());
+    // While A is held, wherever on the page the focus is, but where letters are typed.
+    for (QWidget* where : {static_cast<QWidget*>(view), find<QWidget>("verify")}) {
+      where->setFocus();
+      QTest::keyPress(where, Qt::Key_A);
+      QVERIFY(!wizard_->output().isCompensated());
+      QTest::keyRelease(where, Qt::Key_A);
+      QVERIFY(wizard_->output().isCompensated());
+    }
+    find<QWidget>("playlist")->setFocus();
+    QTest::keyPress(find<QWidget>("playlist"), Qt::Key_A);
     QVERIFY(wizard_->output().isCompensated());
+    view->setFocus();
     QTest::keyClick(view, Qt::Key_Space);
     QVERIFY(wizard_->output().isFrozen());
     QTest::keyClick(view, Qt::Key_Space);
@@ -403,14 +460,21 @@ class TestWizardWindow : public QObject {
     QVERIFY(page.size() > 1000);
     for (const char* beside : {"report.pdf", "support.zip"})
       QVERIFY2(QFileInfo(page.dir().filePath(beside)).size() > 1000, beside);
+    QVERIFY(find<QLabel>("report-written")->text().contains("report.html"));
     QVERIFY(!output.isInstalled());
     click("primary");
     QVERIFY(output.isInstalled());
+    QVERIFY2(output.hint().startsWith("Installed"), qPrintable(output.hint()));
     click("start-with-computer");
     click("primary");
     QVERIFY(!output.isInstalled());
+    wizard_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
+    find<QWidget>("secondary-2")->setFocus();
     click("secondary-2");
     QTRY_VERIFY(!output.isOpen());
+    // Not to the rail, which would lead elsewhere.
+    QTRY_VERIFY(find<QWidget>("output-stage")->isAncestorOf(wizard_->window().focusWidget()));
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
   }
 
@@ -485,6 +549,18 @@ class TestWizardWindow : public QObject {
     QCOMPARE(wizard_->venue().recent().size(), 1);
     wizard_->venue().open(wizard_->venue().recent().front().folder);
     QCOMPARE(page(), std::size_t{7});
+  }
+
+  void aProofIsRememberedAsLongAsItHolds() {
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().isOpen(), patience);
+    QVERIFY(wizard_->output().proof().proof() != nullptr);
+    QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
+    ContentSettings other = wizard_->session().settings().content;
+    other.blackLift += 0.01;
+    CalibrateSettings settings = wizard_->session().settings();
+    settings.content = other;
+    wizard_->session().changeSettings(settings);
+    QVERIFY(wizard_->output().proof().proof() == nullptr);
   }
 
   void cleanupTestCase() { wizard_.reset(); }

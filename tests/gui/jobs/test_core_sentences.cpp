@@ -108,7 +108,8 @@ QStringList sentencesOf(QString argument) {
 /// What a source has for people of failures of devices and disks, and of alarms.
 QStringList sentencesIn(const QString& source) {
   static const QRegularExpression call(
-      "(?:\\bError\\(\\s*(?=ErrorKind::(?:device|disk))|\\balarm\\((?=AlarmKind::)|\\{(?=AlarmKind::)|"
+      "(?:\\b(?:Error|ScreenNotSeen)\\(\\s*(?=ErrorKind::(?:device|disk))|\\balarm\\((?=AlarmKind::)|\\{(?="
+      "AlarmKind::)|"
       "\\b(?:CameraLost|refuse)\\((?=\\s*(?:\"|fmt::)))");
   QStringList sentences;
   for (const QRegularExpressionMatch& match : call.globalMatch(source)) {

@@ -6,6 +6,7 @@
 #include <QtTest>
 
 #include "base/error.h"
+#include "devices/screen_proof.h"
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
 
@@ -32,6 +33,16 @@ class TestJob : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Only what stopped answering is called so.
+  void aCameraThatSeesSomethingElseIsNoDeviceThatStopped() {
+    const auto told = [](const auto& error) { return failureOf(std::make_exception_ptr(error)); };
+    const Failure unseen = told(ScreenNotSeen(ErrorKind::device, "the camera sees DP-1, not DP-2", "aim it"));
+    QVERIFY(!unseen.heading.isEmpty());
+    QCOMPARE(unseen.what, QString("The camera sees DP-1, not DP-2."));
+    QVERIFY(unseen.kind == ErrorKind::device);
+    QVERIFY(told(Error(ErrorKind::device, "the camera does not answer", "plug it in")).heading.isEmpty());
+  }
+
   void endsInOneWay_data() {
     QTest::addColumn<int>("ending");
     QTest::addColumn<int>("state");

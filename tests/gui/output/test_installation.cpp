@@ -67,6 +67,8 @@ QStringList readByDesktop(QString line) {
 
 }  // namespace
 
+Q_DECLARE_METATYPE(Start)
+
 class TestInstallation : public QObject {
   Q_OBJECT
 
@@ -77,6 +79,23 @@ class TestInstallation : public QObject {
   }
 
  private slots:
+  void whichVenueIsInstalledIsKnown_data() {
+    QTest::addColumn<Start>("start");
+    QTest::newRow("service") << Start::service;
+    QTest::newRow("autostart") << Start::autostart;
+  }
+  void whichVenueIsInstalledIsKnown() {
+    QFETCH(Start, start);
+    QTemporaryDir config;
+    const QString venue = "/venues/Chapel \"niche\" 100 %";
+    QVERIFY(!isInstalled(start, config.path(), venue));
+    install(start, config.path(), "/opt/relucent", {"show", venue, "--content", "list"});
+    QVERIFY(isInstalled(start, config.path()));
+    QVERIFY(isInstalled(start, config.path(), venue));
+    QVERIFY(!isInstalled(start, config.path(), "/venues/Chapel"));
+    QVERIFY(!isInstalled(start, config.path(), venue + " 2"));
+  }
+
   void everyPathArrivesAsItIs_data() {
     QTest::addColumn<QString>("path");
     for (const char* path :

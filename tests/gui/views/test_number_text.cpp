@@ -96,6 +96,22 @@ class TestNumberText : public QObject {
     QVERIFY2(standsFromTheLeft(right), qPrintable(right));
   }
 
+  void bytesHaveThreeDigits_data() {
+    QTest::addColumn<quint64>("bytes");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("few") << quint64{6'540'000} << "6.5 MB";
+    QTest::newRow("tens") << quint64{29'400'000'000} << "29.4 GB";
+    QTest::newRow("hundreds") << quint64{114'000'000} << "114 MB";
+    QTest::newRow("nearly the next unit") << quint64{999'400'000} << "999 MB";
+  }
+  void bytesHaveThreeDigits() {
+    QFETCH(quint64, bytes);
+    QFETCH(QString, text);
+    const auto back = qScopeGuard([before = QLocale()] { QLocale::setDefault(before); });
+    QLocale::setDefault(QLocale::c());
+    QCOMPARE(plain(bytesText(bytes)), text);
+  }
+
   /// What the isolates are for.
   void withoutThemTheyWouldBeTurnedRound() {
     QVERIFY(!standsFromTheLeft(sizeText(1024, 768)));

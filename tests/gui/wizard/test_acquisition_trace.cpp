@@ -50,6 +50,33 @@ class TestAcquisitionTrace : public QObject {
     QVERIFY(before <= trace.seconds());
   }
 
+  void anAlarmIsCalledByWhatItIs_data() {
+    QTest::addColumn<AlarmKind>("kind");
+    for (AlarmKind kind : {AlarmKind::flicker, AlarmKind::ambientChanged, AlarmKind::lampChanged,
+                           AlarmKind::moved, AlarmKind::localChange, AlarmKind::mirroredScreen,
+                           AlarmKind::wrongScreen, AlarmKind::coveredLens, AlarmKind::projectorAsleep})
+      QTest::addRow("%d", static_cast<int>(kind)) << kind;
+  }
+  void anAlarmIsCalledByWhatItIs() {
+    QFETCH(AlarmKind, kind);
+    const QString heading = AcquisitionTrace::headingOf(kind);
+    QVERIFY(!heading.isEmpty() && !heading.endsWith('.'));
+  }
+
+  void theRoomLightIsKnownFromTheFirstCheckOn() {
+    AcquisitionTrace trace;
+    trace.begin();
+    QVERIFY(!trace.roomLight());
+    trace.checked(readingAt(1, 0.004));
+    QCoreApplication::processEvents();
+    QCOMPARE(trace.roomLight(), std::optional(RoomLight{0.004, true}));
+    Reading changed = readingAt(2, 0.02);
+    changed.alarm = AlarmKind::ambientChanged;
+    trace.checked(changed);
+    QCoreApplication::processEvents();
+    QCOMPARE(trace.roomLight(), std::optional(RoomLight{0.02, false}));
+  }
+
   void whatTheMeasurementBeforeSaidIsForgotten() {
     AcquisitionTrace trace;
     trace.begin();

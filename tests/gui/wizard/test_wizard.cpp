@@ -116,6 +116,67 @@ class TestWizard : public QObject {
     QVERIFY(!session_->isOpen());
   }
 
+  void aFolderThatIsNoVenueSaysWhatItHolds_data() {
+    QTest::addColumn<int>("venues");
+    QTest::newRow("nothing") << 0;
+    QTest::newRow("the folder of venues") << 2;
+  }
+  void aFolderThatIsNoVenueSaysWhatItHolds() {
+    QFETCH(int, venues);
+    const QString parent = folder_.filePath("with%1").arg(venues);
+    QDir(parent).mkpath("pictures");
+    for (int i = 0; i < venues; ++i)
+      session_->begin(QString("%1/venue %2").arg(parent).arg(i).toStdString(), CalibrateSettings());
+    Session other{std::filesystem::path()};
+    VenuePage page(other, RecentVenues(*settings_));
+    QSignalSpy failed(&page, &PageModel::failed);
+    page.open(parent);
+    QCOMPARE(failed.size(), 1);
+    const auto report = failed.front().front().value<FailureReport>();
+    QVERIFY(!report.failure.heading.isEmpty());
+    QVERIFY2(report.failure.what.contains(parent), qPrintable(report.failure.what));
+    QCOMPARE(report.failure.advice.contains(QString::number(venues)), venues > 0);
+    QVERIFY(!other.isOpen());
+  }
+
+  void whatAProjectorTakesIsNotGuessedBeforeOneIsChosen() {
+    VenuePage page(*session_, RecentVenues(*settings_));
+    page.setMode(VenuePage::Mode::devices);
+    QVERIFY(!page.isExpectedKnown());
+    QCOMPARE(page.cause(), QString("screens"));
+    page.chooseScreen({{"HDMI-1", "", "", ""}, {64, 48}, 60.0, "Screen 1", {}});
+    QVERIFY(page.isExpectedKnown());
+    QCOMPARE(page.cause(), QString("room-is-clear"));
+    page.setRoomClear(true);
+    QVERIFY(page.cause().isEmpty());
+    page.setVenueName("");
+    QCOMPARE(page.cause(), QString("venue-name"));
+  }
+
+  void theVenueThatIsOpenIsMarked() {
+    VenuePage page(*session_, RecentVenues(*settings_));
+    for (const char* name : {"marked 1", "marked 2"})
+      session_->begin(folder_.filePath(name).toStdString(), CalibrateSettings());
+    QCOMPARE(page.recent().size(), 2);
+    QVERIFY(page.isOpenNow(page.recent()[0]) && !page.isOpenNow(page.recent()[1]));
+    session_->close();
+    QVERIFY(!page.isOpenNow(page.recent()[0]));
+  }
+
+  void aCutIsFoundAgainAsItWasLeft() {
+    session_->begin(folder_.filePath("two ways").toStdString(), CalibrateSettings());
+    ThresholdPage page(*session_);
+    page.setAbsolute(1e-3);
+    page.setShareOfRow(true);
+    QCOMPARE(page.cut().absolute, 0.0f);
+    page.setShare(0.02);
+    page.setShareOfRow(false);
+    QCOMPARE(page.cut().absolute, 1e-3f);
+    QCOMPARE(page.cut().shareOfRowMax, 0.0f);
+    page.setShareOfRow(true);
+    QCOMPARE(page.cut().shareOfRowMax, 0.02f);
+  }
+
   /// As the desktop opens it, and from the command line.
   void aCalibrationOpensByItsFolderOrItsFile() {
     std::filesystem::path folder(folder_.filePath("opened").toStdString());

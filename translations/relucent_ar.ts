@@ -1025,6 +1025,10 @@
         <source>What is saved is safe. Try again.</source>
         <translation>كل ما حُفظ آمن. حاول مجددًا.</translation>
     </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>الكاميرا لا ترى جهاز العرض هذا</translation>
+    </message>
 </context>
 <context>
     <name>MissingScreen</name>
@@ -1111,6 +1115,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>هذه هي الشاشة التي تعمل عليها. اختر شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>قيس جهاز العرض بحجم %1 بكسل. اضبط هذه الشاشة على ذلك الحجم.</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>هذا جهاز عرض غير الذي قيس، وضوؤه ومكانه مختلفان: التقط صورة تحقق، وأعد القياس إن لم تبدُ كما هو متوقع.</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>قيس على %1 ويُستخدم على %2. إن كان جهاز العرض نفسه في المكان نفسه فكل ما قيس باقٍ؛ وصورة التحقق تبيّن ذلك.</translation>
     </message>
 </context>
 <context>
@@ -1729,6 +1745,37 @@
         <source>Taken again</source>
         <translation>أُعيد التقاطه</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>لا أنماط، %1. اترك الغرفة معتمة وساكنة.</numerusform>
+            <numerusform>نحو نمط واحد، %1. اترك الغرفة معتمة وساكنة.</numerusform>
+            <numerusform>نحو نمطين، %1. اترك الغرفة معتمة وساكنة.</numerusform>
+            <numerusform>نحو %n أنماط، %1. اترك الغرفة معتمة وساكنة.</numerusform>
+            <numerusform>نحو %n نمطًا، %1. اترك الغرفة معتمة وساكنة.</numerusform>
+            <numerusform>نحو %n نمط، %1. اترك الغرفة معتمة وساكنة.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>ما قيس</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>الأنماط</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>الصور</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>خطأ أنماط الاختبار</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>تُتوقع أنماط الاختبار من القياس ثم تُصوَّر: هذا مقدار الفرق بينهما.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1848,6 +1895,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>لم يوجد فرق بين صور النمط الواحد.</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>تحركت الكاميرا أو جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>شيء ما يحجب المشهد</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>الصورة ليست التي أُرسلت</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>الكاميرا لا ترى شيئًا</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>جهاز العرض لا يعرض شيئًا</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1929,10 +1996,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>التالي: أنماط اختبار لاستجابة جهاز العرض</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>قياس الاستجابة</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2077,6 +2140,30 @@
             <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>احتفظ بالتعريض</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>أسطع من أن يُحكم عليه</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>ساطع أكثر مما ينبغي %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>معتم أكثر مما ينبغي %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>لم تُختر كاميرا بعد</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>المشهد كله.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2157,10 +2244,6 @@
         <translation>⁨%1, %2⁩: خارج التجمّعات</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>RMS نسبي</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>خريطة الخطأ، الوسيط %1</translation>
     </message>
@@ -2231,17 +2314,6 @@
     <message>
         <source>%1 px</source>
         <translation>%1 بكسل</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>لا مجاهيل</numerusform>
-            <numerusform>مجهول واحد</numerusform>
-            <numerusform>مجهولان</numerusform>
-            <numerusform>%n مجاهيل</numerusform>
-            <numerusform>%n مجهولًا</numerusform>
-            <numerusform>%n مجهول</numerusform>
-        </translation>
     </message>
     <message>
         <source>%1 of light</source>
@@ -2314,6 +2386,10 @@
             <numerusform>⁨%1, %2⁩: %n بكسل لجهاز العرض</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>خطأ</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2332,6 +2408,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>الزاوية السفلى اليسرى، %1، %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>جهاز العرض المعروض</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>الكاميرا المعروضة</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>جهاز العرض %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>الكاميرا %1</translation>
     </message>
 </context>
 <context>
@@ -2927,10 +3022,6 @@ projector %2</source>
         <translation>التقط لقطة التحقق، أو ثبّت دون إثبات.</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>توجد شاشة واحدة فقط. سيغطيها الخرج، ويغلقه Esc.</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>لا يُعرض شيء قبل أن تفتح الخرج.</translation>
     </message>
@@ -3087,18 +3178,6 @@ projector %2</source>
         <translation>تبيّن لقطة التحقق هنا ما بقي من فروق.</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>%1 خارج المدى</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>صورة ثابتة، %1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 إطار/ث، ⁨%2 ms⁩، %3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>التُقطت في %1</translation>
     </message>
@@ -3157,6 +3236,61 @@ projector %2</source>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>دقّة هذه الشاشة ليست دقّة جهاز العرض الذي تم قياسه.</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>كُتب في %1، وللورق في report.pdf بجانبه.</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>جهاز العرض الآن شاشة أخرى</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>العرض مثبَّت</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>ثُبّت: يبدأ العرض عند تسجيل الدخول التالي. اضغط A مطوّلاً للمقارنة.</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>سيغطي الإخراج هذه النافذة. يغلقه Esc.</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>ثبّت من جديد</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>شاشة جهاز العرض %1 غير موجودة. صِلها أو اختر غيرها.</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>اختر شاشة لجهاز العرض %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>لا أجهزة عرض.</numerusform>
+            <numerusform>يحتاج جهاز العرض إلى شاشة خاصة به. صِل واحدة.</numerusform>
+            <numerusform>يحتاج كل من جهازي العرض إلى شاشة خاصة به. صِل أخرى.</numerusform>
+            <numerusform>يحتاج كل من أجهزة العرض الـ%n إلى شاشة خاصة به. صِل أخرى.</numerusform>
+            <numerusform>يحتاج كل من أجهزة العرض الـ%n إلى شاشة خاصة به. صِل أخرى.</numerusform>
+            <numerusform>يحتاج كل من أجهزة العرض الـ%n إلى شاشة خاصة به. صِل أخرى.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>توجد شاشة واحدة فقط. صِل جهاز العرض ومدّ سطح المكتب إليه، أو اختر هذه الشاشة.</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>صورة ثابتة، %1 من البكسلات عند حدها</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps، ‏%2 ms، ‏%3 من البكسلات عند حدها</translation>
     </message>
 </context>
 <context>
@@ -3403,10 +3537,6 @@ projector %2</source>
         <translation>متوقّع من القياس. لا يُعرض شيء بعد.</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>فتح الخرج</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>المعاينة</translation>
     </message>
@@ -3513,6 +3643,26 @@ projector %2</source>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>كلما زادت هذه النسبة ازدادت الصورة سطوعًا، واتسع الجزء الذي يبقى شديد العتمة منها.</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>جزء من الصورة لا يصله ضوء من أي جهاز عرض.</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>يمكن لجهاز آخر أن يملأه.</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>إلى الإخراج</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>أقل من 1 ms</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>غير مصحَّح أيضًا</translation>
     </message>
 </context>
 <context>
@@ -3645,6 +3795,22 @@ projector %2</source>
     <message>
         <source>Saved %1</source>
         <translation>آخر حفظ: %1</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>ضوء الغرفة</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1، مفصول</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>%1 من الضوء الكامل، ثابت</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>%1 من الضوء الكامل، تغيّر</translation>
     </message>
 </context>
 <context>
@@ -4244,6 +4410,105 @@ projector %2</source>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>يعرض الملف {image} وينتهي فور أن يبثّه جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>نقش بارز، جهازا عرض</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>كل منهما يضيء ظلال الآخر</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>شاشة جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>حدّد أي شاشة هي جهاز العرض الآن. ما قيس يبقى.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>لا يُعاد قياس شيء.</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>استخدم هذه الشاشة</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>غيّر الشاشة</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>شاشة جهاز العرض %1 غير موجودة</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>صِلها أو حدّد أي شاشة هي جهاز العرض الآن.</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 ليس مجلد موقع: لا يوجد فيه %2.</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>لا مواقع فيه.</numerusform>
+            <numerusform>فيه موقع واحد: افتحه.</numerusform>
+            <numerusform>فيه موقعان: افتح أحدهما.</numerusform>
+            <numerusform>فيه %n مواقع: افتح أحدها.</numerusform>
+            <numerusform>فيه %n موقعًا: افتح أحدها.</numerusform>
+            <numerusform>فيه %n موقع: افتح أحدها.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>اختر مجلد الموقع نفسه، فهو يحمل اسمه.</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>هذا المجلد ليس موقعًا</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>لم يتغير شيء.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>الأجهزة مستخدمة الآن في %1.</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>اختر شاشة أخرى.</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>لا توجد إلا شاشتك. صِل جهاز العرض ومدّ سطح المكتب إليه.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>لا يُعاد قياس شيء</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>قيس على</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>يُستخدم على</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>البكسلات</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>تُعرف الشاشة من صانعها ورقمها التسلسلي. فإن لم تذكرهما عُرفت من منفذها: وعندئذ يجب أن يُذكر هنا الكابل الموصول في منفذ آخر.</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>مفتوح</translation>
     </message>
 </context>
 <context>

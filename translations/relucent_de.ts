@@ -1017,6 +1017,10 @@
         <source>What is saved is safe. Try again.</source>
         <translation>Gespeichertes ist sicher. Versuchen Sie es erneut.</translation>
     </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>Die Kamera sieht diesen Projektor nicht</translation>
+    </message>
 </context>
 <context>
     <name>MissingScreen</name>
@@ -1099,6 +1103,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>Auf diesem Bildschirm arbeiten Sie. Wählen Sie den des Projektors.</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>Der Projektor wurde mit %1 Pixeln gemessen. Stellen Sie diesen Bildschirm auf diese Größe.</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>Das ist ein anderer Projektor als der gemessene. Sein Licht und sein Ort sind anders: Machen Sie eine Prüfaufnahme, und messen Sie neu, wo sie nicht wie vorhergesagt aussieht.</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>Gemessen an %1, verwendet an %2. Ist es derselbe Projektor am selben Ort, gilt alles Gemessene weiter; eine Prüfaufnahme zeigt es.</translation>
     </message>
 </context>
 <context>
@@ -1689,6 +1705,33 @@
         <source>Taken again</source>
         <translation>Wiederholt</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>Etwa %n Muster, %1. Lassen Sie den Raum dunkel und ruhig.</numerusform>
+            <numerusform>Etwa %n Muster, %1. Lassen Sie den Raum dunkel und ruhig.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>Was gemessen wurde</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Muster</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>Fehler der Testmuster</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>Testmuster werden aus der Messung vorhergesagt und dann aufgenommen: So weit liegen beide auseinander.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1808,6 +1851,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>Zwischen Fotos eines Musters zeigte sich kein Unterschied.</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>Kamera oder Projektor hat sich bewegt</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>Etwas steht im Bild</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>Das Bild ist nicht das gesendete</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>Die Kamera sieht nichts</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>Der Projektor zeigt nichts</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1889,10 +1952,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>Als Nächstes: Testmuster für die Kennlinie des Projektors</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>Kennlinie messen</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2033,6 +2092,30 @@
             <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>Belichtungen behalten</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>zu hell zum Beurteilen</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>Zu hell %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>Zu dunkel %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>Noch keine Kamera gewählt</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>Das ganze Bild.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2113,10 +2196,6 @@
         <translation>%1, %2: in keinem Cluster</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>rel. RMS</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>Fehlerkarte, Median %1</translation>
     </message>
@@ -2188,13 +2267,6 @@
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>%n Unbekannte</numerusform>
-            <numerusform>%n Unbekannte</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1 of light</source>
         <translation>%1 des Lichts</translation>
@@ -2246,6 +2318,10 @@
             <numerusform>%1, %2: %n Projektorpixel</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>Fehler</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2264,6 +2340,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Ecke unten links, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>Gezeigter Projektor</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>Gezeigte Kamera</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Projektor %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Kamera %1</translation>
     </message>
 </context>
 <context>
@@ -2847,10 +2942,6 @@ Projektor %2</translation>
         <translation>Nehmen Sie ein Prüffoto auf oder installieren Sie ohne Prüfung.</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>Es gibt nur einen Bildschirm. Die Ausgabe wird ihn verdecken; Esc schließt die Ausgabe.</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>Vor dem Öffnen der Ausgabe wird nichts projiziert.</translation>
     </message>
@@ -3007,18 +3098,6 @@ Projektor %2</translation>
         <translation>Ein Prüffoto zeigt hier, welche Abweichung noch zu sehen ist.</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>%1 unerreichbar</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>Standbild, %1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 Bilder/s, %2 ms, %3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>um %1</translation>
     </message>
@@ -3077,6 +3156,57 @@ Projektor %2</translation>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>Dieser Bildschirm hat eine andere Auflösung als der gemessene Projektor.</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>Geschrieben nach %1, für Papier nach report.pdf daneben.</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>Der Projektor ist jetzt ein anderer Bildschirm</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>Vorführung installiert</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Installiert: Die Vorführung beginnt bei der nächsten Anmeldung. Halten Sie A zum Vergleichen.</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>Die Ausgabe wird dieses Fenster verdecken. Esc schließt die Ausgabe.</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>Neu installieren</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>Der Bildschirm %1 des Projektors fehlt. Stecken Sie ihn an, oder wählen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>Wählen Sie einen Bildschirm für Projektor %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>Der Projektor braucht einen eigenen Bildschirm. Stecken Sie einen an.</numerusform>
+            <numerusform>Jeder der %n Projektoren braucht einen eigenen Bildschirm. Stecken Sie einen weiteren an.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>Es gibt nur einen Bildschirm. Stecken Sie den Projektor an und erweitern Sie den Desktop auf ihn, oder wählen Sie diesen Bildschirm.</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>Standbild, %1 der Pixel am Anschlag</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps, %2 ms, %3 der Pixel am Anschlag</translation>
     </message>
 </context>
 <context>
@@ -3323,10 +3453,6 @@ Projektor %2</translation>
         <translation>Aus der Messung vorhergesagt. Noch wird nichts projiziert.</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>Ausgabe öffnen</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>Vorschau</translation>
     </message>
@@ -3433,6 +3559,26 @@ Projektor %2</translation>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>Je größer dieser Anteil, desto heller wird das Bild, und desto mehr davon bleibt zu dunkel.</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>Ein Teil des Bildes bekommt von keinem Projektor Licht.</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>Ein weiterer könnte ihn füllen.</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>Zur Ausgabe</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>unter 1 ms</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>Ebenfalls unkorrigiert</translation>
     </message>
 </context>
 <context>
@@ -3561,6 +3707,22 @@ Projektor %2</translation>
     <message>
         <source>Saved %1</source>
         <translation>Gespeichert %1</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Raumlicht</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, nicht angesteckt</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>%1 des vollen Lichts, stabil</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>%1 des vollen Lichts, verändert</translation>
     </message>
 </context>
 <context>
@@ -4152,6 +4314,101 @@ Projektor %2</translation>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>Zeigt die Datei {image} und endet, sobald der Projektor sie ausstrahlt</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>Relief, zwei Projektoren</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>Jeder leuchtet in die Schatten des anderen</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>Bildschirm des Projektors</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>Geben Sie an, welcher Bildschirm der Projektor jetzt ist. Das Gemessene bleibt.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>Nichts wird neu gemessen.</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>Diesen Bildschirm verwenden</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>Bildschirm ändern</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>Der Bildschirm %1 des Projektors fehlt</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>Stecken Sie ihn an, oder geben Sie an, welcher Bildschirm der Projektor jetzt ist.</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 ist nicht der Ordner eines Spielorts: %2 ist nicht darin.</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>Darin liegt %n Spielort: Öffnen Sie ihn.</numerusform>
+            <numerusform>Darin liegen %n Spielorte: Öffnen Sie einen davon.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>Wählen Sie den Ordner eines Spielorts. Er trägt dessen Namen.</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>Dieser Ordner ist kein Spielort</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Nichts wurde verändert.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Die Geräte werden gerade bei %1 verwendet.</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>Wählen Sie einen anderen Bildschirm.</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>Nur Ihr eigener Bildschirm ist da. Stecken Sie den Projektor an, und erweitern Sie den Desktop auf ihn.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>Nichts wird neu gemessen</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>Gemessen an</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>Verwendet an</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>Ein Bildschirm wird an Hersteller, Modell und Seriennummer wiedererkannt. Nennt er keine, dann an seinem Anschluss: Ein umgestecktes Kabel muss dann hier angegeben werden.</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>Ist offen</translation>
     </message>
 </context>
 <context>

@@ -82,6 +82,13 @@
             <numerusform>Compared with the start every %n patterns. If something changed, the measurement pauses and asks.</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>About %n pattern, %1. Leave the room dark and still.</numerusform>
+            <numerusform>About %n patterns, %1. Leave the room dark and still.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::CameraPage</name>
@@ -95,13 +102,6 @@
 </context>
 <context>
     <name>relucent::ClusterPage</name>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>%n unknown</numerusform>
-            <numerusform>%n unknowns</numerusform>
-        </translation>
-    </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
         <translation>
@@ -166,6 +166,16 @@
     </message>
 </context>
 <context>
+    <name>relucent::OutputPage</name>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>The projector needs a screen of its own. Plug in another one.</numerusform>
+            <numerusform>Each of the %n projectors needs a screen of its own. Plug in another one.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::SettingsDialog</name>
     <message numerus="yes">
         <source>At most %n change(s) a second</source>
@@ -192,6 +202,13 @@
         <translation>
             <numerusform>About %n pattern, %1</numerusform>
             <numerusform>About %n patterns, %1</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>There is %n venue within it: open it.</numerusform>
+            <numerusform>There are %n venues within it: open one of them.</numerusform>
         </translation>
     </message>
 </context>

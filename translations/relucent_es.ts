@@ -1017,6 +1017,10 @@
         <source>What is saved is safe. Try again.</source>
         <translation>Lo guardado está a salvo. Inténtelo de nuevo.</translation>
     </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>La cámara no ve este proyector</translation>
+    </message>
 </context>
 <context>
     <name>MissingScreen</name>
@@ -1099,6 +1103,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>Esta es la pantalla en la que trabaja. Elija la del proyector.</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>El proyector se midió con %1 píxeles. Ponga esta pantalla a ese tamaño.</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>Este no es el proyector que se midió. Su luz y su lugar son otros: tome una fotografía de verificación y mida de nuevo si no se ve como se predijo.</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>Medido en %1, usado en %2. Si es el mismo proyector en el mismo sitio, todo lo medido sigue valiendo; una fotografía de verificación lo muestra.</translation>
     </message>
 </context>
 <context>
@@ -1689,6 +1705,33 @@
         <source>Taken again</source>
         <translation>Repetido</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>Aproximadamente %n patrón, %1. Deje la sala a oscuras y quieta.</numerusform>
+            <numerusform>Aproximadamente %n patrones, %1. Deje la sala a oscuras y quieta.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>Lo que se midió</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Patrones</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotografías</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>Error de los patrones de prueba</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>Los patrones de prueba se predicen a partir de la medición y luego se fotografían: esta es la diferencia entre ambos.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1808,6 +1851,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>No hay diferencias entre las fotografías de un mismo patrón.</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>La cámara o el proyector se ha movido</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>Hay algo en la vista</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>La imagen no es la enviada</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>La cámara no ve nada</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>El proyector no muestra nada</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1889,10 +1952,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>Siguiente: patrones de prueba para la respuesta del proyector</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>Medir respuesta</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2033,6 +2092,30 @@
             <numerusform>%1 píxeles, %n bits, exposiciones de %2 a %3</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>Conservar exposiciones</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>demasiado claro para juzgar</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>Demasiado claro %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>Demasiado oscuro %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>Aún no se ha elegido cámara</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>Toda la vista.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2113,10 +2196,6 @@
         <translation>%1, %2: en ningún clúster</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>RMS rel.</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>Mapa de error, mediana %1</translation>
     </message>
@@ -2188,13 +2267,6 @@
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>%n incógnita</numerusform>
-            <numerusform>%n incógnitas</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1 of light</source>
         <translation>%1 de la luz</translation>
@@ -2246,6 +2318,10 @@
             <numerusform>%1, %2: %n píxeles de proyector</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>error</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2264,6 +2340,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Esquina inferior izquierda, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>Proyector mostrado</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>Cámara mostrada</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Proyector %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Cámara %1</translation>
     </message>
 </context>
 <context>
@@ -2847,10 +2942,6 @@ proyector %2</translation>
         <translation>Tome una fotografía de verificación o instale sin prueba.</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>Solo hay una pantalla. La salida la cubrirá; Esc cierra la salida.</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>No se proyecta nada hasta que abra la salida.</translation>
     </message>
@@ -3007,18 +3098,6 @@ proyector %2</translation>
         <translation>Una fotografía de verificación muestra aquí lo que aún se nota.</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>%1 fuera de alcance</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>imagen fija, %1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 fps, %2 ms, %3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>tomada: %1</translation>
     </message>
@@ -3077,6 +3156,57 @@ proyector %2</translation>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>La resolución de esta pantalla no es la del proyector medido.</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>Escrito en %1 y, para papel, en report.pdf a su lado.</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>El proyector es ahora otra pantalla</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>Función instalada</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Instalado: la función empieza en el próximo inicio de sesión. Mantenga A para comparar.</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>La salida cubrirá esta ventana. Esc cierra la salida.</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>Instalar de nuevo</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>La pantalla %1 del proyector no está. Conéctela o elija otra.</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>Elija una pantalla para el proyector %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>El proyector necesita una pantalla propia. Conecte una.</numerusform>
+            <numerusform>Cada uno de los %n proyectores necesita una pantalla propia. Conecte otra.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>Solo hay una pantalla. Conecte el proyector y extienda el escritorio a él, o elija esta pantalla.</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>imagen fija, %1 de los píxeles en su límite</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps, %2 ms, %3 de los píxeles en su límite</translation>
     </message>
 </context>
 <context>
@@ -3323,10 +3453,6 @@ proyector %2</translation>
         <translation>Previsto a partir de la medición. Aún no se proyecta nada.</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>Abrir salida</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>Vista previa</translation>
     </message>
@@ -3433,6 +3559,26 @@ proyector %2</translation>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>Cuanto mayor es esta parte, más brillante es la imagen y más de ella queda oscura.</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>Una parte de la imagen no recibe luz de ningún proyector.</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>Otro podría cubrirla.</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>Ir a la salida</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>menos de 1 ms</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>También sin corregir</translation>
     </message>
 </context>
 <context>
@@ -3561,6 +3707,22 @@ proyector %2</translation>
     <message>
         <source>Saved %1</source>
         <translation>Guardado: %1</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Luz ambiente</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, desconectado</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>%1 de la luz plena, estable</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>%1 de la luz plena, cambió</translation>
     </message>
 </context>
 <context>
@@ -4152,6 +4314,101 @@ proyector %2</translation>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>Muestra el archivo {image} y termina en cuanto el proyector lo emite</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>Relieve, dos proyectores</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>Cada uno ilumina las sombras del otro</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>La pantalla del proyector</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>Indique qué pantalla es ahora el proyector. Lo medido se conserva.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>No se vuelve a medir nada.</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>Usar esta pantalla</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>Cambiar la pantalla</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>La pantalla %1 del proyector no está</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>Conéctela o indique qué pantalla es ahora el proyector.</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 no es la carpeta de un lugar: no contiene %2.</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>Contiene %n lugar: ábralo.</numerusform>
+            <numerusform>Contiene %n lugares: abra uno de ellos.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>Elija la carpeta de un lugar. Lleva el nombre del lugar.</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>Esta carpeta no es un lugar</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>No se cambió nada.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Los dispositivos se están usando en %1.</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>Elija otra pantalla.</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>Solo está su propia pantalla. Conecte el proyector y extienda el escritorio a él.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>No se vuelve a medir nada</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>Medido en</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>Usado en</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Píxeles</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>Una pantalla se reconoce por su fabricante y número de serie. Si no los da, se reconoce por su conector: entonces hay que indicar aquí un cable enchufado en otro sitio.</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>Está abierto</translation>
     </message>
 </context>
 <context>

@@ -921,27 +921,27 @@
     </message>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>fournit 8 bits : les zones sombres restent incertaines</translation>
+        <translation>fournit 8 bits&#x202f;: les zones sombres restent incertaines</translation>
     </message>
     <message>
         <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>ne dit pas quand les images ont été prises : quelques-unes sont écartées avant chaque photo</translation>
+        <translation>ne dit pas quand les images ont été prises&#x202f;: quelques-unes sont écartées avant chaque photo</translation>
     </message>
     <message>
         <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>fait la mise au point seule : passez l’objectif en mise au point manuelle</translation>
+        <translation>fait la mise au point seule&#x202f;: passez l’objectif en mise au point manuelle</translation>
     </message>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>n’a pas de déclencheur logiciel : chaque photo peut attendre une pose de plus</translation>
+        <translation>n’a pas de déclencheur logiciel&#x202f;: chaque photo peut attendre une pose de plus</translation>
     </message>
     <message>
         <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>n’a plus que {} % de batterie : une mesure demande une batterie pleine ou une alimentation secteur</translation>
+        <translation>n’a plus que {} % de batterie&#x202f;: une mesure demande une batterie pleine ou une alimentation secteur</translation>
     </message>
     <message>
         <source>may fire its flash: close it</source>
-        <translation>peut déclencher son flash : refermez-le</translation>
+        <translation>peut déclencher son flash&#x202f;: refermez-le</translation>
     </message>
     <message>
         <source>may take a dark frame after long exposures, which doubles their time</source>
@@ -949,15 +949,15 @@
     </message>
     <message>
         <source>may take several photographs at once: switch it to single shots</source>
-        <translation>peut prendre plusieurs photos à la fois : passez en vue par vue</translation>
+        <translation>peut prendre plusieurs photos à la fois&#x202f;: passez en vue par vue</translation>
     </message>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>ne voit pas les couleurs : la luminosité peut être compensée, pas les couleurs</translation>
+        <translation>ne voit pas les couleurs&#x202f;: la luminosité peut être compensée, pas les couleurs</translation>
     </message>
     <message>
         <source>switches itself off after a while: switch that off</source>
-        <translation>s’éteint seule au bout d’un moment : désactivez cela</translation>
+        <translation>s’éteint seule au bout d’un moment&#x202f;: désactivez cela</translation>
     </message>
     <message>
         <source>video device</source>
@@ -973,11 +973,11 @@
     </message>
     <message>
         <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>Appareils reflex et hybrides : ce programme a été construit sans libgphoto2 ou LibRaw ; installez libgphoto2-dev et libraw-dev et reconstruisez-le</translation>
+        <translation>Appareils reflex et hybrides&#x202f;: ce programme a été construit sans libgphoto2 ou LibRaw&#x202f;; installez libgphoto2-dev et libraw-dev et reconstruisez-le</translation>
     </message>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>Caméras GigE Vision et USB3 Vision : ce programme a été construit sans Aravis ; installez libaravis-dev et reconstruisez-le</translation>
+        <translation>Caméras GigE Vision et USB3 Vision&#x202f;: ce programme a été construit sans Aravis&#x202f;; installez libaravis-dev et reconstruisez-le</translation>
     </message>
 </context>
 <context>
@@ -1016,6 +1016,10 @@
     <message>
         <source>What is saved is safe. Try again.</source>
         <translation>Ce qui est enregistré est en sécurité. Réessayez.</translation>
+    </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>La caméra ne voit pas ce projecteur</translation>
     </message>
 </context>
 <context>
@@ -1099,6 +1103,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>C’est l’écran sur lequel vous travaillez. Choisissez celui du projecteur.</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>Le projecteur a été mesuré avec %1 pixels. Réglez cet écran à cette taille.</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>Ce n’est pas le projecteur qui a été mesuré. Sa lumière et sa place diffèrent : prenez une photo de vérification, et mesurez à nouveau si elle ne correspond pas à la prévision.</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>Mesuré sur %1, utilisé sur %2. Si c’est le même projecteur au même endroit, toute la mesure reste valable ; une photo de vérification le montre.</translation>
     </message>
 </context>
 <context>
@@ -1689,6 +1705,33 @@
         <source>Taken again</source>
         <translation>Repris</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>Environ %n motif, %1. Laissez la pièce sombre et sans mouvement.</numerusform>
+            <numerusform>Environ %n motifs, %1. Laissez la pièce sombre et sans mouvement.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>Ce qui a été mesuré</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Motifs</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Photos</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>Erreur des motifs de test</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>Les motifs de test sont prédits d’après la mesure, puis photographiés : voici leur écart.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1808,6 +1851,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>Aucune différence entre les photos d’un même motif.</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>La caméra ou le projecteur a bougé</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>Quelque chose gêne la vue</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>L’image n’est pas celle envoyée</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>La caméra ne voit rien</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>Le projecteur ne montre rien</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1889,10 +1952,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>Ensuite&#x202f;: motifs d’essai pour la réponse du projecteur</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>Mesurer la réponse</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2033,6 +2092,30 @@
             <numerusform>%1 pixels, %n bits, poses de %2 à %3</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>Garder les poses</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>trop clair pour juger</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>Trop clair %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>Trop sombre %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>Aucune caméra choisie</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>Tout le champ.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2113,10 +2196,6 @@
         <translation>%1, %2&#x202f;: dans aucun groupe</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>RMS rel.</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>Carte d’erreur, médiane %1</translation>
     </message>
@@ -2188,13 +2267,6 @@
         <source>%1 px</source>
         <translation>%1&#x202f;px</translation>
     </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>%n inconnue</numerusform>
-            <numerusform>%n inconnues</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1 of light</source>
         <translation>%1 de la lumière</translation>
@@ -2246,6 +2318,10 @@
             <numerusform>%1, %2 : %n pixels du projecteur</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>erreur</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2264,6 +2340,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Coin inférieur gauche, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>Projecteur affiché</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>Caméra affichée</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Projecteur %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Caméra %1</translation>
     </message>
 </context>
 <context>
@@ -2847,10 +2942,6 @@ projecteur %2</translation>
         <translation>Prenez une photo de contrôle, ou installez sans contrôle.</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>Il n’y a qu’un écran. La sortie le couvrira&#x202f;; Échap ferme la sortie.</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>Rien n’est projeté avant que vous ouvriez la sortie.</translation>
     </message>
@@ -3007,18 +3098,6 @@ projecteur %2</translation>
         <translation>Une photo de contrôle montre ici les écarts qui restent visibles.</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>%1 hors d’atteinte</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>image fixe, %1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 images/s, %2&#x202f;ms, %3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>prise à %1</translation>
     </message>
@@ -3077,6 +3156,57 @@ projecteur %2</translation>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>La définition de cet écran n’est pas celle du projecteur mesuré.</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>Écrit dans %1, et pour le papier dans report.pdf à côté.</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>Le projecteur est maintenant un autre écran</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>Spectacle installé</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Installé : le spectacle démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>La sortie recouvrira cette fenêtre. Échap ferme la sortie.</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>Réinstaller</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>L’écran %1 du projecteur est absent. Branchez-le, ou choisissez-en un autre.</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>Choisissez un écran pour le projecteur %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>Le projecteur demande un écran à lui. Branchez-en un.</numerusform>
+            <numerusform>Chacun des %n projecteurs demande un écran à lui. Branchez-en un autre.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>Il n’y a qu’un écran. Branchez le projecteur et étendez-y le bureau, ou choisissez cet écran.</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>image fixe, %1 des pixels à leur limite</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps, %2 ms, %3 des pixels à leur limite</translation>
     </message>
 </context>
 <context>
@@ -3323,10 +3453,6 @@ projecteur %2</translation>
         <translation>Prévu d’après la mesure. Rien n’est encore projeté.</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>Ouvrir la sortie</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>Aperçu</translation>
     </message>
@@ -3433,6 +3559,26 @@ projecteur %2</translation>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>Plus cette part est grande, plus l’image est claire, et plus il en reste de parties trop sombres.</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>Une partie de l’image ne reçoit de lumière d’aucun projecteur.</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>Un autre pourrait la combler.</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>Aller à la sortie</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>moins de 1 ms</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>Non corrigé aussi</translation>
     </message>
 </context>
 <context>
@@ -3561,6 +3707,22 @@ projecteur %2</translation>
     <message>
         <source>Saved %1</source>
         <translation>Enregistré à %1</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Lumière ambiante</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, débranché</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>%1 de la pleine lumière, stable</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>%1 de la pleine lumière, a changé</translation>
     </message>
 </context>
 <context>
@@ -4152,6 +4314,101 @@ projecteur %2</translation>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>Affiche le fichier {image} et se termine dès que le projecteur l’émet</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>Relief, deux projecteurs</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>Chacun éclaire les ombres de l’autre</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>L’écran du projecteur</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>Indiquez quel écran est maintenant le projecteur. Les mesures restent.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>Rien n’est remesuré.</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>Utiliser cet écran</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>Changer d’écran</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>L’écran %1 du projecteur est absent</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>Branchez-le, ou indiquez quel écran est maintenant le projecteur.</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 n’est pas le dossier d’un lieu : il ne contient pas %2.</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>Il contient %n lieu : ouvrez-le.</numerusform>
+            <numerusform>Il contient %n lieux : ouvrez l’un d’eux.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>Choisissez le dossier d’un lieu. Il porte le nom du lieu.</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>Ce dossier n’est pas un lieu</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Rien n’a été modifié.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Les appareils sont utilisés par %1.</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>Choisissez un autre écran.</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>Seul votre propre écran est présent. Branchez le projecteur et étendez-y le bureau.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>Rien n’est remesuré</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>Mesuré sur</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>Utilisé sur</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixels</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>Un écran est reconnu à sa marque et à son numéro de série. S’il n’en donne pas, il l’est à son connecteur : un câble branché ailleurs doit alors être indiqué ici.</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>Est ouvert</translation>
     </message>
 </context>
 <context>

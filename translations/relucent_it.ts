@@ -1017,6 +1017,10 @@
         <source>What is saved is safe. Try again.</source>
         <translation>Quanto salvato è al sicuro. Riprovare.</translation>
     </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>La fotocamera non vede questo proiettore</translation>
+    </message>
 </context>
 <context>
     <name>MissingScreen</name>
@@ -1099,6 +1103,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>È lo schermo su cui si lavora. Scegliere quello del proiettore.</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>Il proiettore è stato misurato con %1 pixel. Impostate questo schermo a quella dimensione.</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>Questo non è il proiettore che è stato misurato. La sua luce e il suo posto sono diversi: scattate una fotografia di verifica e misurate di nuovo se non appare come previsto.</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>Misurato su %1, usato su %2. Se è lo stesso proiettore nello stesso posto, tutto ciò che è stato misurato resta valido; una fotografia di verifica lo mostra.</translation>
     </message>
 </context>
 <context>
@@ -1689,6 +1705,33 @@
         <source>Taken again</source>
         <translation>Ripetuto</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>Circa %n motivo, %1. Lasciate la stanza buia e ferma.</numerusform>
+            <numerusform>Circa %n motivi, %1. Lasciate la stanza buia e ferma.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>Ciò che è stato misurato</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>Motivi</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotografie</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>Errore dei motivi di prova</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>I motivi di prova vengono previsti dalla misura e poi fotografati: questa è la differenza tra i due.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1808,6 +1851,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>Nessuna differenza tra le foto di uno stesso pattern.</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>La fotocamera o il proiettore si è spostato</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>C’è qualcosa nell’inquadratura</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>L’immagine non è quella inviata</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>La fotocamera non vede nulla</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>Il proiettore non mostra nulla</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1889,10 +1952,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>Poi: pattern di test per la risposta del proiettore</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>Misura risposta</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2033,6 +2092,30 @@
             <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>Mantieni le esposizioni</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>troppo chiaro per giudicare</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>Troppo chiaro %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>Troppo scuro %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>Nessuna fotocamera scelta</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>Tutta l’inquadratura.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2113,10 +2196,6 @@
         <translation>%1, %2: in nessun cluster</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>RMS rel.</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>Mappa errori, mediana %1</translation>
     </message>
@@ -2188,13 +2267,6 @@
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>%n incognita</numerusform>
-            <numerusform>%n incognite</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1 of light</source>
         <translation>%1 della luce</translation>
@@ -2246,6 +2318,10 @@
             <numerusform>%1, %2: %n pixel del proiettore</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>errore</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2264,6 +2340,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Angolo in basso a sinistra, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>Proiettore mostrato</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>Fotocamera mostrata</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Proiettore %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Fotocamera %1</translation>
     </message>
 </context>
 <context>
@@ -2847,10 +2942,6 @@ proiettore %2</translation>
         <translation>Scattare una foto di verifica o installare senza verifica.</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>C’è un solo schermo. L’uscita lo coprirà; Esc chiude l’uscita.</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>Nulla viene proiettato prima di aprire l’uscita.</translation>
     </message>
@@ -3007,18 +3098,6 @@ proiettore %2</translation>
         <translation>Una foto di verifica mostra qui l’errore ancora visibile.</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>%1 non raggiungibile</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>immagine fissa, %1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 fps, %2 ms, %3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>scattata alle %1</translation>
     </message>
@@ -3077,6 +3156,57 @@ proiettore %2</translation>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>La risoluzione di questo schermo non è quella del proiettore misurato.</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>Scritto in %1 e, per la carta, in report.pdf accanto.</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>Il proiettore ora è un altro schermo</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>Spettacolo installato</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>Installato: lo spettacolo parte al prossimo accesso. Tenete premuto A per confrontare.</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>L’uscita coprirà questa finestra. Esc chiude l’uscita.</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>Installa di nuovo</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>Lo schermo %1 del proiettore non c’è. Collegatelo o sceglietene un altro.</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>Scegliete uno schermo per il proiettore %1.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>Il proiettore richiede uno schermo proprio. Collegatene uno.</numerusform>
+            <numerusform>Ciascuno dei %n proiettori richiede uno schermo proprio. Collegatene un altro.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>C’è un solo schermo. Collegate il proiettore ed estendetevi il desktop, oppure scegliete questo schermo.</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>immagine fissa, %1 dei pixel al limite</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps, %2 ms, %3 dei pixel al limite</translation>
     </message>
 </context>
 <context>
@@ -3323,10 +3453,6 @@ proiettore %2</translation>
         <translation>Previsto dalla misura. Nulla viene ancora proiettato.</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>Apri uscita</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>Anteprima</translation>
     </message>
@@ -3433,6 +3559,26 @@ proiettore %2</translation>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>Più grande è questa quota, più l’immagine è luminosa e più ne resta troppo scura.</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>Una parte dell’immagine non riceve luce da alcun proiettore.</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>Un altro potrebbe coprirla.</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>Vai all’uscita</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>meno di 1 ms</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>Anche questo non corretto</translation>
     </message>
 </context>
 <context>
@@ -3561,6 +3707,22 @@ proiettore %2</translation>
     <message>
         <source>Saved %1</source>
         <translation>Salvato alle %1</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>Luce ambiente</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, scollegato</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>%1 della luce piena, stabile</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>%1 della luce piena, cambiata</translation>
     </message>
 </context>
 <context>
@@ -4152,6 +4314,101 @@ proiettore %2</translation>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>Mostra il file {image} e termina appena il proiettore lo emette</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>Rilievo, due proiettori</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>Ciascuno illumina le ombre dell’altro</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>Lo schermo del proiettore</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>Indicate quale schermo è ora il proiettore. Le misure restano.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>Nulla viene misurato di nuovo.</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>Usa questo schermo</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>Cambia lo schermo</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>Lo schermo %1 del proiettore non c’è</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>Collegatelo o indicate quale schermo è ora il proiettore.</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 non è la cartella di un luogo: non contiene %2.</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>Contiene %n luogo: apritelo.</numerusform>
+            <numerusform>Contiene %n luoghi: apritene uno.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>Scegliete la cartella di un luogo. Porta il nome del luogo.</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>Questa cartella non è un luogo</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>Non è stato cambiato nulla.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>I dispositivi sono in uso in %1.</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>Scegliete un altro schermo.</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>C’è solo il vostro schermo. Collegate il proiettore ed estendetevi il desktop.</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>Nulla viene misurato di nuovo</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>Misurato su</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>Usato su</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>Uno schermo viene riconosciuto dal produttore e dal numero di serie. Se non li fornisce, dal connettore: allora un cavo collegato altrove va indicato qui.</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>È aperto</translation>
     </message>
 </context>
 <context>

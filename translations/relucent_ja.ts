@@ -1015,6 +1015,10 @@
         <source>What is saved is safe. Try again.</source>
         <translation>保存済みのデータは無事です。再試行してください。</translation>
     </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>カメラにこのプロジェクターが見えません</translation>
+    </message>
 </context>
 <context>
     <name>MissingScreen</name>
@@ -1096,6 +1100,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>これは作業に使っている画面です。プロジェクターの画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>プロジェクターは %1 ピクセルで測定されました。この画面をその大きさに設定してください。</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>測定したものとは別のプロジェクターです。光も位置も違います。検証写真を撮り、予測どおりでなければ測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>%1 で測定し、%2 で使用します。同じ場所の同じプロジェクターなら測定結果はすべて有効です。検証写真で確かめられます。</translation>
     </message>
 </context>
 <context>
@@ -1679,6 +1695,32 @@
         <source>Taken again</source>
         <translation>撮り直し</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>パターン約 %n 枚、%1。部屋を暗く静かに保ってください。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>測定結果</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>パターン</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>写真</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>テストパターンの誤差</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>テストパターンを測定から予測し、撮影して比べた差です。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1798,6 +1840,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>同じパターンの写真に差はありませんでした。</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>カメラかプロジェクターが動きました</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>視野に何かがあります</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>送った画像と違います</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>カメラに何も見えません</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>プロジェクターに何も映っていません</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1879,10 +1941,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>次：プロジェクターの応答を測るテストパターン</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>応答を測定</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2022,6 +2080,30 @@
             <numerusform>%1 画素、%n ビット、露出 %2～%3</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>露光を保持</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>明るすぎて判定できません</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>明るすぎ %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>暗すぎ %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>カメラが選ばれていません</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>視野全体。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2102,10 +2184,6 @@
         <translation>%1, %2：クラスターなし</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>相対 RMS</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>誤差マップ、中央値 %1</translation>
     </message>
@@ -2177,12 +2255,6 @@
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>未知数 %n 個</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1 of light</source>
         <translation>光の %1</translation>
@@ -2229,6 +2301,10 @@
             <numerusform>%1, %2：プロジェクター画素 %n</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>誤差</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2247,6 +2323,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>左下の角、%1, %2。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>表示中のプロジェクター</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>表示中のカメラ</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>プロジェクター %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>カメラ %1</translation>
     </message>
 </context>
 <context>
@@ -2827,10 +2922,6 @@ projector %2</source>
         <translation>検証写真を撮影するか、検証なしで登録してください。</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>画面が 1 つしかないため、出力で隠れます。Esc で出力を閉じます。</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>出力を開くまで何も投影しません。</translation>
     </message>
@@ -2987,18 +3078,6 @@ projector %2</source>
         <translation>検証写真を撮影すると、残っている差がここに表示されます。</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>再現不可 %1</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>静止画、%1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 fps、%2 ms、%3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>%1 に撮影</translation>
     </message>
@@ -3057,6 +3136,56 @@ projector %2</source>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>この画面の解像度は、測定したプロジェクターと異なります。</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>%1 に書き出しました。印刷用は隣の report.pdf です。</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>プロジェクターは別の画面になりました</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>上映をインストール済み</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>インストール済み: 次回ログイン時に上映が始まります。A を押し続けると比較できます。</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>出力がこのウィンドウを覆います。Esc で出力を閉じます。</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>再インストール</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>プロジェクターの画面 %1 がありません。接続するか、別の画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>プロジェクター %1 の画面を選んでください。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>%n 台のプロジェクターにはそれぞれ画面が必要です。もう一つ接続してください。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>画面が一つしかありません。プロジェクターを接続してデスクトップを拡張するか、この画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>静止画、限界に達した画素 %1</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps、%2 ms、限界に達した画素 %3</translation>
     </message>
 </context>
 <context>
@@ -3303,10 +3432,6 @@ projector %2</source>
         <translation>測定からの予測です。まだ何も投影していません。</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>出力を開く</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>プレビュー</translation>
     </message>
@@ -3413,6 +3538,26 @@ projector %2</source>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>この割合が大きいほど画像は明るくなり、明るさの足りない部分も増えます。</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>画像の一部にはどのプロジェクターの光も届きません。</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>もう 1 台あれば補えます。</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>出力へ</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>1 ms 未満</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>こちらも補正なし</translation>
     </message>
 </context>
 <context>
@@ -3540,6 +3685,22 @@ projector %2</source>
     <message>
         <source>Saved %1</source>
         <translation>%1 に保存</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>室内光</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1、未接続</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>全光量の %1、安定</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>全光量の %1、変化あり</translation>
     </message>
 </context>
 <context>
@@ -4129,6 +4290,100 @@ projector %2</source>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>ファイル {image} を表示し、実際に投影された時点で終了</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>レリーフ、プロジェクター 2 台</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>互いの影を照らします</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>プロジェクターの画面</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>プロジェクターが今どの画面かを指定してください。測定結果は残ります。</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>測定し直しません。</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>この画面を使う</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>画面を変更</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>プロジェクターの画面 %1 がありません</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>接続するか、プロジェクターが今どの画面かを指定してください。</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 は会場のフォルダーではありません: 中に %2 がありません。</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>中に会場が %n 件あります: いずれかを開いてください。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>会場のフォルダーを選んでください。会場の名前が付いています。</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>このフォルダーは会場ではありません</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>何も変更されていません。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>機器は %1 で使用中です。</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>別の画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>操作用の画面しかありません。プロジェクターを接続し、デスクトップを拡張してください。</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>測定し直しません</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>測定した画面</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>使用する画面</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>ピクセル</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>画面はメーカー名とシリアル番号で見分けます。それがない場合は端子で見分けるため、ケーブルを別の端子に挿したらここで指定してください。</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>開いています</translation>
     </message>
 </context>
 <context>

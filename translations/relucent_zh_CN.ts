@@ -1015,6 +1015,10 @@
         <source>What is saved is safe. Try again.</source>
         <translation>已保存的内容是安全的。请重试。</translation>
     </message>
+    <message>
+        <source>The camera does not see this projector</source>
+        <translation>相机看不到这台投影机</translation>
+    </message>
 </context>
 <context>
     <name>MissingScreen</name>
@@ -1096,6 +1100,18 @@
     <message>
         <source>This is the screen that you work on. Choose the projector&apos;s.</source>
         <translation>这是您正在使用的屏幕。请选择投影机的屏幕。</translation>
+    </message>
+    <message>
+        <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
+        <translation>投影机是以 %1 像素测量的。请把此屏幕设为该尺寸。</translation>
+    </message>
+    <message>
+        <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
+        <translation>这不是测量时的投影机，它的光和位置都不同：请拍一张验证照片，若与预测不符则重新测量。</translation>
+    </message>
+    <message>
+        <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
+        <translation>在 %1 测量，在 %2 使用。如果是同一位置的同一台投影机，所有测量仍然有效；验证照片可以说明。</translation>
     </message>
 </context>
 <context>
@@ -1679,6 +1695,32 @@
         <source>Taken again</source>
         <translation>重拍</translation>
     </message>
+    <message numerus="yes">
+        <source>About %n pattern(s), %1. Leave the room dark and still.</source>
+        <translation>
+            <numerusform>约 %n 个图案，%1。请保持房间黑暗且无人走动。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>What was measured</source>
+        <translation>测量结果</translation>
+    </message>
+    <message>
+        <source>Patterns</source>
+        <translation>图案</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>照片</translation>
+    </message>
+    <message>
+        <source>Error of the test patterns</source>
+        <translation>测试图案的误差</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
+        <translation>测试图案先由测量预测，再拍照：这是两者之差。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::AcquisitionTrace</name>
@@ -1798,6 +1840,26 @@
         <source>No difference between photographs of one pattern was found.</source>
         <translation>同一图案的照片之间没有差异。</translation>
     </message>
+    <message>
+        <source>The camera or the projector moved</source>
+        <translation>相机或投影机移动了</translation>
+    </message>
+    <message>
+        <source>Something stands in the view</source>
+        <translation>视野中有东西</translation>
+    </message>
+    <message>
+        <source>The picture is not the one sent</source>
+        <translation>画面不是所发送的图像</translation>
+    </message>
+    <message>
+        <source>The camera sees nothing</source>
+        <translation>相机什么也看不到</translation>
+    </message>
+    <message>
+        <source>The projector shows nothing</source>
+        <translation>投影机没有画面</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ActionBar</name>
@@ -1879,10 +1941,6 @@
     <message>
         <source>Next: test patterns for the projector&apos;s response</source>
         <translation>下一步：用测试图案测量投影机的响应</translation>
-    </message>
-    <message>
-        <source>Measure response</source>
-        <translation>测量响应</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -2022,6 +2080,30 @@
             <numerusform>%1 像素，%n 位，曝光 %2 至 %3</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Keep exposures</source>
+        <translation>保留曝光</translation>
+    </message>
+    <message>
+        <source>too bright to tell</source>
+        <translation>过亮，无法判断</translation>
+    </message>
+    <message>
+        <source>Too bright %1</source>
+        <translation>过亮 %1</translation>
+    </message>
+    <message>
+        <source>Too dark %1</source>
+        <translation>过暗 %1</translation>
+    </message>
+    <message>
+        <source>No camera is chosen yet</source>
+        <translation>尚未选择相机</translation>
+    </message>
+    <message>
+        <source>All of the view.</source>
+        <translation>整个视野。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::ClusterPage</name>
@@ -2102,10 +2184,6 @@
         <translation>%1, %2：不属于任何簇</translation>
     </message>
     <message>
-        <source>rel. RMS</source>
-        <translation>相对 RMS</translation>
-    </message>
-    <message>
         <source>Error map, median %1</source>
         <translation>误差图，中位数 %1</translation>
     </message>
@@ -2177,12 +2255,6 @@
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
-    <message numerus="yes">
-        <source>%n unknown(s)</source>
-        <translation>
-            <numerusform>%n 个未知数</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1 of light</source>
         <translation>光量的 %1</translation>
@@ -2229,6 +2301,10 @@
             <numerusform>%1, %2：%n 个投影机像素</numerusform>
         </translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>误差</translation>
+    </message>
 </context>
 <context>
     <name>relucent::CornerView</name>
@@ -2247,6 +2323,25 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>左下角，%1, %2。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::DeviceSelector</name>
+    <message>
+        <source>Projector that is shown</source>
+        <translation>所显示的投影机</translation>
+    </message>
+    <message>
+        <source>Camera that is shown</source>
+        <translation>所显示的相机</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>投影机 %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>相机 %1</translation>
     </message>
 </context>
 <context>
@@ -2827,10 +2922,6 @@ projector %2</source>
         <translation>请拍摄验证照片，或不经验证直接安装。</translation>
     </message>
     <message>
-        <source>There is one screen only. The output will cover it; Esc closes the output.</source>
-        <translation>只有一个屏幕，输出会将它盖住；按 Esc 关闭输出。</translation>
-    </message>
-    <message>
         <source>Nothing is projected before you open the output.</source>
         <translation>打开输出之前不会投影。</translation>
     </message>
@@ -2987,18 +3078,6 @@ projector %2</source>
         <translation>拍摄验证照片后，此处显示剩余的差异。</translation>
     </message>
     <message>
-        <source>%1 out of reach</source>
-        <translation>不可达 %1</translation>
-    </message>
-    <message>
-        <source>still picture, %1</source>
-        <translation>静态图片，%1</translation>
-    </message>
-    <message>
-        <source>%1 fps, %2 ms, %3</source>
-        <translation>%1 fps，%2 ms，%3</translation>
-    </message>
-    <message>
         <source>taken %1</source>
         <translation>拍摄于 %1</translation>
     </message>
@@ -3057,6 +3136,56 @@ projector %2</source>
     <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>此屏幕的分辨率与测量时的投影机不同。</translation>
+    </message>
+    <message>
+        <source>Written to %1, and for paper to report.pdf beside it.</source>
+        <translation>已写入 %1，打印用的 report.pdf 在其旁边。</translation>
+    </message>
+    <message>
+        <source>The projector is another screen now</source>
+        <translation>投影机现在是另一个屏幕</translation>
+    </message>
+    <message>
+        <source>Show installed</source>
+        <translation>播放已安装</translation>
+    </message>
+    <message>
+        <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
+        <translation>已安装：下次登录时开始播放。按住 A 可比较。</translation>
+    </message>
+    <message>
+        <source>The output will cover this window. Esc closes the output.</source>
+        <translation>输出将盖住此窗口。按 Esc 关闭输出。</translation>
+    </message>
+    <message>
+        <source>Install again</source>
+        <translation>重新安装</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
+        <translation>投影机的屏幕 %1 不在。请接上，或选择另一个。</translation>
+    </message>
+    <message>
+        <source>Choose a screen for projector %1.</source>
+        <translation>请为投影机 %1 选择屏幕。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
+        <translation>
+            <numerusform>%n 台投影机各需要一个屏幕。请再接上一个。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
+        <translation>只有一个屏幕。请接上投影机并把桌面扩展到它，或选择此屏幕。</translation>
+    </message>
+    <message>
+        <source>still picture, %1 of the pixels at their limit</source>
+        <translation>静态图像，%1 的像素达到极限</translation>
+    </message>
+    <message>
+        <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
+        <translation>%1 fps，%2 ms，%3 的像素达到极限</translation>
     </message>
 </context>
 <context>
@@ -3303,10 +3432,6 @@ projector %2</source>
         <translation>根据测量预测。尚未投影。</translation>
     </message>
     <message>
-        <source>Open output</source>
-        <translation>打开输出</translation>
-    </message>
-    <message>
         <source>Preview</source>
         <translation>预览</translation>
     </message>
@@ -3413,6 +3538,26 @@ projector %2</source>
     <message>
         <source>The larger this share, the brighter the picture, and the more of it stays too dark.</source>
         <translation>此比例越大，画面越亮，亮度不足的部分也越多。</translation>
+    </message>
+    <message>
+        <source>Part of the picture gets no light from any projector.</source>
+        <translation>画面的一部分得不到任何投影机的光。</translation>
+    </message>
+    <message>
+        <source>Another one could fill it.</source>
+        <translation>再加一台可以补上。</translation>
+    </message>
+    <message>
+        <source>Go to output</source>
+        <translation>前往输出</translation>
+    </message>
+    <message>
+        <source>under 1 ms</source>
+        <translation>不到 1 ms</translation>
+    </message>
+    <message>
+        <source>Uncorrected, too</source>
+        <translation>同样未校正</translation>
     </message>
 </context>
 <context>
@@ -3540,6 +3685,22 @@ projector %2</source>
     <message>
         <source>Saved %1</source>
         <translation>保存于 %1</translation>
+    </message>
+    <message>
+        <source>Room light</source>
+        <translation>室内光</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1，未接上</translation>
+    </message>
+    <message>
+        <source>%1 of full light, steady</source>
+        <translation>全光的 %1，稳定</translation>
+    </message>
+    <message>
+        <source>%1 of full light, changed</source>
+        <translation>全光的 %1，已变化</translation>
     </message>
 </context>
 <context>
@@ -4129,6 +4290,100 @@ projector %2</source>
     <message>
         <source>Shows the file {image} and ends as soon as the projector shines it</source>
         <translation>显示文件 {image}，投影机实际投出后即结束</translation>
+    </message>
+    <message>
+        <source>Relief, two projectors</source>
+        <translation>浮雕，两台投影机</translation>
+    </message>
+    <message>
+        <source>Each shines into the other&apos;s shadows</source>
+        <translation>彼此照亮对方的阴影</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen</source>
+        <translation>投影机的屏幕</translation>
+    </message>
+    <message>
+        <source>Say which screen the projector is now. What was measured stays.</source>
+        <translation>请说明投影机现在是哪个屏幕。测量结果保留。</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again.</source>
+        <translation>不会重新测量。</translation>
+    </message>
+    <message>
+        <source>Use this screen</source>
+        <translation>使用此屏幕</translation>
+    </message>
+    <message>
+        <source>Change the screen</source>
+        <translation>更换屏幕</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen %1 is not there</source>
+        <translation>投影机的屏幕 %1 不在</translation>
+    </message>
+    <message>
+        <source>Plug it in, or say which screen the projector is now.</source>
+        <translation>请接上，或说明投影机现在是哪个屏幕。</translation>
+    </message>
+    <message>
+        <source>%1 is not the folder of a venue: it has no %2 in it.</source>
+        <translation>%1 不是场地文件夹：其中没有 %2。</translation>
+    </message>
+    <message numerus="yes">
+        <source>There are %n venue(s) within it: open one of them.</source>
+        <translation>
+            <numerusform>其中有 %n 个场地：请打开其中之一。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
+        <translation>请选择场地自己的文件夹，它以场地命名。</translation>
+    </message>
+    <message>
+        <source>This folder is not a venue</source>
+        <translation>此文件夹不是场地</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>没有任何更改。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>设备正用于“%1”。</translation>
+    </message>
+    <message>
+        <source>Choose another screen.</source>
+        <translation>请选择另一个屏幕。</translation>
+    </message>
+    <message>
+        <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
+        <translation>只有您自己的屏幕。请接上投影机，并把桌面扩展到它。</translation>
+    </message>
+    <message>
+        <source>Nothing is measured again</source>
+        <translation>不会重新测量</translation>
+    </message>
+    <message>
+        <source>Measured at</source>
+        <translation>测量于</translation>
+    </message>
+    <message>
+        <source>Used at</source>
+        <translation>用于</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>像素</translation>
+    </message>
+    <message>
+        <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
+        <translation>屏幕按制造商和序列号识别。若没有，则按接口识别：线缆换插别处时须在此说明。</translation>
+    </message>
+    <message>
+        <source>Is open</source>
+        <translation>已打开</translation>
     </message>
 </context>
 <context>

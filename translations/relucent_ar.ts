@@ -1122,11 +1122,11 @@
     </message>
     <message>
         <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
-        <translation>هذا جهاز عرض غير الذي قيس، وضوؤه ومكانه مختلفان: التقط صورة تحقق، وأعد القياس إن لم تبدُ كما هو متوقع.</translation>
+        <translation>هذا جهاز عرض غير الذي قيس، وضوؤه ومكانه مختلفان: التقط لقطة تحقق، وأعد القياس إن لم تبدُ كما هو متوقع.</translation>
     </message>
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
-        <translation>قيس على %1 ويُستخدم على %2. إن كان جهاز العرض نفسه في المكان نفسه فكل ما قيس باقٍ؛ وصورة التحقق تبيّن ذلك.</translation>
+        <translation>قيس على %1 ويُستخدم على %2. إن كان جهاز العرض نفسه في المكان نفسه فكل ما قيس باقٍ؛ ولقطة التحقق تبيّن ذلك.</translation>
     </message>
 </context>
 <context>
@@ -1766,7 +1766,7 @@
     </message>
     <message>
         <source>Photographs</source>
-        <translation>الصور</translation>
+        <translation>اللقطات</translation>
     </message>
     <message>
         <source>Error of the test patterns</source>
@@ -3255,7 +3255,7 @@ projector %2</source>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
-        <translation>سيغطي الإخراج هذه النافذة. يغلقه Esc.</translation>
+        <translation>سيغطي الخرج هذه النافذة. يغلقه Esc.</translation>
     </message>
     <message>
         <source>Install again</source>
@@ -3654,7 +3654,7 @@ projector %2</source>
     </message>
     <message>
         <source>Go to output</source>
-        <translation>إلى الإخراج</translation>
+        <translation>إلى الخرج</translation>
     </message>
     <message>
         <source>under 1 ms</source>

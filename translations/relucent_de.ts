@@ -1110,11 +1110,11 @@
     </message>
     <message>
         <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
-        <translation>Das ist ein anderer Projektor als der gemessene. Sein Licht und sein Ort sind anders: Machen Sie eine Prüfaufnahme, und messen Sie neu, wo sie nicht wie vorhergesagt aussieht.</translation>
+        <translation>Das ist ein anderer Projektor als der gemessene. Sein Licht und sein Ort sind anders: Machen Sie ein Prüffoto, und messen Sie neu, wo sie nicht wie vorhergesagt aussieht.</translation>
     </message>
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
-        <translation>Gemessen an %1, verwendet an %2. Ist es derselbe Projektor am selben Ort, gilt alles Gemessene weiter; eine Prüfaufnahme zeigt es.</translation>
+        <translation>Gemessen an %1, verwendet an %2. Ist es derselbe Projektor am selben Ort, gilt alles Gemessene weiter; ein Prüffoto zeigt es.</translation>
     </message>
 </context>
 <context>
@@ -1722,7 +1722,7 @@
     </message>
     <message>
         <source>Photographs</source>
-        <translation>Aufnahmen</translation>
+        <translation>Fotos</translation>
     </message>
     <message>
         <source>Error of the test patterns</source>
@@ -1730,7 +1730,7 @@
     </message>
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>Testmuster werden aus der Messung vorhergesagt und dann aufgenommen: So weit liegen beide auseinander.</translation>
+        <translation>Testmuster werden aus der Messung vorhergesagt und dann fotografiert: So weit liegen beide auseinander.</translation>
     </message>
 </context>
 <context>
@@ -3167,11 +3167,11 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Show installed</source>
-        <translation>Vorführung installiert</translation>
+        <translation>Show installiert</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installiert: Die Vorführung beginnt bei der nächsten Anmeldung. Halten Sie A zum Vergleichen.</translation>
+        <translation>Installiert: Die Show beginnt bei der nächsten Anmeldung. Halten Sie A zum Vergleichen.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>

@@ -3167,11 +3167,11 @@ proyector %2</translation>
     </message>
     <message>
         <source>Show installed</source>
-        <translation>Función instalada</translation>
+        <translation>Show instalado</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Instalado: la función empieza en el próximo inicio de sesión. Mantenga A para comparar.</translation>
+        <translation>Instalado: el show empieza en el próximo inicio de sesión. Mantenga A para comparar.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>

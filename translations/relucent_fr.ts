@@ -913,11 +913,11 @@
     </message>
     <message>
         <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>annonce des poses à partir de {} s mais s’en tient à {} s</translation>
+        <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
     </message>
     <message>
         <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>annonce des poses jusqu’à {} s mais s’en tient à {} s</translation>
+        <translation>annonce des temps de pose jusqu’à {} s mais s’en tient à {} s</translation>
     </message>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
@@ -1110,11 +1110,11 @@
     </message>
     <message>
         <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
-        <translation>Ce n’est pas le projecteur qui a été mesuré. Sa lumière et sa place diffèrent : prenez une photo de vérification, et mesurez à nouveau si elle ne correspond pas à la prévision.</translation>
+        <translation>Ce n’est pas le projecteur qui a été mesuré. Sa lumière et sa place diffèrent : prenez une photo de contrôle, et mesurez à nouveau si elle ne correspond pas à la prévision.</translation>
     </message>
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
-        <translation>Mesuré sur %1, utilisé sur %2. Si c’est le même projecteur au même endroit, toute la mesure reste valable ; une photo de vérification le montre.</translation>
+        <translation>Mesuré sur %1, utilisé sur %2. Si c’est le même projecteur au même endroit, toute la mesure reste valable ; une photo de contrôle le montre.</translation>
     </message>
 </context>
 <context>
@@ -2094,7 +2094,7 @@
     </message>
     <message>
         <source>Keep exposures</source>
-        <translation>Garder les poses</translation>
+        <translation>Garder les temps de pose</translation>
     </message>
     <message>
         <source>too bright to tell</source>
@@ -3167,11 +3167,11 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Show installed</source>
-        <translation>Spectacle installé</translation>
+        <translation>Diffusion installée</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installé : le spectacle démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
+        <translation>Installé : la diffusion démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>

@@ -929,7 +929,7 @@
     </message>
     <message>
         <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>mette a fuoco da sola: passate l’obiettivo alla messa a fuoco manuale</translation>
+        <translation>mette a fuoco da sola: passare l’obiettivo alla messa a fuoco manuale</translation>
     </message>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
@@ -941,7 +941,7 @@
     </message>
     <message>
         <source>may fire its flash: close it</source>
-        <translation>può far scattare il flash: chiudetelo</translation>
+        <translation>può far scattare il flash: chiuderlo</translation>
     </message>
     <message>
         <source>may take a dark frame after long exposures, which doubles their time</source>
@@ -949,7 +949,7 @@
     </message>
     <message>
         <source>may take several photographs at once: switch it to single shots</source>
-        <translation>può scattare più fotografie insieme: passate allo scatto singolo</translation>
+        <translation>può scattare più fotografie insieme: passare allo scatto singolo</translation>
     </message>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
@@ -957,7 +957,7 @@
     </message>
     <message>
         <source>switches itself off after a while: switch that off</source>
-        <translation>si spegne da sola dopo un po’: disattivatelo</translation>
+        <translation>si spegne da sola dopo un po’: disattivarlo</translation>
     </message>
     <message>
         <source>video device</source>
@@ -973,11 +973,11 @@
     </message>
     <message>
         <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>Reflex e mirrorless: a questo programma manca libgphoto2 o LibRaw; installate libgphoto2-dev e libraw-dev e ricompilatelo</translation>
+        <translation>Reflex e mirrorless: a questo programma manca libgphoto2 o LibRaw; installare libgphoto2-dev e libraw-dev e ricompilarlo</translation>
     </message>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>Telecamere GigE Vision e USB3 Vision: a questo programma manca Aravis; installate libaravis-dev e ricompilatelo</translation>
+        <translation>Telecamere GigE Vision e USB3 Vision: a questo programma manca Aravis; installare libaravis-dev e ricompilarlo</translation>
     </message>
 </context>
 <context>
@@ -1106,15 +1106,15 @@
     </message>
     <message>
         <source>The projector was measured with %1 pixels. Set this screen to that size.</source>
-        <translation>Il proiettore è stato misurato con %1 pixel. Impostate questo schermo a quella dimensione.</translation>
+        <translation>Il proiettore è stato misurato con %1 pixel. Impostare questo schermo a quella dimensione.</translation>
     </message>
     <message>
         <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
-        <translation>Questo non è il proiettore che è stato misurato. La sua luce e il suo posto sono diversi: scattate una fotografia di verifica e misurate di nuovo se non appare come previsto.</translation>
+        <translation>Questo non è il proiettore che è stato misurato. La sua luce e il suo posto sono diversi: scattare una foto di verifica e misurare di nuovo se non appare come previsto.</translation>
     </message>
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
-        <translation>Misurato su %1, usato su %2. Se è lo stesso proiettore nello stesso posto, tutto ciò che è stato misurato resta valido; una fotografia di verifica lo mostra.</translation>
+        <translation>Misurato su %1, usato su %2. Se è lo stesso proiettore nello stesso posto, tutto ciò che è stato misurato resta valido; una foto di verifica lo mostra.</translation>
     </message>
 </context>
 <context>
@@ -1708,8 +1708,8 @@
     <message numerus="yes">
         <source>About %n pattern(s), %1. Leave the room dark and still.</source>
         <translation>
-            <numerusform>Circa %n motivo, %1. Lasciate la stanza buia e ferma.</numerusform>
-            <numerusform>Circa %n motivi, %1. Lasciate la stanza buia e ferma.</numerusform>
+            <numerusform>Circa %n pattern, %1. Lasciare la stanza buia e ferma.</numerusform>
+            <numerusform>Circa %n pattern, %1. Lasciare la stanza buia e ferma.</numerusform>
         </translation>
     </message>
     <message>
@@ -1718,19 +1718,19 @@
     </message>
     <message>
         <source>Patterns</source>
-        <translation>Motivi</translation>
+        <translation>Pattern</translation>
     </message>
     <message>
         <source>Photographs</source>
-        <translation>Fotografie</translation>
+        <translation>Foto</translation>
     </message>
     <message>
         <source>Error of the test patterns</source>
-        <translation>Errore dei motivi di prova</translation>
+        <translation>Errore dei pattern di prova</translation>
     </message>
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>I motivi di prova vengono previsti dalla misura e poi fotografati: questa è la differenza tra i due.</translation>
+        <translation>I pattern di prova vengono previsti dalla misura e poi fotografati: questa è la differenza tra i due.</translation>
     </message>
 </context>
 <context>
@@ -3167,11 +3167,11 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Show installed</source>
-        <translation>Spettacolo installato</translation>
+        <translation>Show installato</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installato: lo spettacolo parte al prossimo accesso. Tenete premuto A per confrontare.</translation>
+        <translation>Installato: lo show parte al prossimo accesso. Tenere premuto A per confrontare.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -3183,22 +3183,22 @@ proiettore %2</translation>
     </message>
     <message>
         <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>
-        <translation>Lo schermo %1 del proiettore non c’è. Collegatelo o sceglietene un altro.</translation>
+        <translation>Lo schermo %1 del proiettore non c’è. Collegarlo o sceglierne un altro.</translation>
     </message>
     <message>
         <source>Choose a screen for projector %1.</source>
-        <translation>Scegliete uno schermo per il proiettore %1.</translation>
+        <translation>Scegliere uno schermo per il proiettore %1.</translation>
     </message>
     <message numerus="yes">
         <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
         <translation>
-            <numerusform>Il proiettore richiede uno schermo proprio. Collegatene uno.</numerusform>
-            <numerusform>Ciascuno dei %n proiettori richiede uno schermo proprio. Collegatene un altro.</numerusform>
+            <numerusform>Il proiettore richiede uno schermo proprio. Collegarne uno.</numerusform>
+            <numerusform>Ciascuno dei %n proiettori richiede uno schermo proprio. Collegarne un altro.</numerusform>
         </translation>
     </message>
     <message>
         <source>There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.</source>
-        <translation>C’è un solo schermo. Collegate il proiettore ed estendetevi il desktop, oppure scegliete questo schermo.</translation>
+        <translation>C’è un solo schermo. Collegare il proiettore ed estendervi il desktop, oppure scegliere questo schermo.</translation>
     </message>
     <message>
         <source>still picture, %1 of the pixels at their limit</source>
@@ -4329,7 +4329,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Say which screen the projector is now. What was measured stays.</source>
-        <translation>Indicate quale schermo è ora il proiettore. Le misure restano.</translation>
+        <translation>Indicare quale schermo è ora il proiettore. Le misure restano.</translation>
     </message>
     <message>
         <source>Nothing is measured again.</source>
@@ -4349,7 +4349,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Plug it in, or say which screen the projector is now.</source>
-        <translation>Collegatelo o indicate quale schermo è ora il proiettore.</translation>
+        <translation>Collegarlo o indicare quale schermo è ora il proiettore.</translation>
     </message>
     <message>
         <source>%1 is not the folder of a venue: it has no %2 in it.</source>
@@ -4358,13 +4358,13 @@ proiettore %2</translation>
     <message numerus="yes">
         <source>There are %n venue(s) within it: open one of them.</source>
         <translation>
-            <numerusform>Contiene %n luogo: apritelo.</numerusform>
-            <numerusform>Contiene %n luoghi: apritene uno.</numerusform>
+            <numerusform>Contiene %n luogo: aprirlo.</numerusform>
+            <numerusform>Contiene %n luoghi: aprirne uno.</numerusform>
         </translation>
     </message>
     <message>
         <source>Choose a venue&apos;s own folder. It has the venue&apos;s name.</source>
-        <translation>Scegliete la cartella di un luogo. Porta il nome del luogo.</translation>
+        <translation>Scegliere la cartella di un luogo. Porta il nome del luogo.</translation>
     </message>
     <message>
         <source>This folder is not a venue</source>
@@ -4380,11 +4380,11 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Choose another screen.</source>
-        <translation>Scegliete un altro schermo.</translation>
+        <translation>Scegliere un altro schermo.</translation>
     </message>
     <message>
         <source>Only your own screen is there. Plug the projector in, and extend the desktop to it.</source>
-        <translation>C’è solo il vostro schermo. Collegate il proiettore ed estendetevi il desktop.</translation>
+        <translation>C’è solo il vostro schermo. Collegare il proiettore ed estendervi il desktop.</translation>
     </message>
     <message>
         <source>Nothing is measured again</source>
@@ -4419,7 +4419,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
-        <translation>Per questa vista, installate il driver della scheda grafica e riavviate Relucent.</translation>
+        <translation>Per questa vista, installare il driver della scheda grafica e riavviare Relucent.</translation>
     </message>
 </context>
 </TS>

@@ -911,11 +911,11 @@
     </message>
     <message>
         <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>{} 秒からの露光に対応すると表示しますが、実際は {} 秒までです</translation>
+        <translation>{} 秒からの露出に対応すると表示しますが、実際は {} 秒までです</translation>
     </message>
     <message>
         <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>{} 秒までの露光に対応すると表示しますが、実際は {} 秒までです</translation>
+        <translation>{} 秒までの露出に対応すると表示しますが、実際は {} 秒までです</translation>
     </message>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
@@ -931,7 +931,7 @@
     </message>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>ソフトウェアトリガーがありません: 撮影ごとに露光 1 回分余計に待つことがあります</translation>
+        <translation>ソフトウェアトリガーがありません: 撮影ごとに露出 1 回分余計に待つことがあります</translation>
     </message>
     <message>
         <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
@@ -943,7 +943,7 @@
     </message>
     <message>
         <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>長時間露光の後にダーク画像を撮ることがあり、時間が倍になります</translation>
+        <translation>長時間露出の後にダーク画像を撮ることがあり、時間が倍になります</translation>
     </message>
     <message>
         <source>may take several photographs at once: switch it to single shots</source>
@@ -2082,7 +2082,7 @@
     </message>
     <message>
         <source>Keep exposures</source>
-        <translation>露光を保持</translation>
+        <translation>露出を保持</translation>
     </message>
     <message>
         <source>too bright to tell</source>
@@ -3147,11 +3147,11 @@ projector %2</source>
     </message>
     <message>
         <source>Show installed</source>
-        <translation>上映をインストール済み</translation>
+        <translation>ショーを登録済み</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>インストール済み: 次回ログイン時に上映が始まります。A を押し続けると比較できます。</translation>
+        <translation>登録済み: 次回ログイン時にショーが始まります。A を押し続けると比較できます。</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -3159,7 +3159,7 @@ projector %2</source>
     </message>
     <message>
         <source>Install again</source>
-        <translation>再インストール</translation>
+        <translation>再登録</translation>
     </message>
     <message>
         <source>The projector&apos;s screen %1 is not there. Plug it in, or choose another.</source>

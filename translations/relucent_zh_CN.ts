@@ -3147,7 +3147,7 @@ projector %2</source>
     </message>
     <message>
         <source>Show installed</source>
-        <translation>播放已安装</translation>
+        <translation>节目已安装</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>

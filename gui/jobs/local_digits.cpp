@@ -43,6 +43,7 @@ QString digitsOf(double value) {
   double size = std::abs(value);
   if (size == 0.0 || (size >= 1e-3 && size < 1e6)) return digitsOf(value, decimalsFor(value));
   int exponent = static_cast<int>(std::floor(std::log10(size)));
+  if (std::round(10.0 * size / std::pow(10.0, exponent)) >= 100.0) ++exponent;  // 9.97 is written as 10
   return digitsOf(value / std::pow(10.0, exponent), 1) + QString::fromUtf8(" × ") + powerOfTen(exponent);
 }
 

@@ -54,6 +54,7 @@ class TestNumberText : public QObject {
     QTest::newRow("less than nothing") << -21480.0 << QString::fromUtf8("-21\u202F480");
     QTest::newRow("many") << 2148000.0 << QString::fromUtf8("2.1 × 10⁶");
     QTest::newRow("hardly any") << 7.94e-4 << QString::fromUtf8("7.9 × 10⁻⁴");
+    QTest::newRow("rounded up to ten") << 9.97e-6 << QString::fromUtf8("1.0 × 10⁻⁵");
     QTest::newRow("none") << std::numeric_limits<double>::quiet_NaN() << QString::fromUtf8("–");
   }
   void threeDigits() {

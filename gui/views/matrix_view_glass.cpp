@@ -55,8 +55,11 @@ void MatrixView::paintAxes(QPainter& painter) const {
   QString across =
       part.width() < 2.0 * projectors.size(0).width ? tr("projector x, y") : tr("projector line");
   QString down = part.height() < 2.0 * cameras.size(0).width ? tr("camera x, y") : tr("camera line");
-  painter.drawText(QRectF(area.left(), height() - ascent - 1.0, area.width(), ascent), Qt::AlignCenter,
-                   tr("%1 across, %2 down").arg(across, down));
+  // In the middle, and in long languages as wide as the view.
+  const QString title = tr("%1 across, %2 down").arg(across, down);
+  const double advance = painter.fontMetrics().horizontalAdvance(title) + 2.0;
+  const double left = std::clamp(area.center().x() - advance / 2.0, 0.0, std::max(0.0, width() - advance));
+  painter.drawText(QRectF(left, height() - ascent - 1.0, advance, ascent), Qt::AlignCenter, title);
 }
 
 void MatrixView::paintLens(QPainter& painter) const {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "devices/aravis.h"
@@ -13,8 +15,8 @@ class Setup {
 
   AravisSetup run(CameraTraits& traits) {
     AravisFailure failure(name_);
-    traits.model = textOf(arv_camera_get_vendor_name(camera_, failure));
-    traits.model += " " + textOf(arv_camera_get_model_name(camera_, failure));
+    const std::string vendor = textOf(arv_camera_get_vendor_name(camera_, failure));
+    traits.model = fmt::format("{} {}", vendor, textOf(arv_camera_get_model_name(camera_, failure)));
     chooseFormat(traits);
     chooseRegion(traits);
     switchAutomaticsOff();

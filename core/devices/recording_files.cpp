@@ -2,6 +2,7 @@
 #include "devices/recording_files.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -111,7 +112,7 @@ void appendPhotograph(const fs::path& folder, const RecordedPhotograph& photogra
       {"exposure", photograph.exposure}, {"asked", photograph.asked},      {"seconds", photograph.seconds},
       {"bits", photograph.bits},         {"file", photograph.file},        {"patterns", photograph.patterns}};
   // Begins a new line, in case the last one was cut short.
-  const std::string line = "\n" + json.dump();
+  const std::string line = fmt::format("\n{}", json.dump());
   const fs::path file = folder / photographsName;
   const Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
   if (!descriptor.ok() ||

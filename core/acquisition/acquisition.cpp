@@ -76,6 +76,11 @@ void addFindings(Acquisition& acquisition, double unusable, double drift) {
         100.0 * flagged));
 }
 
+void addPutUpWith(Acquisition& acquisition, const Decisions& decisions) {
+  for (const auto& [shot, what] : decisions.putUpWith)
+    acquisition.findings.push_back(fmt::format("put up with before pattern {}: {}", shot + 1, what));
+}
+
 /// The parts of a measurement, in order, on shots that may be gone back over.
 class Measurement {
  public:
@@ -172,6 +177,7 @@ Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const 
       Acquisition result = Measurement(shots, used, settings, decisions, observer).run(progress);
       result.patterns = shots.shots() - shotsBefore;
       result.exposures = shots.exposures() - exposuresBefore;
+      addPutUpWith(result, decisions);
       return result;
     } catch (const BeginAgain&) {
       shots.goBackTo(shotsBefore);

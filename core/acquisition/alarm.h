@@ -19,6 +19,12 @@ enum class AlarmKind {
   projectorAsleep,  // the projectors show nothing
 };
 
+/// Whether a measurement that goes on with it may still be of use. All else can only be put right.
+constexpr bool mayBePutUpWith(AlarmKind kind) {
+  return kind == AlarmKind::flicker || kind == AlarmKind::ambientChanged || kind == AlarmKind::lampChanged ||
+         kind == AlarmKind::moved || kind == AlarmKind::localChange;
+}
+
 /// A finding that pauses the measurement.
 struct Alarm {
   AlarmKind kind = AlarmKind::flicker;
@@ -30,8 +36,9 @@ struct Alarm {
 };
 
 /// Retry: what is not safe is photographed again, from devices that have been put right.
-/// Skip: this finding is put up with; the next check looks again.
-/// Keep and stop: ends with what is safe, a valid but coarser T.
+/// Skip: this finding is put up with, and named among the acquisition's findings. The next check compares
+/// with what is there now: it raises an alarm if that changes again. Keep and stop: ends with what is safe, a
+/// valid but coarser T.
 enum class Answer { retry, skip, keepAndStop };
 
 /// Asked while the measurement waits. Empty: nobody is there; the measurement stops with Error{device} after

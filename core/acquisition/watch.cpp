@@ -32,6 +32,15 @@ HdrFrame lessBlack(HdrFrame frame, const HdrFrame& black) {
   return frame;
 }
 
+HdrFrame brightenedBy(double factor, HdrFrame frame) {
+  auto scale = static_cast<float>(factor);
+  parallelFor(0, frame.radiance.size(), 4096, [&](std::size_t i) {
+    frame.radiance[i] *= scale;
+    frame.variance[i] *= scale * scale;
+  });
+  return frame;
+}
+
 double deviation(const HdrFrame& a, const HdrFrame& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.radiance.size(); ++i) {
@@ -113,7 +122,10 @@ void Watch::inspectCheck(const Check& now, double expectedPower, int doubtful) {
     if (alarm) reading.alarm = alarm->kind;
     observer_.checked(reading);
   }
-  if (alarm) handle(*alarm, doubtful);
+  if (!alarm) return;
+  handle(*alarm, doubtful);
+  if (alarm->kind == AlarmKind::moved || alarm->kind == AlarmKind::localChange)
+    first_.light = brightenedBy(1.0 / lampPower(now, first_, references_), now.light);
 }
 
 void Watch::contradicted(int shot, int patterns) {
@@ -122,13 +134,14 @@ void Watch::contradicted(int shot, int patterns) {
 
 void Watch::handle(const Alarm& alarm, int doubtful) {
   int shot = shots_.shots();
-  if (decisions_.skipped.contains(shot)) return;
+  if (decisions_.putUpWith.contains(shot)) return;
   Answer answer = decisions_.handler ? decisions_.handler(alarm) : Answer::retry;
   if (answer == Answer::skip) {
-    decisions_.skipped.insert(shot);
+    decisions_.putUpWith.emplace(shot, alarm.what);
     return;
   }
   shots_.forgetFrom(doubtful);
+  decisions_.putUpWith.erase(decisions_.putUpWith.upper_bound(doubtful), decisions_.putUpWith.end());
   if (answer == Answer::keepAndStop) throw KeepAndStop();
   if (!decisions_.handler)
     throw Error(ErrorKind::device, alarm.what, alarm.advice + " by resuming the calibration; " + alarm.safe,
@@ -165,13 +178,7 @@ void Watch::follow(const Check& check) {
 }
 
 HdrFrame Watch::lightOf(HdrFrame frame) const {
-  auto scale = static_cast<float>(1.0 / power());
-  frame = lessBlack(std::move(frame), references_.black);
-  parallelFor(0, frame.radiance.size(), 4096, [&](std::size_t i) {
-    frame.radiance[i] *= scale;
-    frame.variance[i] *= scale * scale;
-  });
-  return frame;
+  return brightenedBy(1.0 / power(), lessBlack(std::move(frame), references_.black));
 }
 
 HdrFrame Watch::light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,

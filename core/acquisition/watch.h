@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <set>
+#include <map>
+#include <string>
 
 #include "acquisition/inspection.h"
 #include "acquisition/observer.h"
@@ -12,7 +13,7 @@ namespace relucent {
 /// What was decided about alarms; outlives a measurement that begins again.
 struct Decisions {
   AlarmHandler handler;
-  std::set<int> skipped;  // numbers of shots whose alarm was put up with
+  std::map<int, std::string> putUpWith;  // alarms put up with, by the shot that they came before
 };
 
 /// Thrown out of a measurement whose doubtful shots have been forgotten: it is to begin again.
@@ -24,7 +25,8 @@ struct KeepAndStop {};
 /// reference picture are photographed:
 /// - e becomes the mean of all blacks so far or, where it has changed, the new one;
 /// - the lamp's power follows from the reference picture, continued as a straight line until the next check;
-/// - sentinels compare the view with the first one, see inspection.h. On an alarm the handler is asked;
+/// - sentinels compare the view with the first one, see inspection.h, or with what was put up with since. On
+///   an alarm the handler is asked;
 /// - the observer is told of both.
 /// Frames come out as light: less e, in units of the lamp's power at the first check.
 class Watch {
@@ -63,7 +65,7 @@ class Watch {
   Check photographCheck(const Progress& progress);
   /// Looks at a check, tells the observer, and handles what it found wrong with the shots from `doubtful` on.
   void inspectCheck(const Check& now, double expectedPower, int doubtful);
-  /// Asks what to do about an alarm of the shots from `doubtful` on.
+  /// Asks what to do about an alarm of the shots from `doubtful` on. Comes back if it is put up with.
   void handle(const Alarm& alarm, int doubtful);
   void checkIfDue(const Progress& progress);
   /// Exposures of one pattern that contradict each other are an alarm of their own.
@@ -81,7 +83,7 @@ class Watch {
   const AcquisitionSettings& settings_;
   Decisions& decisions_;
   AcquisitionObserver& observer_;
-  Check first_;
+  Check first_;  // its light that of a later one whose view was put up with, brought to the first one's power
   Power last_, beforeLast_;
   int trusted_ = 0;             // shots before this one have been confirmed by a check
   int photographedBefore_ = 0;  // the last photograph, of those not read from the log

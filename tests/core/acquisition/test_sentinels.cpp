@@ -272,19 +272,41 @@ class TestSentinels : public QObject {
     QVERIFY(std::any_of(listening.retakes.begin(), listening.retakes.end(), isIt));
   }
 
+  void skippingGoesOn_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    QTest::newRow("ambient") << fault(FaultKind::ambient, 60, 0.05);
+    QTest::newRow("shifted camera") << fault(FaultKind::shiftedCamera, 60, 2.0);
+    QTest::newRow("something in the view") << handOver(60);
+  }
   void skippingGoesOn() {
-    venue_->faults->faults = {fault(FaultKind::ambient, 60, 0.05)};
-    int alarms = 0;
-    NoShotLog log;
+    QFETCH(DeviceFault, fault);
+    venue_->faults->faults = {fault};
+    std::vector<Alarm> alarms;
+    MemoryLog log;
     Acquisition a = venue_->run(
-        [&](const Alarm&) {
-          ++alarms;
+        [&](const Alarm& alarm) {
+          alarms.push_back(alarm);
           return Answer::skip;
         },
         log);
-    // Put up with once, the light that is there now is the one expected from then on.
-    QCOMPARE(alarms, 1);
+    // Put up with once, what is there now is expected from then on; and it is on record.
+    QCOMPARE(alarms.size(), std::size_t{1});
+    QVERIFY(mayBePutUpWith(alarms[0].kind));
+    auto names = [&](const std::string& finding) {
+      return finding.starts_with("put up with before pattern ") && finding.ends_with(alarms[0].what);
+    };
+    QCOMPARE(std::count_if(a.findings.begin(), a.findings.end(), names), 1);
     QVERIFY(a.transport.leaves().blocks() > 0);
+    // Read from its log it asks the same again, at the same place, and comes to the same.
+    Acquisition again = venue_->run(
+        [&](const Alarm& alarm) {
+          alarms.push_back(alarm);
+          return Answer::skip;
+        },
+        log);
+    QCOMPARE(alarms.size(), std::size_t{2});
+    QVERIFY(again.findings == a.findings);
+    QVERIFY(again.transport.leaves() == a.transport.leaves());
   }
 
   void keepingEndsWithWhatIsSafe() {

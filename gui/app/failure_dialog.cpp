@@ -74,6 +74,7 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
     row->addWidget(first = button);
   };
   action(report.keep, "");
+  action(report.goOn, "");
   if (!report.resume.run) {
     QPushButton* close = buttonOf(tr("Close"), "primary");
     connect(close, &QPushButton::clicked, this, &QDialog::accept);

@@ -208,6 +208,14 @@ std::optional<double> AcquirePage::verificationError() const {
   return stored->values["verification_error"].get<double>();
 }
 
+QStringList AcquirePage::findings() const {
+  QStringList sentences;
+  if (const auto& stored = session_.result(Step::acquisition); stored && stored->values.contains("findings"))
+    for (const auto& finding : stored->values["findings"])
+      sentences << fullSentence(finding.get<std::string>());
+  return sentences;
+}
+
 /// Tells nobody what cannot be read: Linearize does.
 void AcquirePage::lookAtResponse() {
   const auto& stored = session_.result(Step::linearization);
@@ -288,7 +296,10 @@ void AcquirePage::askAbout(const Alarm& alarm) {
                   QString::fromStdString(alarm.sentence()), AcquisitionTrace::headingOf(alarm.kind)};
   Command again{tr("Measure again"), Icon::retry, true, {}, [this] { answer(Answer::retry); }};
   Command keep{tr("Stop and keep"), Icon::save, true, {}, [this] { answer(Answer::keepAndStop); }};
-  Q_EMIT failed({failure, fullSentence(alarm.safe), again, keep});
+  Command goOn;
+  if (mayBePutUpWith(alarm.kind))
+    goOn = {tr("Continue anyway"), Icon::next, true, {}, [this] { answer(Answer::skip); }};
+  Q_EMIT failed({failure, fullSentence(alarm.safe), again, keep, goOn});
 }
 
 void AcquirePage::answer(Answer answer) {

@@ -64,6 +64,8 @@ class AcquirePage : public DevicePage {
   std::optional<double> figure(const char* name) const;
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
+  /// What is worth knowing of the measurement, in sentences.
+  QStringList findings() const;
   /// What measuring with these settings will about take, by what the response took; none before that.
   std::optional<WorkLeft> expected() const;
 

@@ -92,8 +92,11 @@ QWidget* planOf(AcquirePage& model) {
   rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
                                           "photographed: this is how far the two differ."),
                           "note"));
+  auto* findings = new Note(Note::Kind::amber);
+  findings->setObjectName("findings");
+  rows->addWidget(findings);
   column->addWidget(result);
-  auto refresh = [&model, group, colour, result, patterns, photographs, error] {
+  auto refresh = [&model, group, colour, result, patterns, photographs, error, findings] {
     auto count = [&model](const char* name) {
       return countText(static_cast<std::uint64_t>(model.figure(name).value_or(0.0)));
     };
@@ -101,6 +104,9 @@ QWidget* planOf(AcquirePage& model) {
     patterns->setValue(count("patterns"));
     photographs->setValue(count("exposures"));
     error->setValue(percentText(model.verificationError().value_or(0.0)));
+    const QStringList found = model.findings();
+    findings->setVisible(!found.isEmpty());
+    findings->setText(AcquirePage::tr("Found while measuring"), found.join("\n\n"));
     group->button(static_cast<int>(model.fineness()))->setChecked(true);
     colour->setCurrent(model.isWhite() ? 1 : 0);
   };

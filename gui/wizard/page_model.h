@@ -43,7 +43,7 @@ struct Banner {
 struct FailureReport {
   Failure failure;
   QString safe;
-  Command resume{}, keep{};
+  Command resume{}, keep{}, goOn{};
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the

@@ -157,7 +157,8 @@ class TestLayouts : public QObject {
             kind, "What happened, as long as it takes to say it.", "What to do about that now.", {}};
         Command resume{AcquirePage::tr("Resume"), Icon::play, true, {}, [] {}};
         Command keep{AcquirePage::tr("Stop and keep"), Icon::save, true, {}, [] {}};
-        FailureDialog dialog({failure, AcquirePage::tr("Nothing was changed."), resume, keep},
+        Command goOn{AcquirePage::tr("Continue anyway"), Icon::next, true, {}, [] {}};
+        FailureDialog dialog({failure, AcquirePage::tr("Nothing was changed."), resume, keep, goOn},
                              wizard_->acquire().name());
         dialog.show();
         faults << seen(dialog, language, "failure");

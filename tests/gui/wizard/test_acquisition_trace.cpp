@@ -6,6 +6,9 @@
 #include <QtTest>
 #include <thread>
 
+#include "pipeline/measuring.h"
+#include "pipeline/stages.h"
+#include "venue/venue.h"
 #include "views/number_text.h"
 #include "wizard/acquire_page.h"
 
@@ -164,6 +167,43 @@ class TestAcquisitionTrace : public QObject {
     QCOMPARE(lines.size(), std::size_t{3});
     QCOMPARE(lines[2].reason, AcquisitionTrace::tr("the room light changed"));
     QVERIFY(lines[0].reason != lines[1].reason && !lines[0].reason.isEmpty());
+  }
+
+  /// The lens is pushed and nobody minds: it is said beside the result.
+  void whatWasPutUpWithIsOnThePage() {
+    CalibrateSettings settings;
+    VenueSettings venue;
+    venue.name = "corner";
+    venue.projector = venue.camera = {48, 36};
+    venue.pathsPerPixel = 16;
+    settings.rig = venue;
+    settings.linearization.levels = 9;
+    settings.acquisition.checkInterval = 40;
+    Session session{std::filesystem::path(folder_.filePath("cache").toStdString())};
+    session.begin(folder_.filePath("pushed").toStdString(), settings);
+    AcquirePage page(session);
+    QVERIFY(page.findings().isEmpty());
+
+    Progress progress;
+    SimulatedVenue simulated(venue, {}, progress);
+    DeviceFault push;
+    push.kind = FaultKind::shiftedCamera;
+    push.stage = stage::acquisition;
+    push.first = 60;
+    push.last = 100000;
+    push.amount = 2.0;
+    auto faults = std::make_shared<FaultSchedule>();
+    faults->faults = {push};
+    Rig rig = simulated.rig(faults);
+    CalibrationFolder folder = CalibrationFolder::open(session.path(), CalibrationFolder::Access::write);
+    Linearization linearization = measureLinearization(folder, rig, progress);
+    AcquisitionObserver nobody;
+    measureAcquisition(
+        folder, rig, linearization, [](const Alarm&) { return Answer::skip; }, nobody, progress);
+    session.reload();
+    QCOMPARE(page.findings().size(), 1);
+    QVERIFY2(page.findings().front().startsWith("Put up with before pattern"),
+             qPrintable(page.findings().front()));
   }
 
   /// A rehearsal, measured through the page: nothing happens, and the trace says so.

@@ -34,6 +34,9 @@ const QHash<QString, QStringList> spelledOut{
     {"{} safe",
      {"every photograph before the light transport is safe",
       "every photograph up to the check before is safe"}},
+    {"two halves of a picture are {} % {} than the whole",
+     {"two halves of a picture are {} % brighter than the whole",
+      "two halves of a picture are {} % darker than the whole"}},
     {"the video device's automatic {} cannot be switched off",
      {"the video device's automatic exposure cannot be switched off",
       "the video device's automatic white balance cannot be switched off",
@@ -144,6 +147,24 @@ QStringList remarksIn(const QString& source) {
   return sentences;
 }
 
+/// What a source has for people of what was found while measuring: "device: what; advice." by its parts.
+QStringList findingsIn(const QString& source) {
+  static const QRegularExpression call(
+      "\\bfindings\\.(?:push_back|emplace_back)\\(|\\bfinding = (?=fmt::format\\()");
+  QStringList sentences;
+  for (const QRegularExpressionMatch& match : call.globalMatch(source)) {
+    const qsizetype begin = match.capturedEnd();
+    const qsizetype end =
+        match.captured().endsWith('(') ? closedAt(source, begin) : source.indexOf(";\n", begin);
+    for (QString sentence : sentencesOf(source.mid(begin, end - begin))) {
+      if (sentence.startsWith("{}: ")) sentence.remove(0, 4);
+      if (sentence.endsWith('.')) sentence.chop(1);
+      sentences << sentence.split("; ");
+    }
+  }
+  return sentences;
+}
+
 /// The table's sentences that a source fills numbers into with a format of their own, "{:.1f}", and where.
 QList<std::pair<QString, QList<bool>>> formattedIn(QString source) {
   static const QRegularExpression seam("\"\\s+\"");
@@ -229,6 +250,30 @@ class TestCoreSentences : public QObject {
       }
     }
     QVERIFY2(found >= 17, qPrintable(QString::number(found)));
+  }
+
+  void everyFindingIsInTheTable_data() {
+    QTest::addColumn<QString>("folder");
+    QTest::addColumn<int>("least");
+    QTest::newRow("linearization") << "linearization" << 15;
+    QTest::newRow("acquisition") << "acquisition" << 12;
+    QTest::newRow("pipeline") << "pipeline" << 3;
+  }
+  void everyFindingIsInTheTable() {
+    QFETCH(QString, folder);
+    QFETCH(int, least);
+    int found = 0;
+    for (QDirIterator files(RELUCENT_SOURCE "/core/" + folder, {"*.cpp"}, QDir::Files); files.hasNext();) {
+      QFile file(files.next());
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      for (const QString& finding : findingsIn(QString::fromUtf8(file.readAll())))
+        for (const QString& each : spelledOut.value(finding, {finding})) {
+          ++found;
+          QVERIFY2(isKnown(each), qPrintable(QString("'%1' of %2 is not in gui/jobs/core_sentence_list.cpp")
+                                                 .arg(each, file.fileName())));
+        }
+    }
+    QVERIFY2(found >= least, qPrintable(QString::number(found)));
   }
 
   /// What core rounds is measured, not a name.
@@ -326,6 +371,14 @@ class TestCoreSentences : public QObject {
         "THE VIDEO DEVICE'S AUTOMATIC FOCUS CANNOT BE SWITCHED OFF");
     row("a sentence in another", "3 attempts at a photograph failed: no photograph came within 2 s",
         "3 ATTEMPTS AT A PHOTOGRAPH FAILED: NO PHOTOGRAPH CAME WITHIN 2 S");
+    row("a finding about a device",
+        "Projector 1: white is 18 % brighter than red, green and blue together; switch off the white segment "
+        "(often called brilliant colour or bright mode) and choose a picture mode for video or sRGB",
+        "Projector 1: WHITE IS 18\u202F% BRIGHTER THAN RED, GREEN AND BLUE TOGETHER; SWITCH OFF THE WHITE "
+        "SEGMENT (OFTEN CALLED BRILLIANT COLOUR OR BRIGHT MODE) AND CHOOSE A PICTURE MODE FOR VIDEO OR SRGB");
+    row("an alarm within a finding",
+        "put up with before pattern 121: 4.5 % of the view of camera 2 look different than before",
+        "PUT UP WITH BEFORE PATTERN 121: 4.5\u202F% OF THE VIEW OF CAMERA 2 LOOK DIFFERENT THAN BEFORE");
     row("advice that goes on", "check its cable and its power, then go on: every photograph so far is kept",
         "CHECK ITS CABLE AND ITS POWER, THEN GO ON: EVERY PHOTOGRAPH SO FAR IS KEPT");
     row("an alarm that nobody heard",

@@ -987,6 +987,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>كاميرات GigE Vision وUSB3 Vision: ينقص هذا البناء Aravis؛ ثبّت libaravis-dev وأعد البناء</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>أغلق فتحة العدسة أو أضف مرشحًا رماديًا إن كانت مهمة</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>أغلق فتحة العدسة أو اخفض الكسب أو أضف مرشحًا رماديًا</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>حمّضها خطيًا بصيغة TIFF أو EXR لقياس أدق</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>افتح فتحة العدسة أو ارفع الكسب</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>الأنماط واللقطات رمادية: لا تُميَّز الألوان، وكتل T محايدة</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>قُبل قبل النمط ⁨{}⁩: {}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>بعض اللمعات مفرطة التعريض حتى عند ⁨{}⁩ ث، وهو أقصر تعريض، ولن تُعوَّض</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>أوقف توفير الطاقة وإدارة الألوان وأوضاع الصورة الديناميكية</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>أوقف القزحية الديناميكية والتباين الديناميكي وكل وضع صورة يتكيّف مع المحتوى</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>أوقف أوضاع المصباح الديناميكية في جهاز العرض وأطفئ المصابيح القريبة، واختر أزمنة تعريض من مضاعفات دورة التيار الكهربائي</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>أوقف مقطع الأبيض (يسمى غالبًا «Brilliant Color» أو الوضع الساطع) واختر وضع صورة للفيديو أو لـ sRGB</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>أُخذ ذلك في الحسبان، لكن دع جهاز العرض يسخن قبل المرة القادمة</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>تُفترض الكاميرا خطية، وتُحسب اللقطة الواحدة ثانيةَ تعريضٍ واحدة</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>تغيّر الضوء بمقدار ⁨{} %⁩ بين اللقطة الأولى والأخيرة</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>يتغيّر الضوء بمقدار ⁨{} %⁩ من لقطة إلى التي تليها</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>الأنماط رمادية: لم يُقَس كيف تمتزج الألوان، وكتل T قطرية</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>لا تحوي الأنماط سوى الأسود والأبيض: تُفترض استجابة جهاز العرض أُسًّا قدره ⁨2.2⁩</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>اللقطات رمادية: ما يسهم به كل لون من ألوان جهاز العرض معروف سطوعًا فقط</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>اللقطات بصيغة JPEG: جُعلت خطية بمنحنى sRGB الذي لا تتبعه الكاميرات إلا تقريبًا</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>قُرنت اللقطات بالأنماط بترتيب التقاطها، من ⁨{}⁩ إلى ⁨{}⁩، وهو غير ترتيب أسمائها</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>الإسقاط مفرط التعريض حتى عند ⁨{}⁩ ث، وهو أقصر تعريض</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>لا يبلغ الإسقاط سوى ⁨{0} %⁩ من مدى الكاميرا عند ⁨{1}⁩ ث، وهو أطول تعريض</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>يضيء جهاز العرض ⁨{} %⁩ من بكسلات الكاميرا</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>تُستثنى هذه البكسلات من التعويض</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>نصفا الصورة أسطع من الصورة كاملةً بمقدار ⁨{} %⁩</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>نصفا الصورة أعتم من الصورة كاملةً بمقدار ⁨{} %⁩</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>الأبيض أسطع من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>الأبيض أعتم من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>⁨{} %⁩ من بكسلات الكاميرا مفرطة التعريض حتى عند أقصر تعريض: أغلق فتحة عدسة الكاميرا أو اسمح بتعريضات أقصر، ثم أعد القياس</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>⁨{} %⁩ من بكسلات الكاميرا ترى في أنماط الاختبار غير المتوقَّع: تحقق من أن شيئًا لم يتحرك أو يرتعش</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1775,6 +1895,14 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
         <translation>تُتوقع أنماط الاختبار من القياس ثم تُصوَّر: هذا مقدار الفرق بينهما.</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>المتابعة رغم ذلك</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>ما وُجد أثناء القياس</translation>
     </message>
 </context>
 <context>
@@ -4509,6 +4637,18 @@ projector %2</source>
     <message>
         <source>Is open</source>
         <translation>مفتوح</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>المدة بحسب الكاميرا</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>كاميرات الصناعة وأجهزة الفيديو سريعة، وكاميرات التصوير الثابت بطيئة.</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>من %1 إلى %2</translation>
     </message>
 </context>
 <context>

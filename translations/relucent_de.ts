@@ -979,6 +979,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>GigE-Vision- und USB3-Vision-Kameras: Diesem Programm fehlt Aravis; installieren Sie libaravis-dev und bauen Sie es neu</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>schließen Sie die Blende oder setzen Sie einen Graufilter auf, falls sie wichtig sind</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>schließen Sie die Blende, verringern Sie die Verstärkung oder setzen Sie einen Graufilter auf</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>entwickeln Sie sie linear, als TIFF oder EXR, um genauer zu messen</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>öffnen Sie die Blende oder erhöhen Sie die Verstärkung</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>Muster und Fotos sind grau: Farben werden nicht unterschieden, und die Blöcke von T sind neutral</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>vor Muster {} hingenommen: {}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>einige Glanzlichter sind selbst bei {} s, der kürzesten Belichtung, überbelichtet und werden nicht kompensiert</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>schalten Sie Stromsparen, Farbmanagement und dynamische Bildmodi aus</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>schalten Sie dynamische Iris, dynamischen Kontrast und jeden Bildmodus aus, der sich dem Inhalt anpasst</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>schalten Sie die dynamischen Lampenmodi des Projektors und andere Lampen in der Nähe aus, und wählen Sie Belichtungszeiten, die Vielfache der Netzperiode sind</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>schalten Sie das Weißsegment aus (oft „Brilliant Color“ oder „heller Modus“ genannt) und wählen Sie einen Bildmodus für Video oder sRGB</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>das wurde berücksichtigt, aber lassen Sie den Projektor das nächste Mal vorher warm werden</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>die Kamera wird als linear angenommen, und ein Foto zählt als eine Sekunde Belichtung</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>das Licht hat sich zwischen dem ersten und dem letzten Foto um {} % geändert</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>das Licht ändert sich von einem Foto zum nächsten um {} %</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>die Muster sind grau: Wie sich Farben mischen, wurde nicht gemessen, und die Blöcke von T sind diagonal</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>die Muster enthalten nur Schwarz und Weiß: Als Kennlinie des Projektors wird eine Potenz von 2,2 angenommen</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>die Fotos sind grau: Was jede Farbe des Projektors beiträgt, ist nur als Helligkeit bekannt</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>die Fotos sind JPEG: Sie wurden mit der Kurve von sRGB linearisiert, der Kameras nur ungefähr folgen</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>die Fotos wurden den Mustern in der Reihenfolge ihrer Aufnahme zugeordnet, von {} bis {}, die nicht die ihrer Namen ist</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>die Projektion ist selbst bei {} s, der kürzesten Belichtung, überbelichtet</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>die Projektion erreicht bei {1} s, der längsten Belichtung, nur {0} % des Bereichs der Kamera</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>der Projektor beleuchtet {} % der Pixel der Kamera</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>diese Pixel bleiben bei der Kompensation außer Acht</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>zwei Hälften eines Bildes sind {} % heller als das Ganze</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>zwei Hälften eines Bildes sind {} % dunkler als das Ganze</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>Weiß ist {} % heller als Rot, Grün und Blau zusammen</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>Weiß ist {} % dunkler als Rot, Grün und Blau zusammen</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>{} % der Kamerapixel sind selbst bei der kürzesten Belichtung überbelichtet: Schließen Sie die Blende der Kamera oder erlauben Sie kürzere Belichtungen, dann messen Sie erneut</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>{} % der Kamerapixel sehen in den Testmustern etwas anderes als vorhergesagt: Prüfen Sie, dass sich nichts bewegt und nichts geflackert hat</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1731,6 +1851,14 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
         <translation>Testmuster werden aus der Messung vorhergesagt und dann fotografiert: So weit liegen beide auseinander.</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Trotzdem weiter</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Beim Messen bemerkt</translation>
     </message>
 </context>
 <context>
@@ -4409,6 +4537,18 @@ Projektor %2</translation>
     <message>
         <source>Is open</source>
         <translation>Ist offen</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>Dauer, je nach Kamera</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>Industriekameras und Videogeräte sind schnell, Fotokameras langsam.</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
     </message>
 </context>
 <context>

@@ -979,6 +979,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>Cámaras GigE Vision y USB3 Vision: a este programa le falta Aravis; instale libaravis-dev y vuelva a compilarlo</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>cierre el diafragma o añada un filtro gris si son importantes</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>cierre el diafragma, reduzca la ganancia o añada un filtro gris</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>revélelas linealmente, como TIFF o EXR, para medir con más exactitud</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>abra el diafragma o aumente la ganancia</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>los patrones y las fotografías son grises: no se distinguen los colores y los bloques de T son neutros</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>aceptado antes del patrón {}: {}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>algunos brillos están sobreexpuestos incluso a {} s, la exposición más corta, y no se compensarán</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>desactive el ahorro de energía, la gestión de color y los modos de imagen dinámicos</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>desactive el iris dinámico, el contraste dinámico y todo modo de imagen que se adapte al contenido</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>desactive los modos de lámpara dinámicos del proyector, apague otras lámparas cercanas y elija tiempos de exposición que sean múltiplos del período de la red eléctrica</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>desactive el segmento blanco (a menudo llamado «Brilliant Color» o modo brillante) y elija un modo de imagen para vídeo o sRGB</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>se ha tenido en cuenta, pero deje que el proyector se caliente antes de la próxima vez</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>se supone que la cámara es lineal, y una fotografía cuenta como un segundo de exposición</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>la luz cambió un {} % entre la primera y la última fotografía</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>la luz cambia un {} % de una fotografía a la siguiente</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>los patrones son grises: no se midió cómo se mezclan los colores y los bloques de T son diagonales</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>los patrones solo contienen blanco y negro: se supone que la respuesta del proyector es una potencia de 2,2</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>las fotografías son grises: lo que aporta cada color del proyector solo se conoce en luminosidad</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>las fotografías son JPEG: se linealizaron con la curva de sRGB, que las cámaras solo siguen aproximadamente</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>las fotografías se emparejaron con los patrones en el orden en que se tomaron, de {} a {}, que no es el de sus nombres</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>la proyección está sobreexpuesta incluso a {} s, la exposición más corta</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>la proyección solo alcanza el {0} % del rango de la cámara a {1} s, la exposición más larga</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>el proyector ilumina el {} % de los píxeles de la cámara</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>estos píxeles quedan fuera de la compensación</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>dos mitades de una imagen son un {} % más claras que el conjunto</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>dos mitades de una imagen son un {} % más oscuras que el conjunto</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>el blanco es un {} % más claro que el rojo, el verde y el azul juntos</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>el blanco es un {} % más oscuro que el rojo, el verde y el azul juntos</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>el {} % de los píxeles de la cámara está sobreexpuesto incluso con la exposición más corta: cierre el diafragma de la cámara o permita exposiciones más cortas y mida de nuevo</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>el {} % de los píxeles de la cámara ve algo distinto de lo previsto en los patrones de prueba: compruebe que nada se movió ni parpadeó</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1731,6 +1851,14 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
         <translation>Los patrones de prueba se predicen a partir de la medición y luego se fotografían: esta es la diferencia entre ambos.</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Continuar igualmente</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Hallado al medir</translation>
     </message>
 </context>
 <context>
@@ -4409,6 +4537,18 @@ proyector %2</translation>
     <message>
         <source>Is open</source>
         <translation>Está abierto</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>Tiempo, según la cámara</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>Las cámaras industriales y los dispositivos de vídeo son rápidos; las cámaras de fotos, lentas.</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 a %2</translation>
     </message>
 </context>
 <context>

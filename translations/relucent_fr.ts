@@ -979,6 +979,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>Caméras GigE Vision et USB3 Vision&#x202f;: ce programme a été construit sans Aravis&#x202f;; installez libaravis-dev et reconstruisez-le</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>fermez le diaphragme ou ajoutez un filtre gris s’ils comptent</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>fermez le diaphragme, réduisez le gain ou ajoutez un filtre gris</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>développez-les linéairement, en TIFF ou EXR, pour mesurer plus exactement</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>ouvrez le diaphragme ou augmentez le gain</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>motifs et photos sont gris : les couleurs ne sont pas distinguées, et les blocs de T sont neutres</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>accepté avant le motif {} : {}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>certains reflets sont surexposés même à {} s, le temps de pose le plus court, et ne seront pas compensés</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>désactivez l’économie d’énergie, la gestion des couleurs et les modes d’image dynamiques</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>désactivez l’iris dynamique, le contraste dynamique et tout mode d’image qui s’adapte au contenu</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>désactivez les modes de lampe dynamiques du projecteur, éteignez les autres lampes proches et choisissez des temps de pose multiples de la période du secteur</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>désactivez le segment blanc (souvent appelé « Brilliant Color » ou mode lumineux) et choisissez un mode d’image pour la vidéo ou le sRGB</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>il en a été tenu compte, mais laissez le projecteur chauffer avant la prochaine fois</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>la caméra est supposée linéaire, et une photo compte pour une seconde de pose</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>la lumière a changé de {} % entre la première et la dernière photo</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>la lumière change de {} % d’une photo à la suivante</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>les motifs sont gris : le mélange des couleurs n’a pas été mesuré, et les blocs de T sont diagonaux</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>les motifs ne contiennent que du noir et du blanc : la réponse du projecteur est supposée être une puissance de 2,2</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>les photos sont grises : l’apport de chaque couleur du projecteur n’est connu qu’en luminosité</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>les photos sont en JPEG : elles ont été linéarisées par la courbe sRGB, que les caméras ne suivent qu’approximativement</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>les photos ont été associées aux motifs dans l’ordre de prise de vue, de {} à {}, qui n’est pas celui de leurs noms</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>la projection est surexposée même à {} s, le temps de pose le plus court</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>la projection n’atteint que {0} % de la plage de la caméra à {1} s, le temps de pose le plus long</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>le projecteur éclaire {} % des pixels de la caméra</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>ces pixels sont exclus de la compensation</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>deux moitiés d’une image sont plus lumineuses de {} % que l’ensemble</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>deux moitiés d’une image sont plus sombres de {} % que l’ensemble</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>le blanc est plus lumineux de {} % que le rouge, le vert et le bleu réunis</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>le blanc est plus sombre de {} % que le rouge, le vert et le bleu réunis</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>{} % des pixels de la caméra sont surexposés même au temps de pose le plus court : fermez le diaphragme de la caméra ou autorisez des temps de pose plus courts, puis mesurez à nouveau</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>{} % des pixels de la caméra voient autre chose que prévu dans les motifs de test : vérifiez que rien n’a bougé ni scintillé</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1110,11 +1230,11 @@
     </message>
     <message>
         <source>This is another projector than the one that was measured. Its light and its place differ: take a verification photograph, and measure again where that does not look as predicted.</source>
-        <translation>Ce n’est pas le projecteur qui a été mesuré. Sa lumière et sa place diffèrent : prenez une photo de contrôle, et mesurez à nouveau si elle ne correspond pas à la prévision.</translation>
+        <translation>Ce n’est pas le projecteur qui a été mesuré. Sa lumière et sa place diffèrent&#x202f;: prenez une photo de contrôle, et mesurez à nouveau si elle ne correspond pas à la prévision.</translation>
     </message>
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
-        <translation>Mesuré sur %1, utilisé sur %2. Si c’est le même projecteur au même endroit, toute la mesure reste valable ; une photo de contrôle le montre.</translation>
+        <translation>Mesuré sur %1, utilisé sur %2. Si c’est le même projecteur au même endroit, toute la mesure reste valable&#x202f;; une photo de contrôle le montre.</translation>
     </message>
 </context>
 <context>
@@ -1730,7 +1850,15 @@
     </message>
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>Les motifs de test sont prédits d’après la mesure, puis photographiés : voici leur écart.</translation>
+        <translation>Les motifs de test sont prédits d’après la mesure, puis photographiés&#x202f;: voici leur écart.</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Continuer ainsi</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Constaté pendant la mesure</translation>
     </message>
 </context>
 <context>
@@ -3171,7 +3299,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Installed: the show starts at the next log-in. Hold A to compare.</source>
-        <translation>Installé : la diffusion démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
+        <translation>Installé&#x202f;: la diffusion démarre à la prochaine connexion. Maintenez A pour comparer.</translation>
     </message>
     <message>
         <source>The output will cover this window. Esc closes the output.</source>
@@ -4353,13 +4481,13 @@ projecteur %2</translation>
     </message>
     <message>
         <source>%1 is not the folder of a venue: it has no %2 in it.</source>
-        <translation>%1 n’est pas le dossier d’un lieu : il ne contient pas %2.</translation>
+        <translation>%1 n’est pas le dossier d’un lieu&#x202f;: il ne contient pas %2.</translation>
     </message>
     <message numerus="yes">
         <source>There are %n venue(s) within it: open one of them.</source>
         <translation>
-            <numerusform>Il contient %n lieu : ouvrez-le.</numerusform>
-            <numerusform>Il contient %n lieux : ouvrez l’un d’eux.</numerusform>
+            <numerusform>Il contient %n lieu&#x202f;: ouvrez-le.</numerusform>
+            <numerusform>Il contient %n lieux&#x202f;: ouvrez l’un d’eux.</numerusform>
         </translation>
     </message>
     <message>
@@ -4404,11 +4532,23 @@ projecteur %2</translation>
     </message>
     <message>
         <source>A screen is known again by its maker&apos;s names and serial number. Where it tells none, it is known by its connector: then a cable that is plugged in elsewhere has to be said here.</source>
-        <translation>Un écran est reconnu à sa marque et à son numéro de série. S’il n’en donne pas, il l’est à son connecteur : un câble branché ailleurs doit alors être indiqué ici.</translation>
+        <translation>Un écran est reconnu à sa marque et à son numéro de série. S’il n’en donne pas, il l’est à son connecteur&#x202f;: un câble branché ailleurs doit alors être indiqué ici.</translation>
     </message>
     <message>
         <source>Is open</source>
         <translation>Est ouvert</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>Durée, selon la caméra</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>Les caméras industrielles et les périphériques vidéo sont rapides, les appareils photo lents.</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 à %2</translation>
     </message>
 </context>
 <context>

@@ -979,6 +979,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>Telecamere GigE Vision e USB3 Vision: a questo programma manca Aravis; installare libaravis-dev e ricompilarlo</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>chiudere il diaframma o aggiungere un filtro grigio se sono importanti</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>chiudere il diaframma, ridurre il guadagno o aggiungere un filtro grigio</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>svilupparle linearmente, come TIFF o EXR, per misurare con più esattezza</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>aprire il diaframma o aumentare il guadagno</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>pattern e foto sono grigi: i colori non si distinguono e i blocchi di T sono neutri</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>accettato prima del pattern {}: {}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>alcune alte luci sono sovraesposte anche a {} s, l’esposizione più breve, e non verranno compensate</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>disattivare il risparmio energetico, la gestione del colore e le modalità immagine dinamiche</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>disattivare l’iride dinamica, il contrasto dinamico e ogni modalità immagine che si adatta al contenuto</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>disattivare le modalità dinamiche della lampada del proiettore, spegnere le altre lampade vicine e scegliere tempi di esposizione multipli del periodo di rete</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>disattivare il segmento bianco (spesso chiamato «Brilliant Color» o modalità luminosa) e scegliere una modalità immagine per video o sRGB</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>se n’è tenuto conto, ma la prossima volta lasciare prima scaldare il proiettore</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>la fotocamera è assunta lineare, e una foto conta come un secondo di esposizione</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>la luce è cambiata del {} % tra la prima e l’ultima foto</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>la luce cambia del {} % da una foto alla successiva</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>i pattern sono grigi: il mescolarsi dei colori non è stato misurato e i blocchi di T sono diagonali</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>i pattern contengono solo bianco e nero: la risposta del proiettore è assunta come potenza di 2,2</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>le foto sono grigie: il contributo di ogni colore del proiettore è noto solo in luminosità</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>le foto sono JPEG: sono state linearizzate con la curva sRGB, che le fotocamere seguono solo approssimativamente</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>le foto sono state abbinate ai pattern nell’ordine di scatto, da {} a {}, che non è quello dei nomi</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>la proiezione è sovraesposta anche a {} s, l’esposizione più breve</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>la proiezione raggiunge solo il {0} % della gamma della fotocamera a {1} s, l’esposizione più lunga</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>il proiettore illumina il {} % dei pixel della fotocamera</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>questi pixel sono esclusi dalla compensazione</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>due metà di un’immagine sono più luminose del {} % rispetto all’insieme</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>due metà di un’immagine sono più scure del {} % rispetto all’insieme</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>il bianco è più luminoso del {} % rispetto a rosso, verde e blu insieme</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>il bianco è più scuro del {} % rispetto a rosso, verde e blu insieme</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>il {} % dei pixel della fotocamera è sovraesposto anche con l’esposizione più breve: chiudere il diaframma della fotocamera o consentire esposizioni più brevi, poi misurare di nuovo</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>il {} % dei pixel della fotocamera vede qualcosa di diverso dal previsto nei pattern di prova: controllare che nulla si sia mosso o abbia sfarfallato</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1731,6 +1851,14 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
         <translation>I pattern di prova vengono previsti dalla misura e poi fotografati: questa è la differenza tra i due.</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>Continua comunque</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>Rilevato durante la misura</translation>
     </message>
 </context>
 <context>
@@ -4409,6 +4537,18 @@ proiettore %2</translation>
     <message>
         <source>Is open</source>
         <translation>È aperto</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>Tempo, secondo la fotocamera</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>Le telecamere industriali e i dispositivi video sono veloci, le fotocamere lente.</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>da %1 a %2</translation>
     </message>
 </context>
 <context>

@@ -977,6 +977,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>GigE Vision・USB3 Vision カメラ: このビルドには Aravis がありません。libaravis-dev をインストールして再ビルドしてください</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>重要な場合は、絞りを絞るか ND フィルターを付けてください</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>絞りを絞るか、ゲインを下げるか、ND フィルターを付けてください</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>より正確に測定するには、TIFF または EXR として線形に現像してください</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>絞りを開くか、ゲインを上げてください</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>パターンと写真がグレーです：色は区別されず、T のブロックは無彩色です</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>パターン {} の前に許容：{}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>最短の露出 {} 秒でも一部のハイライトが露出オーバーで、補償されません</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>省電力、カラーマネジメント、ダイナミックな画質モードをオフにしてください</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>ダイナミックアイリス、ダイナミックコントラスト、内容に応じて変わる画質モードをオフにしてください</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>プロジェクターのダイナミックなランプモードと近くの照明をオフにし、露出時間を電源周期の整数倍にしてください</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>ホワイトセグメント（「ブリリアントカラー」や「明るいモード」などと呼ばれます）をオフにし、ビデオまたは sRGB 用の画質モードを選んでください</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>補正済みですが、次回は測定前にプロジェクターを十分に温めてください</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>カメラは線形とみなし、写真 1 枚を 1 秒の露出として扱います</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>最初と最後の写真の間に光が {} % 変化しました</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>写真ごとに光が {} % 変化しています</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>パターンがグレーです：色の混ざり方は測定されておらず、T のブロックは対角です</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>パターンは白黒のみです：プロジェクターの応答は 2.2 乗とみなします</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>写真がグレーです：プロジェクターの各色の寄与は明るさでしか分かりません</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>写真が JPEG です：sRGB のカーブで線形化しましたが、カメラはこれにおおよそしか従いません</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>写真は撮影順（{} から {}）にパターンと対応付けました。これは名前の順とは異なります</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>最短の露出 {} 秒でも投影が露出オーバーです</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>最長の露出 {1} 秒でも、投影はカメラの範囲の {0} % にしか達しません</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>プロジェクターはカメラ画素の {} % を照らしています</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>これらの画素は補償の対象外です</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>画像の二つの半分の合計が全体より {} % 明るくなっています</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>画像の二つの半分の合計が全体より {} % 暗くなっています</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>白は赤・緑・青の合計より {} % 明るくなっています</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>白は赤・緑・青の合計より {} % 暗くなっています</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>カメラ画素の {} % が最短の露出でも露出オーバーです：カメラの絞りを絞るか、より短い露出を許可して、測定し直してください</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>カメラ画素の {} % がテストパターンで予測と異なるものを見ています：何も動いたりちらついたりしていないか確認してください</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1720,6 +1840,14 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
         <translation>テストパターンを測定から予測し、撮影して比べた差です。</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>このまま続行</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>測定中の検出事項</translation>
     </message>
 </context>
 <context>
@@ -4384,6 +4512,18 @@ projector %2</source>
     <message>
         <source>Is open</source>
         <translation>開いています</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>所要時間（カメラによる）</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>産業用カメラとビデオデバイスは速く、スチルカメラは遅くなります。</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1～%2</translation>
     </message>
 </context>
 <context>

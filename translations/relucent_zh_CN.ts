@@ -977,6 +977,126 @@
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
         <translation>GigE Vision 和 USB3 Vision 相机：此版本缺少 Aravis；请安装 libaravis-dev 后重新构建</translation>
     </message>
+    <message>
+        <source>close the aperture or add a grey filter if they matter</source>
+        <translation>如果它们重要，请收小光圈或加装灰镜</translation>
+    </message>
+    <message>
+        <source>close the aperture, lower the gain or add a grey filter</source>
+        <translation>请收小光圈、降低增益或加装灰镜</translation>
+    </message>
+    <message>
+        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>请以线性方式冲洗为 TIFF 或 EXR，以便更精确地测量</translation>
+    </message>
+    <message>
+        <source>open the aperture or raise the gain</source>
+        <translation>请开大光圈或提高增益</translation>
+    </message>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>图案和照片均为灰度：不区分颜色，T 的各块为中性</translation>
+    </message>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>在图案 {} 之前接受：{}</translation>
+    </message>
+    <message>
+        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
+        <translation>即使用最短曝光 {} s，部分高光仍然过曝，将不予补偿</translation>
+    </message>
+    <message>
+        <source>switch off power saving, colour management and dynamic picture modes</source>
+        <translation>请关闭节能、色彩管理和动态图像模式</translation>
+    </message>
+    <message>
+        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>请关闭动态光圈、动态对比度以及任何随内容变化的图像模式</translation>
+    </message>
+    <message>
+        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>请关闭投影机的动态灯光模式和附近的其他灯，并选择为市电周期整数倍的曝光时间</translation>
+    </message>
+    <message>
+        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>请关闭白色段（常称为“极致色彩”或“明亮模式”），并选择视频或 sRGB 图像模式</translation>
+    </message>
+    <message>
+        <source>that was followed, but let the projector warm up before the next time</source>
+        <translation>已作修正，但下次请先让投影机预热</translation>
+    </message>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>相机按线性处理，一张照片按一秒曝光计</translation>
+    </message>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph</source>
+        <translation>从第一张到最后一张照片，光线变化了 {} %</translation>
+    </message>
+    <message>
+        <source>the light changes by {} % from one photograph to the next</source>
+        <translation>光线在相邻照片之间变化 {} %</translation>
+    </message>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>图案为灰度：未测量颜色如何混合，T 的各块为对角块</translation>
+    </message>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>图案只含黑白：投影机响应按 2.2 次幂处理</translation>
+    </message>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>照片为灰度：投影机各颜色的贡献只知其亮度</translation>
+    </message>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
+        <translation>照片为 JPEG：已按 sRGB 曲线线性化，而相机只是大致遵循该曲线</translation>
+    </message>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>照片按拍摄顺序（{} 至 {}）与图案配对，该顺序与文件名顺序不同</translation>
+    </message>
+    <message>
+        <source>the projection is overexposed even at {} s, the shortest exposure</source>
+        <translation>即使用最短曝光 {} s，投影仍然过曝</translation>
+    </message>
+    <message>
+        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
+        <translation>用最长曝光 {1} s，投影也只达到相机量程的 {0} %</translation>
+    </message>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>投影机照亮了 {} % 的相机像素</translation>
+    </message>
+    <message>
+        <source>these pixels are left out of the compensation</source>
+        <translation>这些像素不参与补偿</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % brighter than the whole</source>
+        <translation>一幅图像的两半之和比整幅亮 {} %</translation>
+    </message>
+    <message>
+        <source>two halves of a picture are {} % darker than the whole</source>
+        <translation>一幅图像的两半之和比整幅暗 {} %</translation>
+    </message>
+    <message>
+        <source>white is {} % brighter than red, green and blue together</source>
+        <translation>白色比红、绿、蓝之和亮 {} %</translation>
+    </message>
+    <message>
+        <source>white is {} % darker than red, green and blue together</source>
+        <translation>白色比红、绿、蓝之和暗 {} %</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>{} % 的相机像素即使用最短曝光也过曝：请收小相机光圈或允许更短的曝光，然后重新测量</translation>
+    </message>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
+        <translation>{} % 的相机像素在测试图案中看到的与预测不符：请检查是否有东西移动或闪烁</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>
@@ -1720,6 +1840,14 @@
     <message>
         <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
         <translation>测试图案先由测量预测，再拍照：这是两者之差。</translation>
+    </message>
+    <message>
+        <source>Continue anyway</source>
+        <translation>仍然继续</translation>
+    </message>
+    <message>
+        <source>Found while measuring</source>
+        <translation>测量中的发现</translation>
     </message>
 </context>
 <context>
@@ -4384,6 +4512,18 @@ projector %2</source>
     <message>
         <source>Is open</source>
         <translation>已打开</translation>
+    </message>
+    <message>
+        <source>Time, by camera</source>
+        <translation>时间（视相机而定）</translation>
+    </message>
+    <message>
+        <source>Industrial cameras and video devices are fast, still cameras slow.</source>
+        <translation>工业相机和视频设备快，照相机慢。</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 至 %2</translation>
     </message>
 </context>
 <context>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
+
 #include "wizard/page_model.h"
 #include "wizard/recent_venues.h"
 #include "wizard/screen_choice.h"
@@ -86,8 +88,13 @@ class VenuePage : public PageModel {
   std::uint64_t freeBytes() const;
   /// Before a screen is chosen nobody knows the projector's pixels.
   bool isExpectedKnown() const { return mode_ != Mode::devices || !screen_.projector.empty(); }
-  /// What acquiring will about take.
+  /// What acquiring will about take; nobody knows how long before the devices were tried.
   WorkLeft expected() const;
+  /// By a fast camera and by a slow one.
+  std::pair<double, double> expectedSeconds() const;
+
+  /// Devices of the user's, not simulated ones.
+  bool isReal() const { return mode_ == Mode::script || mode_ == Mode::devices; }
 
   /// Devices of the user's may flash more than three times a second. Off whenever a new venue is begun.
   bool needsConsent() const { return isReal() && session_.flashLimit() == 0; }
@@ -103,7 +110,6 @@ class VenuePage : public PageModel {
     QString cause{};  // the widget's name
   };
   Problem firstProblem() const;
-  bool isReal() const { return mode_ == Mode::script || mode_ == Mode::devices; }
   CalibrateSettings wanted() const;
   void begin();
   void useScreen();

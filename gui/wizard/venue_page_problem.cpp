@@ -59,6 +59,13 @@ WorkLeft VenuePage::expected() const {
   return forecast(Rasters(camera), projectors, exposures, meanExposure, {}, {}, {});
 }
 
+std::pair<double, double> VenuePage::expectedSeconds() const {
+  // A GigE camera gave 16 photographs a second; a still camera takes and sends a raw file in some 3 seconds.
+  constexpr double fastPhotograph = 1.0 / 16.0, slowPhotograph = 3.0;
+  const double photographs = expected().exposures;
+  return {photographs * fastPhotograph, photographs * slowPhotograph};
+}
+
 VenuePage::Problem VenuePage::firstProblem() const {
   if (mode_ == Mode::start) return {};
   if (mode_ == Mode::screen) {

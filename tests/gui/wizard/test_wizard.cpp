@@ -146,6 +146,8 @@ class TestWizard : public QObject {
     QCOMPARE(page.cause(), QString("screens"));
     page.chooseScreen({{"HDMI-1", "", "", ""}, {64, 48}, 60.0, "Screen 1", {}});
     QVERIFY(page.isExpectedKnown());
+    auto [fast, slow] = page.expectedSeconds();
+    QVERIFY(fast > 0.0 && slow > 10.0 * fast);
     QCOMPARE(page.cause(), QString("room-is-clear"));
     page.setRoomClear(true);
     QVERIFY(page.cause().isEmpty());

@@ -5,11 +5,21 @@
 #include "app/wizard_command.h"
 #include "content/media_thread.h"
 
+namespace {
+
+template <typename Application>
+int runShow(int argc, char** argv) {
+  Application application(argc, argv);
+  Application::setApplicationName("relucent");
+  return relucent::runShowCommand(Application::arguments());
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  if (relucent::asksForNoScreen(argc, argv)) return runShow<QCoreApplication>(argc, argv);
   relucent::chooseMediaBackend();
   if (relucent::asksForWizard(argc, argv)) return relucent::runWizardCommand(argc, argv);
-  QGuiApplication application(argc, argv);
-  QGuiApplication::setApplicationName("relucent");
   QGuiApplication::setQuitOnLastWindowClosed(false);
-  return relucent::runShowCommand(QGuiApplication::arguments());
+  return runShow<QGuiApplication>(argc, argv);
 }

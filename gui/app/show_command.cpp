@@ -5,7 +5,9 @@
 #include <QGuiApplication>
 #include <QSettings>
 #include <QStandardPaths>
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include "app/language.h"
 #include "app/show_arguments.h"
@@ -74,6 +76,13 @@ int run(const UninstallShow& unwanted) {
 }
 
 }  // namespace
+
+bool asksForNoScreen(int argc, char** argv) {
+  return std::any_of(argv + 1, argv + argc, [](std::string_view said) {
+    return said == "-h" || said == "-v" || said.starts_with("--help") || said.starts_with("--version") ||
+           said.starts_with("--install-") || said.starts_with("--remove-");
+  });
+}
 
 int runShowCommand(const QStringList& arguments) {
   try {

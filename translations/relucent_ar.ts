@@ -1822,17 +1822,6 @@
         <source>about %1</source>
         <translation>نحو %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>لا تُجرى مقارنة بالبداية.</numerusform>
-            <numerusform>يُقارَن بالبداية بعد كل نمط. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
-            <numerusform>يُقارَن بالبداية كل نمطين. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
-            <numerusform>يُقارَن بالبداية كل %n أنماط. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
-            <numerusform>يُقارَن بالبداية كل %n نمطًا. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
-            <numerusform>يُقارَن بالبداية كل %n نمط. إذا تغيّر شيء، يتوقف القياس مؤقتًا ويسألك.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>إنذار بعد هذا الحد</translation>
@@ -1903,6 +1892,153 @@
     <message>
         <source>Found while measuring</source>
         <translation>ما وُجد أثناء القياس</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>يبدأ الآن</numerusform>
+            <numerusform>يبدأ بعد ثانية واحدة</numerusform>
+            <numerusform>يبدأ بعد ثانيتين</numerusform>
+            <numerusform>يبدأ بعد %n ثوانٍ</numerusform>
+            <numerusform>يبدأ بعد %n ثانية</numerusform>
+            <numerusform>يبدأ بعد %n ثانية</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>يبدأ القياس الآن. اترك القاعة مظلمة وساكنة.</numerusform>
+            <numerusform>يبدأ القياس بعد ثانية واحدة. اترك القاعة مظلمة وساكنة.</numerusform>
+            <numerusform>يبدأ القياس بعد ثانيتين. اترك القاعة مظلمة وساكنة.</numerusform>
+            <numerusform>يبدأ القياس بعد %n ثوانٍ. اترك القاعة مظلمة وساكنة.</numerusform>
+            <numerusform>يبدأ القياس بعد %n ثانية. اترك القاعة مظلمة وساكنة.</numerusform>
+            <numerusform>يبدأ القياس بعد %n ثانية. اترك القاعة مظلمة وساكنة.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>ابدأ الآن</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>ليس الآن</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>لا تُجرى مقارنة بالبداية.</numerusform>
+            <numerusform>يُقارَن بالبداية بعد كل نمط. يُعاد تصوير ما تغيّر؛ فإن لم ينفع ذلك يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل نمطين. يُعاد تصوير ما تغيّر؛ فإن لم ينفع ذلك يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل %n أنماط. يُعاد تصوير ما تغيّر؛ فإن لم ينفع ذلك يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل %n نمطًا. يُعاد تصوير ما تغيّر؛ فإن لم ينفع ذلك يتوقف القياس مؤقتًا ويسألك.</numerusform>
+            <numerusform>يُقارَن بالبداية كل %n نمط. يُعاد تصوير ما تغيّر؛ فإن لم ينفع ذلك يتوقف القياس مؤقتًا ويسألك.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>البدء</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>مغادرة القاعة أولًا</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>الوقت المتاح لمغادرة القاعة قبل بدء القياس</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 ث</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>صوت عند الانتهاء أو عند الحاجة إليّ</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>الجاهزية</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>مظلم بما يكفي</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>ضوء القاعة %1 من الضوء الكامل، والحد %2.</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>المكان ساطع أكثر من اللازم</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>ضوء القاعة %1 من الضوء الكامل. غطِّ النوافذ والمصابيح: كلما قل الضوء قلت الضوضاء.</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>يحتاج إلى %1 من %2.</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>مساحة القرص كافية</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>القرص ممتلئ</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>صورة الضوء الكامل</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>جهاز العرض أبيض بالكامل</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>السطح في الضوء الكامل لجهاز العرض</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 من %2</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>المستوى %1 من %2، %3 من %4 نمطًا.</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>الأنماط لكل حجم كتلة</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>لا تُقسَّم الكتل إلا حيث يقتضي الضوء</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>لا أنماط متوقعة؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
+            <numerusform>نمط واحد متوقع؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
+            <numerusform>نمطان متوقعان؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
+            <numerusform>%n أنماط متوقعة؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
+            <numerusform>%n نمطًا متوقعًا؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
+            <numerusform>%n نمط متوقع؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>لا أنماط</numerusform>
+            <numerusform>نمط واحد</numerusform>
+            <numerusform>نمطان</numerusform>
+            <numerusform>%n أنماط</numerusform>
+            <numerusform>%n نمطًا</numerusform>
+            <numerusform>%n نمط</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4505,10 +4641,6 @@ projector %2</source>
         <translation>القرص</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>المتاح هناك</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>نحو %1</translation>
     </message>
@@ -4649,6 +4781,14 @@ projector %2</source>
     <message>
         <source>%1 to %2</source>
         <translation>من %1 إلى %2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>المتاح %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 من %2</translation>
     </message>
 </context>
 <context>

@@ -1786,13 +1786,6 @@
         <source>about %1</source>
         <translation>etwa %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>Nach jedem Muster mit dem Beginn verglichen. Hat sich etwas verändert, hält die Messung an und fragt.</numerusform>
-            <numerusform>Alle %n Muster mit dem Beginn verglichen. Hat sich etwas verändert, hält die Messung an und fragt.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>Alarm ab hier</translation>
@@ -1859,6 +1852,133 @@
     <message>
         <source>Found while measuring</source>
         <translation>Beim Messen bemerkt</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>Beginnt in %n Sekunde</numerusform>
+            <numerusform>Beginnt in %n Sekunden</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>Die Messung beginnt in %n Sekunde. Lassen Sie den Raum dunkel und ruhig.</numerusform>
+            <numerusform>Die Messung beginnt in %n Sekunden. Lassen Sie den Raum dunkel und ruhig.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>Jetzt beginnen</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>Noch nicht</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Nach jedem Muster mit dem Beginn verglichen. Was sich verändert hat, wird noch einmal fotografiert; hilft das nicht, hält die Messung an und fragt.</numerusform>
+            <numerusform>Alle %n Muster mit dem Beginn verglichen. Was sich verändert hat, wird noch einmal fotografiert; hilft das nicht, hält die Messung an und fragt.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>Erst den Raum verlassen</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>Zeit zum Verlassen des Raums, bevor die Messung beginnt</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>Ein Ton am Ende oder wenn ich gebraucht werde</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>Bereit</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>Dunkel genug</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>Das Raumlicht beträgt %1 des vollen Lichts, Grenze %2.</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>Hier ist es zu hell</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>Das Raumlicht beträgt %1 des vollen Lichts. Decken Sie Fenster und Lampen ab: weniger Licht, weniger Rauschen.</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>Braucht %1 von %2.</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>Platz auf der Festplatte</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>Die Festplatte ist zu voll</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>Bild im vollen Licht</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>der Projektor ganz weiß</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>Die Oberfläche im vollen Licht des Projektors</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>Stufe %1 von %2, %3 von %4 Mustern.</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>Muster je Blockgröße</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>Blöcke werden nur geteilt, wo das Licht es braucht</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n Muster</numerusform>
+            <numerusform>%n Muster</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n Muster erwartet; genau bekannt, sobald jede Stufe beginnt</numerusform>
+            <numerusform>%n Muster erwartet; genau bekannt, sobald jede Stufe beginnt</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4413,10 +4533,6 @@ Projektor %2</translation>
         <translation>Laufwerk</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>Dort frei</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>etwa %1</translation>
     </message>
@@ -4549,6 +4665,14 @@ Projektor %2</translation>
     <message>
         <source>%1 to %2</source>
         <translation>%1 bis %2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 frei</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
     </message>
 </context>
 <context>

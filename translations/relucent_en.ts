@@ -76,17 +76,45 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>Compared with the start after every pattern. If something changed, the measurement pauses and asks.</numerusform>
-            <numerusform>Compared with the start every %n patterns. If something changed, the measurement pauses and asks.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>About %n pattern(s), %1. Leave the room dark and still.</source>
         <translation>
             <numerusform>About %n pattern, %1. Leave the room dark and still.</numerusform>
             <numerusform>About %n patterns, %1. Leave the room dark and still.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>Begins in %n second</numerusform>
+            <numerusform>Begins in %n seconds</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>Measuring begins in %n second. Leave the room dark and still.</numerusform>
+            <numerusform>Measuring begins in %n seconds. Leave the room dark and still.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Compared with the start after every pattern. What changed is photographed again; if that does not help, the measurement pauses and asks.</numerusform>
+            <numerusform>Compared with the start every %n patterns. What changed is photographed again; if that does not help, the measurement pauses and asks.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n pattern</numerusform>
+            <numerusform>%n patterns</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n pattern expected; known exactly as each level begins</numerusform>
+            <numerusform>%n patterns expected; known exactly as each level begins</numerusform>
         </translation>
     </message>
 </context>

@@ -1786,13 +1786,6 @@
         <source>about %1</source>
         <translation>unos %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>Se compara con el inicio tras cada patrón. Si algo ha cambiado, la medición se pone en pausa y pregunta.</numerusform>
-            <numerusform>Se compara con el inicio cada %n patrones. Si algo ha cambiado, la medición se pone en pausa y pregunta.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>alarma a partir de aquí</translation>
@@ -1859,6 +1852,133 @@
     <message>
         <source>Found while measuring</source>
         <translation>Hallado al medir</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>Empieza en %n segundo</numerusform>
+            <numerusform>Empieza en %n segundos</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>La medición empieza en %n segundo. Deje la sala a oscuras y quieta.</numerusform>
+            <numerusform>La medición empieza en %n segundos. Deje la sala a oscuras y quieta.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>Empezar ahora</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>Ahora no</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Se compara con el inicio tras cada patrón. Lo que ha cambiado se fotografía de nuevo; si no basta, la medición se pone en pausa y pregunta.</numerusform>
+            <numerusform>Se compara con el inicio cada %n patrones. Lo que ha cambiado se fotografía de nuevo; si no basta, la medición se pone en pausa y pregunta.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Inicio</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>Salir antes de la sala</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>Tiempo para salir de la sala antes de que empiece la medición</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>Un sonido al terminar o si me necesita</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>Preparación</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>Suficientemente oscuro</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>La luz de la sala es el %1 de la luz plena; límite, %2.</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>Aquí hay demasiada luz</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>La luz de la sala es el %1 de la luz plena. Cubra ventanas y lámparas: menos luz, menos ruido.</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>Necesita %1 de %2.</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>Espacio en el disco</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>El disco está demasiado lleno</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>Imagen a plena luz</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>el proyector totalmente blanco</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>La superficie a plena luz del proyector</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 de %2</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>Nivel %1 de %2, %3 de %4 patrones.</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>Patrones por tamaño de bloque</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>los bloques solo se dividen donde la luz lo requiere</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n patrón previsto; se sabe con exactitud al empezar cada nivel</numerusform>
+            <numerusform>%n patrones previstos; se sabe con exactitud al empezar cada nivel</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n patrón</numerusform>
+            <numerusform>%n patrones</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4413,10 +4533,6 @@ proyector %2</translation>
         <translation>Disco</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>Libre allí</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>unos %1</translation>
     </message>
@@ -4549,6 +4665,14 @@ proyector %2</translation>
     <message>
         <source>%1 to %2</source>
         <translation>%1 a %2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 libres</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 de %2</translation>
     </message>
 </context>
 <context>

@@ -997,15 +997,15 @@
     </message>
     <message>
         <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>motifs et photos sont gris : les couleurs ne sont pas distinguées, et les blocs de T sont neutres</translation>
+        <translation>motifs et photos sont gris&#x202f;: les couleurs ne sont pas distinguées, et les blocs de T sont neutres</translation>
     </message>
     <message>
         <source>put up with before pattern {}: {}</source>
-        <translation>accepté avant le motif {} : {}</translation>
+        <translation>accepté avant le motif {}&#x202f;: {}</translation>
     </message>
     <message>
         <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>certains reflets sont surexposés même à {} s, le temps de pose le plus court, et ne seront pas compensés</translation>
+        <translation>certains reflets sont surexposés même à {}&#x202f;s, le temps de pose le plus court, et ne seront pas compensés</translation>
     </message>
     <message>
         <source>switch off power saving, colour management and dynamic picture modes</source>
@@ -1033,27 +1033,27 @@
     </message>
     <message>
         <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>la lumière a changé de {} % entre la première et la dernière photo</translation>
+        <translation>la lumière a changé de {}&#x202f;% entre la première et la dernière photo</translation>
     </message>
     <message>
         <source>the light changes by {} % from one photograph to the next</source>
-        <translation>la lumière change de {} % d’une photo à la suivante</translation>
+        <translation>la lumière change de {}&#x202f;% d’une photo à la suivante</translation>
     </message>
     <message>
         <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>les motifs sont gris : le mélange des couleurs n’a pas été mesuré, et les blocs de T sont diagonaux</translation>
+        <translation>les motifs sont gris&#x202f;: le mélange des couleurs n’a pas été mesuré, et les blocs de T sont diagonaux</translation>
     </message>
     <message>
         <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>les motifs ne contiennent que du noir et du blanc : la réponse du projecteur est supposée être une puissance de 2,2</translation>
+        <translation>les motifs ne contiennent que du noir et du blanc&#x202f;: la réponse du projecteur est supposée être une puissance de 2,2</translation>
     </message>
     <message>
         <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>les photos sont grises : l’apport de chaque couleur du projecteur n’est connu qu’en luminosité</translation>
+        <translation>les photos sont grises&#x202f;: l’apport de chaque couleur du projecteur n’est connu qu’en luminosité</translation>
     </message>
     <message>
         <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>les photos sont en JPEG : elles ont été linéarisées par la courbe sRGB, que les caméras ne suivent qu’approximativement</translation>
+        <translation>les photos sont en JPEG&#x202f;: elles ont été linéarisées par la courbe sRGB, que les caméras ne suivent qu’approximativement</translation>
     </message>
     <message>
         <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
@@ -1061,15 +1061,15 @@
     </message>
     <message>
         <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>la projection est surexposée même à {} s, le temps de pose le plus court</translation>
+        <translation>la projection est surexposée même à {}&#x202f;s, le temps de pose le plus court</translation>
     </message>
     <message>
         <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>la projection n’atteint que {0} % de la plage de la caméra à {1} s, le temps de pose le plus long</translation>
+        <translation>la projection n’atteint que {0}&#x202f;% de la plage de la caméra à {1}&#x202f;s, le temps de pose le plus long</translation>
     </message>
     <message>
         <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>le projecteur éclaire {} % des pixels de la caméra</translation>
+        <translation>le projecteur éclaire {}&#x202f;% des pixels de la caméra</translation>
     </message>
     <message>
         <source>these pixels are left out of the compensation</source>
@@ -1077,27 +1077,27 @@
     </message>
     <message>
         <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>deux moitiés d’une image sont plus lumineuses de {} % que l’ensemble</translation>
+        <translation>deux moitiés d’une image sont plus lumineuses de {}&#x202f;% que l’ensemble</translation>
     </message>
     <message>
         <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>deux moitiés d’une image sont plus sombres de {} % que l’ensemble</translation>
+        <translation>deux moitiés d’une image sont plus sombres de {}&#x202f;% que l’ensemble</translation>
     </message>
     <message>
         <source>white is {} % brighter than red, green and blue together</source>
-        <translation>le blanc est plus lumineux de {} % que le rouge, le vert et le bleu réunis</translation>
+        <translation>le blanc est plus lumineux de {}&#x202f;% que le rouge, le vert et le bleu réunis</translation>
     </message>
     <message>
         <source>white is {} % darker than red, green and blue together</source>
-        <translation>le blanc est plus sombre de {} % que le rouge, le vert et le bleu réunis</translation>
+        <translation>le blanc est plus sombre de {}&#x202f;% que le rouge, le vert et le bleu réunis</translation>
     </message>
     <message>
         <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{} % des pixels de la caméra sont surexposés même au temps de pose le plus court : fermez le diaphragme de la caméra ou autorisez des temps de pose plus courts, puis mesurez à nouveau</translation>
+        <translation>{}&#x202f;% des pixels de la caméra sont surexposés même au temps de pose le plus court&#x202f;: fermez le diaphragme de la caméra ou autorisez des temps de pose plus courts, puis mesurez à nouveau</translation>
     </message>
     <message>
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>{} % des pixels de la caméra voient autre chose que prévu dans les motifs de test : vérifiez que rien n’a bougé ni scintillé</translation>
+        <translation>{}&#x202f;% des pixels de la caméra voient autre chose que prévu dans les motifs de test&#x202f;: vérifiez que rien n’a bougé ni scintillé</translation>
     </message>
 </context>
 <context>
@@ -1786,13 +1786,6 @@
         <source>about %1</source>
         <translation>environ %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>Comparé au début après chaque motif. Si quelque chose a changé, la mesure se met en pause et vous interroge.</numerusform>
-            <numerusform>Comparé au début tous les %n motifs. Si quelque chose a changé, la mesure se met en pause et vous interroge.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>alarme au-delà</translation>
@@ -1859,6 +1852,133 @@
     <message>
         <source>Found while measuring</source>
         <translation>Constaté pendant la mesure</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>Commence dans %n seconde</numerusform>
+            <numerusform>Commence dans %n secondes</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>La mesure commence dans %n seconde. Laissez la pièce sombre et sans mouvement.</numerusform>
+            <numerusform>La mesure commence dans %n secondes. Laissez la pièce sombre et sans mouvement.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>Commencer maintenant</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>Pas maintenant</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Comparé au début après chaque motif. Ce qui a changé est photographié à nouveau&#x202f;; si cela ne suffit pas, la mesure se met en pause et vous interroge.</numerusform>
+            <numerusform>Comparé au début tous les %n motifs. Ce qui a changé est photographié à nouveau&#x202f;; si cela ne suffit pas, la mesure se met en pause et vous interroge.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Début</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>Quitter d’abord la pièce</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>Temps pour quitter la pièce avant le début de la mesure</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1&#x202f;s</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>Un son à la fin ou si l’on a besoin de moi</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>Prêt</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>Assez sombre</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>La lumière de la pièce est à %1 de la pleine lumière, limite %2.</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>Il fait trop clair ici</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>La lumière de la pièce est à %1 de la pleine lumière. Occultez fenêtres et lampes&#x202f;: moins de lumière, moins de bruit.</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>Nécessite %1 sur %2.</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>Place sur le disque</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>Le disque est trop plein</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>Image en pleine lumière</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>le projecteur entièrement blanc</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>La surface dans la pleine lumière du projecteur</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1&#x202f;px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 sur %2</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>Niveau %1 sur %2, %3 motifs sur %4.</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>Motifs par taille de bloc</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>les blocs ne sont divisés que là où la lumière l’exige</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n motif prévu&#x202f;; connu exactement au début de chaque niveau</numerusform>
+            <numerusform>%n motifs prévus&#x202f;; connus exactement au début de chaque niveau</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n motif</numerusform>
+            <numerusform>%n motifs</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4413,10 +4533,6 @@ projecteur %2</translation>
         <translation>Disque</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>Espace libre</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>environ %1</translation>
     </message>
@@ -4549,6 +4665,14 @@ projecteur %2</translation>
     <message>
         <source>%1 to %2</source>
         <translation>%1 à %2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 libres</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 sur %2</translation>
     </message>
 </context>
 <context>

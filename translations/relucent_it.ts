@@ -1786,13 +1786,6 @@
         <source>about %1</source>
         <translation>circa %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>Confronto con l’inizio dopo ogni pattern. Se qualcosa è cambiato, la misura va in pausa e chiede cosa fare.</numerusform>
-            <numerusform>Confronto con l’inizio ogni %n pattern. Se qualcosa è cambiato, la misura va in pausa e chiede cosa fare.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>allarme oltre</translation>
@@ -1859,6 +1852,133 @@
     <message>
         <source>Found while measuring</source>
         <translation>Rilevato durante la misura</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>Inizia tra %n secondo</numerusform>
+            <numerusform>Inizia tra %n secondi</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>La misura inizia tra %n secondo. Lasciare la stanza buia e ferma.</numerusform>
+            <numerusform>La misura inizia tra %n secondi. Lasciare la stanza buia e ferma.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>Inizia ora</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>Non ora</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>Confronto con l’inizio dopo ogni pattern. Ciò che è cambiato si fotografa di nuovo; se non basta, la misura va in pausa e chiede cosa fare.</numerusform>
+            <numerusform>Confronto con l’inizio ogni %n pattern. Ciò che è cambiato si fotografa di nuovo; se non basta, la misura va in pausa e chiede cosa fare.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Inizio</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>Prima lasciare la stanza</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>Tempo per lasciare la stanza prima che inizi la misura</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>Un suono alla fine o se serve il mio intervento</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>Pronto</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>Abbastanza buio</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>La luce della stanza è il %1 della luce piena, limite %2.</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>Qui c’è troppa luce</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>La luce della stanza è il %1 della luce piena. Coprire finestre e lampade: meno luce, meno rumore.</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>Servono %1 su %2.</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>Spazio su disco</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>Il disco è troppo pieno</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>Immagine in luce piena</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>il proiettore completamente bianco</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>La superficie nella luce piena del proiettore</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 di %2</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>Livello %1 di %2, %3 di %4 pattern.</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>Pattern per dimensione di blocco</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>i blocchi si dividono solo dove la luce lo richiede</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n pattern previsto; noto con esattezza all’inizio di ogni livello</numerusform>
+            <numerusform>%n pattern previsti; noti con esattezza all’inizio di ogni livello</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n pattern</numerusform>
+            <numerusform>%n pattern</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4413,10 +4533,6 @@ proiettore %2</translation>
         <translation>Disco</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>Spazio libero</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>circa %1</translation>
     </message>
@@ -4549,6 +4665,14 @@ proiettore %2</translation>
     <message>
         <source>%1 to %2</source>
         <translation>da %1 a %2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>%1 liberi</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 di %2</translation>
     </message>
 </context>
 <context>

@@ -1777,12 +1777,6 @@
         <source>about %1</source>
         <translation>約 %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>パターン %n 枚ごとに開始時と比較します。変化があった場合は、測定を一時停止して確認します。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>ここを超えると警告</translation>
@@ -1848,6 +1842,128 @@
     <message>
         <source>Found while measuring</source>
         <translation>測定中の検出事項</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>%n 秒後に開始</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>測定は %n 秒後に始まります。部屋を暗く静かに保ってください。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>今すぐ開始</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>中止</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>パターン %n 枚ごとに開始時と比較します。変化した分は撮り直し、それでも直らない場合は測定を一時停止して確認します。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>開始</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>先に退室する</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>測定開始までの退室時間</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 秒</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>終了時や対応が必要なときに音で知らせる</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>準備状況</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>十分に暗い</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>室内光は全光の %1、限度は %2 です。</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>明るすぎます</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>室内光は全光の %1 です。窓や照明を覆ってください。光が減ればノイズも減ります。</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>%2 のうち %1 が必要です。</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>ディスクの空きは十分</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>ディスクの空きが足りません</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>全光画像</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>プロジェクターは全面白</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>プロジェクターの全光で照らされた面</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%2 中 %1</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>レベル %1 / %2、パターン %3 / %4。</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>ブロックサイズごとのパターン</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>光に応じて必要な所だけブロックを分割します</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>約 %n 枚の見込み。各レベルの開始時に確定します</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>パターン %n 枚</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4390,10 +4506,6 @@ projector %2</source>
         <translation>ディスク</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>保存先の空き</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>約 %1</translation>
     </message>
@@ -4524,6 +4636,14 @@ projector %2</source>
     <message>
         <source>%1 to %2</source>
         <translation>%1～%2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>空き %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%2 中 %1</translation>
     </message>
 </context>
 <context>

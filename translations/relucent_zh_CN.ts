@@ -1777,12 +1777,6 @@
         <source>about %1</source>
         <translation>约 %1</translation>
     </message>
-    <message numerus="yes">
-        <source>Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.</source>
-        <translation>
-            <numerusform>每 %n 个图案与开始时比较一次。如有变化，测量会暂停并询问。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>alarm beyond</source>
         <translation>超出即报警</translation>
@@ -1848,6 +1842,128 @@
     <message>
         <source>Found while measuring</source>
         <translation>测量中的发现</translation>
+    </message>
+    <message numerus="yes">
+        <source>Begins in %n second(s)</source>
+        <translation>
+            <numerusform>%n 秒后开始</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Measuring begins in %n second(s). Leave the room dark and still.</source>
+        <translation>
+            <numerusform>测量将在 %n 秒后开始。请保持房间黑暗、静止。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start now</source>
+        <translation>立即开始</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>暂不开始</translation>
+    </message>
+    <message numerus="yes">
+        <source>Compared with the start every %n pattern(s). What changed is photographed again; if that does not help, the measurement pauses and asks.</source>
+        <translation>
+            <numerusform>每 %n 个图案与开始时比较一次。有变化的部分会重新拍摄；若仍无效，测量会暂停并询问。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>开始</translation>
+    </message>
+    <message>
+        <source>Leave the room first</source>
+        <translation>先离开房间</translation>
+    </message>
+    <message>
+        <source>Time to leave the room before measuring begins</source>
+        <translation>测量开始前离开房间的时间</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>A sound when it ends or needs me</source>
+        <translation>结束或需要我时发出声音</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>就绪</translation>
+    </message>
+    <message>
+        <source>Dark enough</source>
+        <translation>足够暗</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light, limit %2.</source>
+        <translation>室内光为全光的 %1，上限 %2。</translation>
+    </message>
+    <message>
+        <source>It is too bright here</source>
+        <translation>这里太亮</translation>
+    </message>
+    <message>
+        <source>Room light is %1 of full light. Cover windows and lamps: less light, less noise.</source>
+        <translation>室内光为全光的 %1。请遮住窗户和灯：光越少，噪声越小。</translation>
+    </message>
+    <message>
+        <source>Needs %1 of %2.</source>
+        <translation>需要 %1，可用 %2。</translation>
+    </message>
+    <message>
+        <source>Room on the disk</source>
+        <translation>磁盘空间足够</translation>
+    </message>
+    <message>
+        <source>The disk is too full</source>
+        <translation>磁盘空间不足</translation>
+    </message>
+    <message>
+        <source>Floodlight image</source>
+        <translation>全光图像</translation>
+    </message>
+    <message>
+        <source>the projector fully white</source>
+        <translation>投影机全白</translation>
+    </message>
+    <message>
+        <source>The surface in the projector&apos;s full light</source>
+        <translation>投影机全光下的表面</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 / %2</translation>
+    </message>
+    <message>
+        <source>Level %1 of %2, %3 of %4 patterns.</source>
+        <translation>第 %1 级，共 %2 级；图案 %3 / %4。</translation>
+    </message>
+    <message>
+        <source>Patterns for each block size</source>
+        <translation>各块大小的图案</translation>
+    </message>
+    <message>
+        <source>blocks are divided only where light needs it</source>
+        <translation>仅在光线需要处细分块</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected; known exactly as each level begins</source>
+        <translation>
+            <numerusform>预计 %n 个图案；每级开始时确定</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n 个图案</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4390,10 +4506,6 @@ projector %2</source>
         <translation>磁盘</translation>
     </message>
     <message>
-        <source>Free there</source>
-        <translation>该处可用空间</translation>
-    </message>
-    <message>
         <source>about %1</source>
         <translation>约 %1</translation>
     </message>
@@ -4524,6 +4636,14 @@ projector %2</source>
     <message>
         <source>%1 to %2</source>
         <translation>%1 至 %2</translation>
+    </message>
+    <message>
+        <source>%1 free</source>
+        <translation>可用 %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 / %2</translation>
     </message>
 </context>
 <context>

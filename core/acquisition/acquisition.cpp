@@ -90,6 +90,7 @@ class Measurement {
         shots_(shots),
         linearization_(linearization),
         shotsBefore_(shots.shots()),
+        observer_(observer),
         photographer_(shots, linearization),
         watch_(photographer_, shots, references_, settings, decisions, observer) {}
 
@@ -102,8 +103,15 @@ class Measurement {
     Progress treePart = progress.part(treeShare, "light transport");
     Tree tree = plantedTree(photographer_.projectors(), references_, references_.usable);
     Scheme scheme = schemeOf(settings_, references_);
-    auto levelBegins = [&](const std::vector<int>& patterns) { expect(progress, patterns); };
-    kept = growTree(tree, watch_, references_, scheme, kept, treePart, levelBegins) || kept;
+    std::vector<int> levels;
+    GrowthWatcher watcher;
+    watcher.levelBegins = [&](const std::vector<int>& patterns) {
+      levels = patterns;
+      expect(progress, levels);
+      observer_.grew(levels, 0);
+    };
+    watcher.patternsThrough = [&](int through) { observer_.grew(levels, through); };
+    kept = growTree(tree, watch_, references_, scheme, kept, treePart, watcher) || kept;
     Acquisition result;
     result.leafVariance = leafVarianceOf(tree);
     std::vector<std::uint8_t> unknown = tree.unknown;
@@ -157,6 +165,7 @@ class Measurement {
   const ShotTaker& shots_;
   const Linearization& linearization_;
   int shotsBefore_;
+  AcquisitionObserver& observer_;
   References references_;
   Photographer photographer_;
   Watch watch_;

@@ -42,10 +42,11 @@ double checksWithin(double patterns, int interval) {
 }  // namespace
 
 std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t lights,
-                                        std::span<const int> known) {
+                                        std::span<const int> known, double factor) {
   NodeLayout layout(projectors);
   double each = quadrants * static_cast<double>(lights);
-  PatternRange colours = usualColours;
+  PatternRange colours{std::min(1.0, factor) * usualColours.least, factor * usualColours.likely,
+                       factor * usualColours.most};
   std::vector<PatternRange> patterns;
   for (int level = layout.levels() - 1; level > 0; --level) {
     double blocks = blocksOf(layout, level);
@@ -63,12 +64,22 @@ std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t l
   return patterns;
 }
 
+double colourFactor(double relativeThreshold) {
+  constexpr double power = -0.73;
+  static const double usual = AcquisitionSettings().relativeThreshold;
+  return relativeThreshold > 0.0 ? std::pow(relativeThreshold / usual, power) : 1.0;
+}
+
+std::size_t lightCount(const AcquisitionSettings& settings) {
+  return settings.colours == LitColours::white ? 1 : 3;
+}
+
 WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t exposures,
                   double meanExposure, const AcquisitionSettings& settings, const ShotTimes& benchmark,
                   const AcquisitionState& state) {
   auto devices = static_cast<double>(projectors.devices());
-  std::size_t lights = settings.colours == LitColours::white ? 1 : 3;
-  std::vector<PatternRange> levels = levelPatterns(projectors, lights, state.levels);
+  std::vector<PatternRange> levels =
+      levelPatterns(projectors, lightCount(settings), state.levels, colourFactor(settings.relativeThreshold));
 
   // Everything that is not the tree: references, the first look, the test patterns.
   double references = settings.references * (1.0 + 3.0 * devices) + devices + 2.0;

@@ -18,11 +18,20 @@ struct PatternRange {
 
 /// How many patterns each level of the tree will need, coarsest first. Levels that have begun are known; the
 /// others follow from the colours of the last that is not limited by its few blocks, or, before there is one,
-/// from what simulated venues needed: a plain wall 3 colours a level, a corner 30, a wine glass 64; others
-/// may need 100.
+/// from what simulated venues needed at the usual threshold: a plain wall 3 colours a level, a corner 30, a
+/// wine glass 64; others may need 100. At other thresholds `factor` times as many, see colourFactor().
 ///   patterns = 4 * lights * min(blocks, colours)
 std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t lights,
-                                        std::span<const int> known);
+                                        std::span<const int> known, double factor = 1.0);
+
+/// How many more colours a tree needs at a threshold than at the usual one.
+///   (relativeThreshold / 0.008)^-0.73
+/// The power is that of the patterns of corner, depth, statue, glass and dome, 256x192 / 160x120, from 0.008
+/// to 0.02: a factor of 0.44 to 0.58 each, and 1.18 to 1.34 at 0.006 (README).
+double colourFactor(double relativeThreshold);
+
+/// Lights in which every pattern is shown, one after the other.
+std::size_t lightCount(const AcquisitionSettings& settings);
 
 /// Where an acquisition stands.
 struct AcquisitionState {

@@ -41,13 +41,13 @@ class Shares {
 
 /// Divides one level. False if it was dropped on an alarm; the tree is as it was.
 bool divided(Tree& tree, int level, const Schedule& plan, Watch& watch, const References& references,
-             const Scheme& scheme, Progress& part) {
+             const Scheme& scheme, Progress& part, const PatternsThrough& through) {
   std::vector<ColourBlock> rounding = tree.rounding;
   std::vector<LeafNoise> leafNoise = tree.leafNoise;
   std::vector<std::uint8_t> unknown = tree.unknown;
   try {
     watch.check(part);
-    divide(tree, level, plan, watch, references, scheme, part);
+    divide(tree, level, plan, watch, references, scheme, part, through);
     return true;
   } catch (const KeepAndStop&) {
     tree.rounding = std::move(rounding);
@@ -67,7 +67,7 @@ Tree plantedTree(const Rasters& projectors, const References& references,
 }
 
 bool growTree(Tree& tree, Watch& watch, const References& references, const Scheme& scheme, bool rootsOnly,
-              Progress& progress, const LevelBegins& levelBegins) {
+              Progress& progress, const GrowthWatcher& watcher) {
   bool kept = false;
   std::vector<int> patterns;
   Shares shares;
@@ -83,12 +83,12 @@ bool growTree(Tree& tree, Watch& watch, const References& references, const Sche
     if (goOn) {
       Schedule plan = scheduleOf(tree, level);
       patterns.push_back(patternsOf(plan, scheme, tree.layout, level));
-      if (levelBegins) levelBegins(patterns);
+      if (watcher.levelBegins) watcher.levelBegins(patterns);
       double share = shares.next(levelPatterns(tree.layout.projectors(), scheme.lights.size(), patterns),
                                  patterns.size());
       Progress part = progress.part(
           share, fmt::format("level {} of {}: {} patterns", last - level + 1, last, patterns.back()));
-      if (divided(tree, level, plan, watch, references, scheme, part)) continue;
+      if (divided(tree, level, plan, watch, references, scheme, part, watcher.patternsThrough)) continue;
     }
     kept = kept || goOn;
     stopDividing(tree, references);

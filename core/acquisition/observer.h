@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "acquisition/acquisition.h"
 
@@ -54,6 +55,9 @@ class AcquisitionObserver {
   /// Before the handler is asked about an alarm.
   virtual void checked(const Reading&) {}
   virtual void takenAgain(const Retake&) {}
+  /// Of the tree, patterns read from a log included: those of the levels that have begun, coarsest first, and
+  /// how many of the last one's are through.
+  virtual void grew(const std::vector<int>& /*levels*/, int /*through*/) {}
 };
 
 /// acquire() with somebody who looks on.  Throws: as that.

@@ -29,13 +29,14 @@ struct PreparedFrame {
 class Division {
  public:
   Division(Tree& tree, int level, const Schedule& schedule, Watch& watch, const References& references,
-           const Scheme& scheme, Progress& progress)
+           const Scheme& scheme, Progress& progress, const PatternsThrough& through)
       : tree_(tree),
         schedule_(schedule),
         watch_(watch),
         references_(references),
         scheme_(scheme),
         progress_(progress),
+        through_(through),
         pairs_(tree.active, schedule),
         children_(tree.active.blocks(), level > 1, scheme.restToParent),
         frames_(framesInOrder(level)),
@@ -54,8 +55,9 @@ class Division {
         if (round > 0) watch_.contradicted(begun, static_cast<int>(end - first));
         for (std::size_t frame = first; frame < end; ++frame) {
           blocks = take(frame);
-          if (round == 0)
-            progress_.report(static_cast<double>(frame + 1) / static_cast<double>(frames_.size()));
+          if (round > 0) continue;
+          progress_.report(static_cast<double>(frame + 1) / static_cast<double>(frames_.size()));
+          if (through_) through_(static_cast<int>(frame) + 1);
         }
         lookahead_.finish();
       }
@@ -116,6 +118,7 @@ class Division {
   const References& references_;
   const Scheme& scheme_;
   Progress& progress_;
+  const PatternsThrough& through_;
   PairsByColour pairs_;
   Children children_;
   std::vector<LevelFrame> frames_;
@@ -129,10 +132,10 @@ int patternsOf(const Schedule& schedule, const Scheme& scheme, const NodeLayout&
 }
 
 void divide(Tree& tree, int level, const Schedule& schedule, Watch& watch, const References& references,
-            const Scheme& scheme, Progress& progress) {
+            const Scheme& scheme, Progress& progress, const PatternsThrough& through) {
   require(tree.active.blocks() <= std::numeric_limits<std::uint32_t>::max(), "{} active pairs",
           tree.active.blocks());
-  Division(tree, level, schedule, watch, references, scheme, progress).run();
+  Division(tree, level, schedule, watch, references, scheme, progress, through).run();
 }
 
 }  // namespace relucent

@@ -125,7 +125,7 @@ void Watch::inspectCheck(const Check& now, double expectedPower, int doubtful) {
   if (!alarm) return;
   handle(*alarm, doubtful);
   if (alarm->kind == AlarmKind::moved || alarm->kind == AlarmKind::localChange)
-    first_.light = brightenedBy(1.0 / lampPower(now, first_, references_), now.light);
+    first_.light = brightenedBy(1.0 / expectedPower, now.light);  // the view changed, not the lamp
 }
 
 void Watch::contradicted(int shot, int patterns) {

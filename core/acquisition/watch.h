@@ -83,7 +83,8 @@ class Watch {
   const AcquisitionSettings& settings_;
   Decisions& decisions_;
   AcquisitionObserver& observer_;
-  Check first_;  // its light that of a later one whose view was put up with, brought to the first one's power
+  Check first_;  // its light that of a later one whose view was put up with, at the power of the first one's
+                 // lamp
   Power last_, beforeLast_;
   int trusted_ = 0;             // shots before this one have been confirmed by a check
   int photographedBefore_ = 0;  // the last photograph, of those not read from the log

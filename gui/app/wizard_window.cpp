@@ -31,9 +31,14 @@ WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache, con
     wizard_.add(*page);
   window_ = makeWindow();
   QObject::connect(&preferences_, &Preferences::changed, &session_, [this] { follow(); });
-  QObject::connect(&acquire_, &AcquirePage::measured, &session_, [this] {
+  auto sound = [this] {
     if (preferences_.hasSound()) QApplication::beep();
-  });
+  };
+  QObject::connect(&acquire_, &AcquirePage::measured, &session_, sound);
+  QObject::connect(&acquire_, &AcquirePage::asks, &session_, sound);
+  QObject::connect(&acquire_, &AcquirePage::secondsToLeaveChosen, &preferences_,
+                   &Preferences::setSecondsToLeave);
+  QObject::connect(&acquire_, &AcquirePage::soundChosen, &preferences_, &Preferences::setSound);
 }
 
 std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
@@ -79,6 +84,8 @@ void WizardWindow::follow() {
   Theme::instance().setDimmed(preferences_.isDimmed());
   session_.setFlashLimit(preferences_.flashLimit());
   venue_.setUsualFolder(preferences_.folder());
+  acquire_.setSecondsToLeave(preferences_.secondsToLeave());
+  acquire_.setSound(preferences_.hasSound());
   if (std::exchange(languageCode_, preferences_.language()) != preferences_.language()) speakAnew();
 }
 

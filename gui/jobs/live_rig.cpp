@@ -12,6 +12,16 @@ Device& at(std::vector<Device>& devices, std::size_t index) {
   return devices[index];
 }
 
+// Beyond this much of the range a sample says little; of a floodlight image some may: lamps, gloss.
+constexpr float clipped = 0.98f;
+constexpr double mostClipped = 0.02;
+
+bool isOverexposed(const Image& signal) {
+  const std::vector<float>& samples = signal.data();
+  auto count = std::count_if(samples.begin(), samples.end(), [](float value) { return value > clipped; });
+  return static_cast<double>(count) > mostClipped * static_cast<double>(samples.size());
+}
+
 }  // namespace
 
 LiveRig::LiveRig(int interval) : interval_(interval) {}
@@ -41,13 +51,18 @@ void LiveRig::shown(std::size_t index, const Image& encodedDrive) {
   shown.pattern = encodedDrive;
   const std::vector<float>& drive = encodedDrive.data();
   shown.dark = std::all_of(drive.begin(), drive.end(), [](float value) { return !(value > 0.0f); });
+  shown.white =
+      !drive.empty() && std::all_of(drive.begin(), drive.end(), [](float value) { return value >= 1.0f; });
 }
 
 void LiveRig::photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) {
   {
     QMutexLocker lock(&guard_);
     ++photographs_;
-    at(cameras_, index) = {frame, request};
+    Photographed& photographed = at(cameras_, index);
+    photographed.frame = frame;
+    photographed.request = request;
+    if (isFloodlit() && !isOverexposed(frame.signal)) photographed.floodlight = {frame.signal, photographs_};
     if (index == 0) {
       // Light of several projectors at once is no one's ramp.
       auto lit =
@@ -71,6 +86,23 @@ LivePictures LiveRig::pictures(std::size_t projector, std::size_t camera) const 
   }
   live.photographs = photographs_;
   return live;
+}
+
+/// Contract: guard_ is held.
+bool LiveRig::isFloodlit() const {
+  return std::any_of(projectors_.begin(), projectors_.end(), [](const Shown& s) { return s.white; }) &&
+         std::all_of(projectors_.begin(), projectors_.end(),
+                     [](const Shown& s) { return s.white || s.dark; });
+}
+
+LiveRig::Floodlight LiveRig::floodlight(std::size_t camera) const {
+  QMutexLocker lock(&guard_);
+  return camera < cameras_.size() ? cameras_[camera].floodlight : Floodlight();
+}
+
+int LiveRig::floodlightNumber(std::size_t camera) const {
+  QMutexLocker lock(&guard_);
+  return camera < cameras_.size() ? cameras_[camera].floodlight.number : 0;
 }
 
 std::array<std::map<double, double>, 3> LiveRig::ramps(std::size_t projector) const {

@@ -39,6 +39,14 @@ class LiveRig : public QObject, public RigWatcher {
 
   /// Of devices that there are not, empty pictures.
   LivePictures pictures(std::size_t projector = 0, std::size_t camera = 0) const;
+  /// The last photograph of a camera, not overexposed, of projectors fully white, some perhaps dark; and its
+  /// number, 0: there was none.
+  struct Floodlight {
+    Image signal;
+    int number = 0;
+  };
+  Floodlight floodlight(std::size_t camera = 0) const;
+  int floodlightNumber(std::size_t camera = 0) const;
   /// Of a projector that shines alone, in the first camera's photographs.
   std::array<std::map<double, double>, 3> ramps(std::size_t projector = 0) const;
 
@@ -59,13 +67,15 @@ class LiveRig : public QObject, public RigWatcher {
   bool paused_ = false;
   struct Shown {
     Image pattern;
-    bool dark = true;
+    bool dark = true, white = false;
     RampPreview ramps;
   };
   struct Photographed {
     RawFrame frame;
     CaptureRequest request;
+    Floodlight floodlight;
   };
+  bool isFloodlit() const;
   std::vector<Shown> projectors_;
   std::vector<Photographed> cameras_;
   int photographs_ = 0;

@@ -3,7 +3,22 @@
 
 #include <algorithm>
 
+#include "jobs/quantities.h"
+
 namespace relucent {
+namespace {
+
+/// As little as possible goes to the first parts: what the system says comes last and may hold anything. A
+/// quantity is one word.
+QString expressionOf(const QString& sentence) {
+  const QList<bool> quantities = quantitiesIn(sentence);
+  QString expression = QRegularExpression::escape(sentence);
+  for (bool isQuantity : quantities)
+    expression.replace(expression.indexOf("\\{\\}"), 4, isQuantity ? "(\\S+)" : "(.+?)");
+  return expression;
+}
+
+}  // namespace
 
 SentenceTable::SentenceTable(std::span<const char* const> sentences) {
   for (const char* sentence : sentences) {
@@ -11,11 +26,9 @@ SentenceTable::SentenceTable(std::span<const char* const> sentences) {
     whole_.insert(text, sentence);
     qsizetype filled = text.count("{}");
     if (filled == 0) continue;
-    // As little as possible goes to the first parts: what the system says comes last and may hold anything.
     patterns_.append(
         {sentence, text.size() - 2 * filled,
-         QRegularExpression('^' + QRegularExpression::escape(text).replace("\\{\\}", "(.+?)") + '$',
-                            QRegularExpression::DotMatchesEverythingOption)});
+         QRegularExpression('^' + expressionOf(text) + '$', QRegularExpression::DotMatchesEverythingOption)});
   }
   std::stable_sort(patterns_.begin(), patterns_.end(),
                    [](const Pattern& a, const Pattern& b) { return a.own > b.own; });

@@ -11,6 +11,7 @@
 #include "pipeline/stages.h"
 #include "views/number_text.h"
 #include "wizard/missing_screen.h"
+#include "wizard/retrying.h"
 
 namespace relucent {
 namespace {
@@ -19,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double fineThreshold = 0.006;
 constexpr int photographsBeforeTime = 20;
+constexpr std::chrono::seconds beforeRetry{5};
 
 }  // namespace
 
@@ -48,6 +50,11 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     if (auto light = trace_.roomLight()) session_.setRoomLight(*light);
     Q_EMIT changed();
   });
+  leaving_.setInterval(1000);
+  connect(&leaving_, &QTimer::timeout, this, [this] {
+    if (--secondsLeftToLeave_ > 0) return Q_EMIT changed();
+    begin();
+  });
   second_.setInterval(1000);
   connect(&second_, &QTimer::timeout, this, &AcquirePage::tick);
 }
@@ -58,6 +65,7 @@ AcquirePage::~AcquirePage() {
 
 StepStatus AcquirePage::status() const {
   if (isPaused()) return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
+  if (isLeaving()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
   switch (session_.progress(Step::acquisition)) {
     case StepProgress::done:
@@ -80,6 +88,9 @@ QString AcquirePage::hint() const {
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
   if (isMeasuring()) return tr("Every photograph is saved. Threshold opens when the last is taken.");
+  if (isLeaving())
+    return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
+              secondsLeftToLeave_);
   if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
   if (session_.progress(Step::acquisition) == StepProgress::done)
     return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
@@ -95,6 +106,7 @@ QString AcquirePage::hint() const {
 
 Command AcquirePage::primary() const {
   auto* self = const_cast<AcquirePage*>(this);
+  if (isLeaving()) return {tr("Start now"), Icon::play, true, {}, [self] { self->begin(); }};
   if (isMeasuring() || session_.progress(Step::acquisition) == StepProgress::done)
     return {tr("Show threshold"), Icon::next, !isMeasuring(), {}, [self] { Q_EMIT self->nextWanted(); }};
   return {kept_ > 0 ? tr("Resume") : tr("Start measuring"),
@@ -106,6 +118,7 @@ Command AcquirePage::primary() const {
 
 std::vector<Command> AcquirePage::secondary() const {
   auto* self = const_cast<AcquirePage*>(this);
+  if (isLeaving()) return {{tr("Not now"), Icon::stop, true, {}, [self] { self->stay(); }}};
   if (!isMeasuring()) return {};
   Command keep{tr("Stop and keep"), Icon::save, !isStopping(), QKeySequence("Ctrl+K"),
                [self] { self->stopAndKeep(); }};
@@ -120,7 +133,7 @@ std::optional<double> AcquirePage::progress() const {
 
 std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
-  if (isMeasuring()) return std::nullopt;
+  if (isMeasuring() || isLeaving()) return std::nullopt;
   auto* self = const_cast<AcquirePage*>(this);
   StepProgress progress = session_.progress(Step::acquisition);
   if (progress == StepProgress::stale)
@@ -176,11 +189,16 @@ void AcquirePage::keep(const AcquisitionSettings& acquisition) {
   }
 }
 
-void AcquirePage::setFineness(Fineness fineness) {
-  if (isMeasuring() || fineness == this->fineness()) return;
+AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
+  if (fineness == this->fineness()) return session_.settings().acquisition;
   AcquisitionSettings settings = acquisitionMode(fineness == Fineness::fast ? "fast" : "adaptive");
   if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
-  change(tr("Fineness"), settings);
+  return settings;
+}
+
+void AcquirePage::setFineness(Fineness fineness) {
+  if (isMeasuring() || fineness == this->fineness()) return;
+  change(tr("Fineness"), settingsOf(fineness));
 }
 
 void AcquirePage::setWhite(bool white) {
@@ -192,7 +210,9 @@ void AcquirePage::setWhite(bool white) {
 
 QString AcquirePage::watching() const {
   return tr(
-      "Compared with the start every %n pattern(s). If something changed, the measurement pauses and asks.",
+      "Compared with the start every %n pattern(s). What changed is photographed again; if that does not "
+      "help, "
+      "the measurement pauses and asks.",
       nullptr, session_.settings().acquisition.checkInterval);
 }
 
@@ -230,18 +250,6 @@ void AcquirePage::lookAtResponse() {
   }
 }
 
-std::optional<WorkLeft> AcquirePage::expected() const {
-  if (!response_ || response_->exposures.empty()) return std::nullopt;
-  const std::vector<double>& exposures = response_->exposures;
-  const double mean =
-      std::accumulate(exposures.begin(), exposures.end(), 0.0) / static_cast<double>(exposures.size());
-  const Size projector = session_.projectorSize();
-  if (projector.empty()) return std::nullopt;
-  // Photographs are counted, not their pixels.
-  return relucent::forecast(Rasters(projector), Rasters(projector), exposures.size(), mean,
-                            session_.settings().acquisition, response_->times, {});
-}
-
 void AcquirePage::pause() {
   session_.live().pause();
   left_.pause(Clock::now());
@@ -261,31 +269,49 @@ void AcquirePage::stopAndKeep() {
 
 void AcquirePage::start() {
   if (isMeasuring() || !session_.busy().isEmpty() || !session_.mayMeasure()) return;
-  asking_->setClosed(false);
   session_.setBusy(name());
+  if (secondsToLeave_ == 0 || !session_.hasLight()) return begin();
+  secondsLeftToLeave_ = secondsToLeave_;
+  leaving_.start();
+  Q_EMIT changed();
+}
+
+void AcquirePage::stay() {
+  if (!isLeaving()) return;
+  leaving_.stop();
+  if (session_.busy() == name()) session_.setBusy({});
+  Q_EMIT changed();
+}
+
+void AcquirePage::begin() {
+  leaving_.stop();
+  asking_->setClosed(false);
   lastCount_ = session_.live().pictures().photographs;
   rate_ = 0.0;
   left_ = {};
   trace_.begin();
   second_.start();
-  AlarmHandler handler = [this, asking = asking_](const Alarm& alarm) {
+  auto retrying = std::make_shared<Retrying>(trace_, asking_, beforeRetry);
+  AlarmHandler handler = [this, retrying, asking = asking_](const Alarm& alarm) {
+    if (retrying->triesAgain(alarm.kind)) return Answer::retry;
     QMetaObject::invokeMethod(
         this, [this, alarm] { askAbout(alarm); }, Qt::QueuedConnection);
     return asking->wait();
   };
-  job_.start([work = workOf(session_), handler, &trace = trace_](Progress& progress) {
+  job_.start([work = workOf(session_), handler, retrying](Progress& progress) {
     Progress opening = progress.part(0.05, tr("Opening the devices").toStdString());
     Rig& rig = work.devices->open(opening);
     CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
     Progress reading = progress.part(0.0, tr("Reading the response").toStdString());
     Linearization linearization = measureLinearization(folder, rig, reading);
     Progress measuring = progress.part(0.95, tr("Measuring the light transport").toStdString());
-    measureAcquisition(folder, rig, linearization, handler, trace, measuring);
+    measureAcquisition(folder, rig, linearization, handler, *retrying, measuring);
   });
   Q_EMIT changed();
 }
 
 void AcquirePage::finish() {
+  stay();
   job_.cancel();
   asking_->setClosed(true);
   session_.live().resume();
@@ -300,6 +326,7 @@ void AcquirePage::askAbout(const Alarm& alarm) {
   if (mayBePutUpWith(alarm.kind))
     goOn = {tr("Continue anyway"), Icon::next, true, {}, [this] { answer(Answer::skip); }};
   Q_EMIT failed({failure, fullSentence(alarm.safe), again, keep, goOn});
+  Q_EMIT asks();
 }
 
 void AcquirePage::answer(Answer answer) {

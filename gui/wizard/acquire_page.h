@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <memory>
 
+#include "acquisition/forecast.h"
 #include "jobs/job.h"
 #include "jobs/time_left.h"
 #include "linearization/linearization.h"
@@ -15,6 +16,15 @@ namespace relucent {
 
 /// How finely the light transport is measured.
 enum class Fineness { fast, usual, fine };
+
+/// Patterns whose blocks have one size: a level of the quadtree.
+struct BlockLevel {
+  int block = 1;          // projector pixels along a side
+  PatternRange patterns;  // of a level that has begun they are known
+  int through = 0;
+  bool isKnown = false;
+  bool isThrough() const { return isKnown && through >= patterns.likely; }
+};
 
 /// Step 4: the light transport, photograph by photograph.
 class AcquirePage : public DevicePage {
@@ -37,9 +47,13 @@ class AcquirePage : public DevicePage {
   std::optional<Banner> banner() const override;
   void finish() override;
 
+  void enter() override;
+
   bool isMeasuring() const { return job_.isRunning(); }
+  /// What was measured is what the settings want.
+  bool isDone() const;
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
-  bool isStopping() const { return job_.isStopping(); }
+  bool isStopping() const { return isMeasuring() && job_.isStopping(); }
   QString stage() const { return job_.stage(); }
   /// Of the shown projector and camera.
   LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
@@ -67,7 +81,25 @@ class AcquirePage : public DevicePage {
   /// What is worth knowing of the measurement, in sentences.
   QStringList findings() const;
   /// What measuring with these settings will about take, by what the response took; none before that.
-  std::optional<WorkLeft> expected() const;
+  std::optional<WorkLeft> expected() const { return expected(session_.settings().acquisition); }
+  /// The same at another fineness.
+  std::optional<WorkLeft> expected(Fineness fineness) const { return expected(settingsOf(fineness)); }
+  /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
+  std::vector<BlockLevel> levels() const;
+  std::uint64_t freeBytes() const;
+  /// Linear, of the shown camera, 1 at nearly its brightest: as last photographed or as measured. Empty: not
+  /// yet.
+  Image floodlight() const;
+  /// Another number, another picture; 0: none.
+  int floodlightNumber() const;
+
+  /// Before real devices measure, seconds; the first pattern waits for them.
+  int secondsToLeave() const { return secondsToLeave_; }
+  void setSecondsToLeave(int seconds);
+  bool hasSound() const { return sound_; }
+  void setSound(bool sound);
+  /// The time to leave the room runs.
+  bool isLeaving() const { return leaving_.isActive(); }
 
   void pause();
   void resume();
@@ -76,9 +108,17 @@ class AcquirePage : public DevicePage {
  Q_SIGNALS:
   /// It has ended, in any way.
   void measured();
+  /// Somebody has to decide what is done about an alarm.
+  void asks();
+  void secondsToLeaveChosen(int seconds);
+  void soundChosen(bool sound);
 
  private:
   void start();
+  void begin();
+  void stay();
+  std::optional<WorkLeft> expected(const AcquisitionSettings& settings) const;
+  AcquisitionSettings settingsOf(Fineness fineness) const;
   void change(const QString& what, const AcquisitionSettings& settings);
   void keep(const AcquisitionSettings& settings);
   void askAbout(const Alarm& alarm);
@@ -97,6 +137,9 @@ class AcquirePage : public DevicePage {
   QTimer second_;
   double rate_ = 0.0;
   int lastCount_ = 0;
+  QTimer leaving_;  // a second each
+  int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
+  bool sound_ = true;
   Job job_;  // the last: it ends before what its work uses
 };
 

@@ -4,7 +4,9 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/acquire_page.h"
+#include "wizard/acquire_plan_view.h"
 #include "wizard/acquire_watch_view.h"
+#include "wizard/block_sizes_view.h"
 #include "wizard/device_selector.h"
 #include "wizard/flash_consent.h"
 #include "wizard/page_view.h"
@@ -12,15 +14,12 @@
 namespace relucent {
 namespace {
 
-QWidget* stageOf(AcquirePage& model) {
-  auto* stage = new QWidget;
-  auto* column = new QVBoxLayout(stage);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(space::gap);
-  auto* row = new QHBoxLayout;
+/// What goes out and what comes back while it measures.
+QWidget* livePart(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* row = new QHBoxLayout(part);
+  row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(space::gap);
-  column->addLayout(row, 1);
-  column->addWidget(traceCard(model));
   auto* sent = new Card(AcquirePage::tr("Sent to the projector"));
   auto* seen = new Card(AcquirePage::tr("Seen by the camera"));
   auto* pattern = new ImageView;
@@ -29,16 +28,14 @@ QWidget* stageOf(AcquirePage& model) {
   photograph->setObjectName("photograph-view");
   pattern->setAccessibleName(AcquirePage::tr("Pattern that the projector shows"));
   photograph->setAccessibleName(AcquirePage::tr("Last photograph"));
-  for (ImageView* view : {pattern, photograph})
-    view->setEmptyText(
-        AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
   sent->body()->addWidget(pattern, 1);
   seen->body()->addWidget(photograph, 1);
   sent->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, sent));
   seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   row->addWidget(sent, 1);
   row->addWidget(seen, 1);
-  auto refresh = [&model, pattern, photograph, seen] {
+  auto refresh = [&model, part, pattern, photograph, seen] {
+    part->setVisible(model.isMeasuring());
     LivePictures live = model.pictures();
     // The last ones of another step say nothing here.
     if (!model.isMeasuring() && model.trace().seconds() <= 0.0) {
@@ -50,69 +47,21 @@ QWidget* stageOf(AcquirePage& model) {
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
     seen->setSubtitle(exposureText(live.frame.seconds));
   };
-  QObject::connect(&model, &AcquirePage::changed, stage, refresh);
-  refresh();
-  return stage;
-}
-
-/// Before and after: what to measure with.
-QWidget* planOf(AcquirePage& model) {
-  auto* part = new QWidget;
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(labelOf(AcquirePage::tr("How finely"), "section"));
-  auto* group = new QButtonGroup(part);
-  for (auto [name, sentence] :
-       {std::pair(AcquirePage::tr("Fast"), AcquirePage::tr("a first look; misses weak bounces")),
-        std::pair(AcquirePage::tr("Usual"), AcquirePage::tr("suits most surfaces")),
-        std::pair(AcquirePage::tr("Fine"), AcquirePage::tr("glass, gloss, deep corners"))}) {
-    auto* choice = new Choice(name, sentence);
-    group->addButton(choice, static_cast<int>(group->buttons().size()));
-    column->addWidget(choice);
-  }
-  QObject::connect(group, &QButtonGroup::idClicked, &model,
-                   [&model](int id) { model.setFineness(static_cast<Fineness>(id)); });
-  column->addSpacing(8);
-  column->addWidget(lineOf());
-  column->addWidget(labelOf(AcquirePage::tr("Colours"), "section"));
-  auto* colour = new Segmented({AcquirePage::tr("Red, green, blue"), AcquirePage::tr("White only")});
-  column->addWidget(colour);
-  column->addWidget(
-      labelOf(AcquirePage::tr("White only is three times faster, with colours a few percent off."), "note"));
-  QObject::connect(colour, &Segmented::chosen, &model, [&model](int index) { model.setWhite(index == 1); });
-  auto* result = new QWidget;
-  auto* rows = new QVBoxLayout(result);
-  rows->setContentsMargins(0, 0, 0, 0);
-  rows->addWidget(lineOf());
-  rows->addWidget(labelOf(AcquirePage::tr("What was measured"), "section"));
-  auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
-  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
-  auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
-  for (ValueRow* row : {patterns, photographs, error}) rows->addWidget(row);
-  rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
-                                          "photographed: this is how far the two differ."),
-                          "note"));
-  auto* findings = new Note(Note::Kind::amber);
-  findings->setObjectName("findings");
-  rows->addWidget(findings);
-  column->addWidget(result);
-  auto refresh = [&model, group, colour, result, patterns, photographs, error, findings] {
-    auto count = [&model](const char* name) {
-      return countText(static_cast<std::uint64_t>(model.figure(name).value_or(0.0)));
-    };
-    result->setVisible(model.verificationError().has_value());
-    patterns->setValue(count("patterns"));
-    photographs->setValue(count("exposures"));
-    error->setValue(percentText(model.verificationError().value_or(0.0)));
-    const QStringList found = model.findings();
-    findings->setVisible(!found.isEmpty());
-    findings->setText(AcquirePage::tr("Found while measuring"), found.join("\n\n"));
-    group->button(static_cast<int>(model.fineness()))->setChecked(true);
-    colour->setCurrent(model.isWhite() ? 1 : 0);
-  };
   QObject::connect(&model, &AcquirePage::changed, part, refresh);
   refresh();
   return part;
+}
+
+QWidget* stageOf(AcquirePage& model) {
+  auto* stage = new QWidget;
+  auto* column = new QVBoxLayout(stage);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(space::gap);
+  column->addWidget(floodlightCard(model), 1);
+  column->addWidget(livePart(model), 1);
+  column->addWidget(blockSizesCard(model));
+  column->addWidget(traceCard(model));
+  return stage;
 }
 
 /// While it goes on: how long, how fast.

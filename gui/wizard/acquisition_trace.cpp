@@ -89,6 +89,10 @@ QString AcquisitionTrace::headingOf(AlarmKind kind) {
 void AcquisitionTrace::clear() {
   points_.clear();
   marks_.clear();
+  {
+    QMutexLocker lock(&guard_);
+    growth_ = {};
+  }
   began_.reset();
   ended_.reset();
   Q_EMIT changed();
@@ -130,6 +134,16 @@ void AcquisitionTrace::takenAgain(const Retake& retake) {
         Q_EMIT changed();
       },
       Qt::QueuedConnection);
+}
+
+void AcquisitionTrace::grew(const std::vector<int>& levels, int through) {
+  QMutexLocker lock(&guard_);
+  growth_ = {levels, through};
+}
+
+AcquisitionTrace::Growth AcquisitionTrace::growth() const {
+  QMutexLocker lock(&guard_);
+  return growth_;
 }
 
 std::optional<RoomLight> AcquisitionTrace::roomLight() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QMutex>
 #include <QObject>
 #include <QString>
 #include <array>
@@ -57,6 +58,13 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
   const std::vector<Mark>& marks() const { return marks_; }
   /// Room light, the view, the projector, flicker.
   std::array<WatchState, 4> states() const;
+  /// Patterns of the levels that have begun, coarsest first, and how many of the last one's are through. Not
+  /// told by changed(): it changes with every photograph.
+  struct Growth {
+    std::vector<int> levels;
+    int through = 0;
+  };
+  Growth growth() const;
   /// As it was seen last; none before it was.
   std::optional<RoomLight> roomLight() const;
   /// The last ones, newest first.
@@ -64,6 +72,7 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
 
   void checked(const Reading& reading) override;
   void takenAgain(const Retake& retake) override;
+  void grew(const std::vector<int>& levels, int through) override;
 
  Q_SIGNALS:
   void changed();
@@ -73,6 +82,8 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
   std::vector<Point> points_;
   std::vector<Mark> marks_;
   std::optional<Clock::time_point> began_, ended_;
+  mutable QMutex guard_;
+  Growth growth_;
 };
 
 }  // namespace relucent

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QDeadlineTimer>
 #include <QMutex>
 #include <QWaitCondition>
+#include <chrono>
 #include <optional>
 
 #include "acquisition/alarm.h"
@@ -17,6 +19,14 @@ class Asking {
     answer_.reset();
     while (!answer_ && !closed_) given_.wait(&guard_);
     return answer_.value_or(Answer::keepAndStop);
+  }
+  /// Waits for that long; false: it was closed meanwhile.
+  bool rest(std::chrono::milliseconds time) {
+    QMutexLocker lock(&guard_);
+    const QDeadlineTimer until(time);
+    while (!closed_ && given_.wait(&guard_, until)) {
+    }
+    return !closed_;
   }
   /// Closed, it waits for nobody.
   void setClosed(bool closed) {

@@ -12,8 +12,10 @@ constexpr const char* dimmed = "look/dimmed";
 constexpr const char* folderKey = "venues/folder";
 constexpr const char* flashes = "measuring/changes_per_second";
 constexpr const char* sound = "measuring/sound";
+constexpr const char* leaving = "measuring/seconds_to_leave";
 constexpr const char* languageKey = "look/language";
 constexpr int quickestWithoutConsent = 3;
+constexpr int usualSecondsToLeave = 30, mostSecondsToLeave = 600;
 
 }  // namespace
 
@@ -60,6 +62,13 @@ bool Preferences::hasSound() const {
 }
 void Preferences::setSound(bool wanted) {
   set(sound, wanted);
+}
+
+int Preferences::secondsToLeave() const {
+  return std::clamp(settings_.value(leaving, usualSecondsToLeave).toInt(), 0, mostSecondsToLeave);
+}
+void Preferences::setSecondsToLeave(int seconds) {
+  set(leaving, seconds);
 }
 
 QString Preferences::language() const {

@@ -28,6 +28,9 @@ class Preferences : public QObject {
   /// A sound when a measurement ends or needs somebody.
   bool hasSound() const;
   void setSound(bool sound);
+  /// What real devices wait for before they measure, so that whoever starts it can leave the room.
+  int secondsToLeave() const;
+  void setSecondsToLeave(int seconds);
   /// "de"; empty: the computer's.
   QString language() const;
   void setLanguage(const QString& language);

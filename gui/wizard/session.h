@@ -104,6 +104,8 @@ class Session : public QObject {
     return steps_[static_cast<std::size_t>(step)].result;
   }
   bool isSimulated() const;
+  /// Devices that shine into a room.
+  bool hasLight() const;
   /// The projector is a screen of the desktop; nullptr: it is not.
   const ScreenRigSettings* screenRig() const { return std::get_if<ScreenRigSettings>(&settings_.rig); }
   /// How many there are, as they were measured; before that, as the rig is described.
@@ -178,8 +180,6 @@ class Session : public QObject {
   void adopt(const CalibrationFolder& folder);
   std::optional<std::size_t> measuredDevices(const char* kind) const;
   void slowDown();
-  /// Devices that shine into a room.
-  bool hasLight() const;
   void equip();
   std::unique_ptr<ScreenProjector> openScreen(const ScreenRigSettings& settings);
 

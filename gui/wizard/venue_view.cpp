@@ -44,7 +44,6 @@ class KeepingPart : public QWidget {
     column->addWidget(time_ = new ValueRow(VenuePage::tr("Time, by camera")));
     time_->setToolTip(VenuePage::tr("Industrial cameras and video devices are fast, still cameras slow."));
     column->addWidget(disk_ = new ValueRow(VenuePage::tr("Disk")));
-    column->addWidget(free_ = new ValueRow(VenuePage::tr("Free there")));
     connect(name_, &QLineEdit::textEdited, &model, &VenuePage::setVenueName);
     connect(folder_, &QLineEdit::editingFinished, &model, [this] { model_.setFolder(folder_->text()); });
     connect(browse, &QToolButton::clicked, this, [this] {
@@ -60,24 +59,24 @@ class KeepingPart : public QWidget {
   void refresh() {
     if (name_->text() != model_.venueName()) name_->setText(model_.venueName());
     if (!folder_->hasFocus()) folder_->setText(model_.folder());
-    free_->setValue(bytesText(model_.freeBytes()));
     time_->setVisible(model_.isReal());
     if (!model_.isExpectedKnown()) {
       time_->setValue(QString::fromUtf8("–"));
       patterns_->setValue(QString::fromUtf8("–"));
-      return disk_->setValue(QString::fromUtf8("–"));
+      return disk_->setValue(VenuePage::tr("%1 free").arg(bytesText(model_.freeBytes())));
     }
     WorkLeft work = model_.expected();
     patterns_->setValue(VenuePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work.shots))));
     auto [fast, slow] = model_.expectedSeconds();
     time_->setValue(VenuePage::tr("%1 to %2").arg(durationText(fast), durationText(slow)));
-    disk_->setValue(bytesText(work.diskBytes));
-    free_->setValue(bytesText(model_.freeBytes()), model_.freeBytes() < work.diskBytes ? "error" : "strong");
+    const std::uint64_t free = model_.freeBytes();
+    disk_->setValue(VenuePage::tr("%1 of %2").arg(bytesText(work.diskBytes), bytesText(free)),
+                    free < work.diskBytes ? "error" : "strong");
   }
 
   VenuePage& model_;
   QLineEdit *name_, *folder_;
-  ValueRow *patterns_, *time_, *disk_, *free_;
+  ValueRow *patterns_, *time_, *disk_;
 };
 
 }  // namespace

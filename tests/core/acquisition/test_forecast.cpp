@@ -138,8 +138,10 @@ class TestForecast : public QObject {
     QFETCH(int, height);
     Rasters projectors({Size{width, height}});
     NodeLayout layout(projectors);
-    for (const std::vector<int>& known : {std::vector<int>{}, std::vector<int>{12, 36, 60}}) {
-      std::vector<PatternRange> levels = levelPatterns(projectors, 3, known);
+    for (auto [known, threshold] :
+         {std::pair(std::vector<int>{}, 0.008), std::pair(std::vector<int>{12, 36, 60}, 0.008),
+          std::pair(std::vector<int>{}, 0.0001), std::pair(std::vector<int>{12}, 0.5)}) {
+      std::vector<PatternRange> levels = levelPatterns(projectors, 3, known, colourFactor(threshold));
       QCOMPARE(static_cast<int>(levels.size()), layout.levels() - 1);
       for (std::size_t i = 0; i < levels.size(); ++i) {
         if (i < known.size()) {
@@ -150,6 +152,19 @@ class TestForecast : public QObject {
         QVERIFY(levels[i].least <= levels[i].likely && levels[i].likely <= levels[i].most);
         QVERIFY(levels[i].most <= 12.0 * static_cast<double>(layout.gridSize(0, level).count()));
       }
+    }
+  }
+
+  /// Law: what is looked at more finely takes longer, and the usual as long as ever.
+  void finerTakesLonger() {
+    AcquisitionSettings settings;
+    QCOMPARE(colourFactor(settings.relativeThreshold), 1.0);
+    int before = 0;
+    for (double threshold : {0.1, 0.02, 0.008, 0.006}) {
+      settings.relativeThreshold = threshold;
+      WorkLeft work = forecast(Rasters(Size{64, 48}), Rasters(Size{128, 96}), 2, 0.1, settings, {}, {});
+      QVERIFY2(work.shots > before, qPrintable(QString::number(threshold)));
+      before = work.shots;
     }
   }
 

@@ -87,9 +87,11 @@ class Listening : public AcquisitionObserver {
  public:
   void checked(const Reading& reading) override { readings.push_back(reading); }
   void takenAgain(const Retake& retake) override { retakes.push_back(retake); }
+  void grew(const std::vector<int>& levels, int through) override { growth.emplace_back(levels, through); }
 
   std::vector<Reading> readings;
   std::vector<Retake> retakes;
+  std::vector<std::pair<std::vector<int>, int>> growth;
 };
 
 DeviceFault handOver(int first) {
@@ -253,6 +255,30 @@ class TestSentinels : public QObject {
     }
     QCOMPARE(alarms, 1);
     QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+  }
+
+  /// Level by level, pattern by pattern, none left out; read from a log as well.
+  void theTreeIsFollowed() {
+    MemoryLog log;
+    for (bool isRead : {false, true}) {
+      Listening listening;
+      venue_->run({}, log, listening);
+      QVERIFY2(!listening.growth.empty(), isRead ? "read" : "photographed");
+      std::vector<int> levels;
+      int through = 0;
+      for (const auto& [now, count] : listening.growth) {
+        if (now == levels) {
+          QCOMPARE(count, through + 1);
+        } else {
+          QVERIFY(levels.empty() || through == levels.back());
+          QVERIFY(now.size() > levels.size() && std::equal(levels.begin(), levels.end(), now.begin()));
+          QCOMPARE(count, 0);
+          levels = now;
+        }
+        through = count;
+      }
+      QCOMPARE(through, levels.back());
+    }
   }
 
   /// A flash between two checks contradicts what was seen before.

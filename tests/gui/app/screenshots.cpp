@@ -112,6 +112,7 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   wizard.linearize().primary().run();
   until([&] { return wizard.linearize().result() && !wizard.linearize().isMeasuring(); });
   wizard.wizard().go(3);
+  photographs.take("04-plan");
   wizard.acquire().primary().run();
   wizard.session().live().setLeastInterval(25);  // as real devices would be, and longer
   until([&] { return wizard.acquire().trace().points().size() > 40; });

@@ -48,6 +48,37 @@ class TestLiveRig : public QObject {
     QCOMPARE(seen.size(), 2);
   }
 
+  /// White is white on all that shine, and of use where it is not overexposed.
+  void theLastFloodlightImageIsKept_data() {
+    QTest::addColumn<float>("first");
+    QTest::addColumn<float>("second");
+    QTest::addColumn<float>("signal");
+    QTest::addColumn<bool>("isKept");
+    QTest::newRow("both") << 1.0f << 1.0f << 0.6f << true;
+    QTest::newRow("one alone") << 1.0f << 0.0f << 0.5f << true;
+    QTest::newRow("grey beside it") << 1.0f << 0.5f << 0.5f << false;
+    QTest::newRow("dark") << 0.0f << 0.0f << 0.1f << false;
+    QTest::newRow("overexposed") << 1.0f << 1.0f << 1.0f << false;
+  }
+  void theLastFloodlightImageIsKept() {
+    QFETCH(float, first);
+    QFETCH(float, second);
+    QFETCH(float, signal);
+    QFETCH(bool, isKept);
+    auto grey = [](float drive) { return Image({2, 2}, 3, drive); };
+    LiveRig live(0);
+    QCOMPARE(live.floodlightNumber(), 0);
+    live.shown(0, grey(1.0f));
+    live.shown(1, grey(1.0f));
+    live.photographed(0, {}, lit(0.4f));
+    live.shown(0, grey(first));
+    live.shown(1, grey(second));
+    live.photographed(0, {}, lit(signal));
+    QCOMPARE(live.floodlightNumber(), isKept ? 2 : 1);
+    QCOMPARE(live.floodlight().signal, lit(isKept ? signal : 0.4f).signal);
+    QVERIFY(live.floodlight(1).signal.empty());
+  }
+
   /// Black belongs to both; one that shines alone has the light; together it is no one's.
   void aRampIsOfTheProjectorThatShinesAlone() {
     LiveRig live(0);

@@ -8,6 +8,7 @@
 
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
+#include "venue/device_faults.h"
 #include "venue/venue.h"
 #include "views/number_text.h"
 #include "wizard/acquire_page.h"
@@ -195,15 +196,15 @@ class TestAcquisitionTrace : public QObject {
     auto faults = std::make_shared<FaultSchedule>();
     faults->faults = {push};
     Rig rig = simulated.rig(faults);
-    CalibrationFolder folder = CalibrationFolder::open(session.path(), CalibrationFolder::Access::write);
-    Linearization linearization = measureLinearization(folder, rig, progress);
-    AcquisitionObserver nobody;
-    measureAcquisition(
-        folder, rig, linearization, [](const Alarm&) { return Answer::skip; }, nobody, progress);
+    {
+      CalibrationFolder folder = CalibrationFolder::open(session.path(), CalibrationFolder::Access::write);
+      Linearization linearization = measureLinearization(folder, rig, progress);
+      AcquisitionObserver nobody;
+      measureAcquisition(
+          folder, rig, linearization, [](const Alarm&) { return Answer::skip; }, nobody, progress);
+    }
     session.reload();
-    QCOMPARE(page.findings().size(), 1);
-    QVERIFY2(page.findings().front().startsWith("Put up with before pattern"),
-             qPrintable(page.findings().front()));
+    QCOMPARE(page.findings().filter("Put up with before pattern").size(), 1);
   }
 
   /// A rehearsal, measured through the page: nothing happens, and the trace says so.

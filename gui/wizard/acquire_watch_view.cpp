@@ -82,7 +82,8 @@ QWidget* traceCard(AcquirePage& model) {
   card->body()->addWidget(chart, 1);
   auto refresh = [&model, card, chart, minutes, light] {
     const AcquisitionTrace& trace = model.trace();
-    card->setVisible(model.isMeasuring() || !trace.points().empty());
+    // Beside a banner there is no room for it, nor need.
+    card->setVisible(model.isMeasuring() || (model.isDone() && !trace.points().empty()));
     Axis x = minutes, y = around(trace.points(), light);
     double now = trace.seconds() / minute;
     x.high = std::max(leastMinutes, now + model.secondsLeft().value_or(0.0) / minute);

@@ -2000,7 +2000,7 @@
     </message>
     <message>
         <source>%1 px</source>
-        <translation>%1 px</translation>
+        <translation>%1 بكسل</translation>
     </message>
     <message>
         <source>%1 of %2</source>

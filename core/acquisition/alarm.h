@@ -35,10 +35,10 @@ struct Alarm {
   std::string sentence() const { return what + "; " + safe + "; " + advice; }
 };
 
-/// Retry: what is not safe is photographed again, from devices that have been put right.
-/// Skip: this finding is put up with, and named among the acquisition's findings. The next check compares
-/// with what is there now: it raises an alarm if that changes again. Keep and stop: ends with what is safe, a
-/// valid but coarser T.
+/// - retry: what is not safe is photographed again, from devices that have been put right;
+/// - skip: this finding is put up with, and named among the acquisition's findings. The next check compares
+///   with what is there now: it raises an alarm if that changes again;
+/// - keepAndStop: ends with what is safe, a valid but coarser T.
 enum class Answer { retry, skip, keepAndStop };
 
 /// Asked while the measurement waits. Empty: nobody is there; the measurement stops with Error{device} after

@@ -70,16 +70,17 @@ double colourFactor(double relativeThreshold) {
   return relativeThreshold > 0.0 ? std::pow(relativeThreshold / usual, power) : 1.0;
 }
 
-std::size_t lightCount(const AcquisitionSettings& settings) {
-  return settings.colours == LitColours::white ? 1 : 3;
+std::vector<PatternRange> levelPatterns(const Rasters& projectors, const AcquisitionSettings& settings,
+                                        std::span<const int> known) {
+  std::size_t lights = settings.colours == LitColours::white ? 1 : 3;
+  return levelPatterns(projectors, lights, known, colourFactor(settings.relativeThreshold));
 }
 
 WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t exposures,
                   double meanExposure, const AcquisitionSettings& settings, const ShotTimes& benchmark,
                   const AcquisitionState& state) {
   auto devices = static_cast<double>(projectors.devices());
-  std::vector<PatternRange> levels =
-      levelPatterns(projectors, lightCount(settings), state.levels, colourFactor(settings.relativeThreshold));
+  std::vector<PatternRange> levels = levelPatterns(projectors, settings, state.levels);
 
   // Everything that is not the tree: references, the first look, the test patterns.
   double references = settings.references * (1.0 + 3.0 * devices) + devices + 2.0;

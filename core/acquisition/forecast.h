@@ -30,8 +30,9 @@ std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t l
 /// to 0.02: a factor of 0.44 to 0.58 each, and 1.18 to 1.34 at 0.006 (README).
 double colourFactor(double relativeThreshold);
 
-/// Lights in which every pattern is shown, one after the other.
-std::size_t lightCount(const AcquisitionSettings& settings);
+/// The same with the lights and the threshold of settings.
+std::vector<PatternRange> levelPatterns(const Rasters& projectors, const AcquisitionSettings& settings,
+                                        std::span<const int> known);
 
 /// Where an acquisition stands.
 struct AcquisitionState {

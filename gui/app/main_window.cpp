@@ -12,6 +12,7 @@
 #include "app/failure_dialog.h"
 #include "app/help_window.h"
 #include "app/settings_dialog.h"
+#include "calibration/calibration_folder.h"
 #include "theme/quiet_wheel.h"
 #include "theme/theme.h"
 
@@ -22,7 +23,7 @@ namespace {
 QString calibrationIn(const QMimeData& data) {
   if (data.urls().size() != 1) return {};
   QFileInfo file(data.urls().first().toLocalFile());
-  return file.isDir() || file.fileName() == "calibration.relucent" ? file.filePath() : QString();
+  return file.isDir() || file.fileName() == CalibrationFolder::manifestName ? file.filePath() : QString();
 }
 
 }  // namespace

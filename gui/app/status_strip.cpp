@@ -5,8 +5,8 @@
 #include <QDir>
 #include <QGuiApplication>
 #include <QLocale>
-#include <QStorageInfo>
 
+#include "jobs/free_space.h"
 #include "output/window_projector.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -79,8 +79,7 @@ void StatusStrip::refresh() {
   if (!session_.isOpen()) {
     projector_->setText(tr("none chosen"));
     camera_->setText(tr("none chosen"));
-    disk_->setText(tr("%1 free").arg(
-        bytesText(static_cast<std::uint64_t>(QStorageInfo(QDir::homePath()).bytesAvailable()))));
+    disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(QDir::homePath()))));
     saved_->clear();
     return;
   }
@@ -89,9 +88,8 @@ void StatusStrip::refresh() {
   if (const ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
   camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));
-  QString folder = QString::fromStdString(session_.path().string());
-  disk_->setText(
-      tr("%1 free").arg(bytesText(static_cast<std::uint64_t>(QStorageInfo(folder).bytesAvailable()))));
+  const QString folder = QString::fromStdString(session_.path().string());
+  disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
   QString latest;
   for (Step step : allSteps)
     if (const auto& result = session_.result(step))

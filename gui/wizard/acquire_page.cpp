@@ -92,8 +92,7 @@ QString AcquirePage::hint() const {
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
   if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
-  if (session_.progress(Step::acquisition) == StepProgress::done)
-    return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
+  if (isDone()) return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const auto patterns = static_cast<int>(work->shots);
@@ -107,7 +106,7 @@ QString AcquirePage::hint() const {
 Command AcquirePage::primary() const {
   auto* self = const_cast<AcquirePage*>(this);
   if (isLeaving()) return {tr("Start now"), Icon::play, true, {}, [self] { self->begin(); }};
-  if (isMeasuring() || session_.progress(Step::acquisition) == StepProgress::done)
+  if (isMeasuring() || isDone())
     return {tr("Show threshold"), Icon::next, !isMeasuring(), {}, [self] { Q_EMIT self->nextWanted(); }};
   return {kept_ > 0 ? tr("Resume") : tr("Start measuring"),
           Icon::play,

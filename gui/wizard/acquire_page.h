@@ -87,8 +87,7 @@ class AcquirePage : public DevicePage {
   /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
   std::vector<BlockLevel> levels() const;
   std::uint64_t freeBytes() const;
-  /// Linear, of the shown camera, 1 at nearly its brightest: as last photographed or as measured. Empty: not
-  /// yet.
+  /// Linear, of the shown camera: as last photographed or as measured. Empty: not yet.
   Image floodlight() const;
   /// Another number, another picture; 0: none.
   int floodlightNumber() const;

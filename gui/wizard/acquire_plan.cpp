@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the page of acquisition knows before it measures: what it will take, and what it will look at.
-#include <QStorageInfo>
-#include <algorithm>
 #include <numeric>
+#include <utility>
 
-#include "transport/node_layout.h"
+#include "jobs/free_space.h"
 #include "wizard/acquire_page.h"
 
 namespace relucent {
-namespace {
-
-// Share of the samples that may be brighter than white in a picture of the floodlight image: gloss, lamps.
-constexpr double brighterThanWhite = 0.01;
-
-/// Linear, 1 at nearly the brightest.
-Image brightened(Image linear) {
-  std::vector<float> sorted = linear.data();
-  if (sorted.empty()) return linear;
-  auto place = sorted.begin() + static_cast<std::ptrdiff_t>((1.0 - brighterThanWhite) *
-                                                            static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), place, sorted.end());
-  if (!(*place > 0.0f)) return linear;
-  for (float& value : linear.data()) value /= *place;
-  return linear;
-}
-
-}  // namespace
 
 std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& settings) const {
   if (!response_ || response_->exposures.empty()) return std::nullopt;
@@ -47,9 +28,8 @@ std::vector<BlockLevel> AcquirePage::levels() const {
   const AcquisitionTrace::Growth growth = trace_.growth();
   // Of an earlier session only the sum is on record.
   if (isDone() && growth.levels.empty()) return {};
-  const AcquisitionSettings& settings = session_.settings().acquisition;
-  std::vector<PatternRange> patterns = levelPatterns(projectors, lightCount(settings), growth.levels,
-                                                     colourFactor(settings.relativeThreshold));
+  std::vector<PatternRange> patterns =
+      levelPatterns(projectors, session_.settings().acquisition, growth.levels);
   std::vector<BlockLevel> levels;
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     BlockLevel level{1 << (patterns.size() - 1 - i), patterns[i]};
@@ -64,8 +44,7 @@ std::vector<BlockLevel> AcquirePage::levels() const {
 }
 
 std::uint64_t AcquirePage::freeBytes() const {
-  const QString folder = QString::fromStdString(session_.path().string());
-  return static_cast<std::uint64_t>(std::max<qint64>(0, QStorageInfo(folder).bytesAvailable()));
+  return freeBytesAt(QString::fromStdString(session_.path().string()));
 }
 
 bool AcquirePage::isDone() const {
@@ -83,15 +62,10 @@ int AcquirePage::floodlightNumber() const {
 }
 
 Image AcquirePage::floodlight() const {
-  if (floodlightNumber() > 0) return brightened(session_.live().floodlight(camera()).signal);
+  if (floodlightNumber() > 0) return session_.live().floodlight(camera()).signal;
   auto measured = session_.acquisition();
-  if (!measured) return {};
-  const Rasters& cameras = measured->transport.cameras();
-  if (camera() >= cameras.devices()) return {};
-  Image linear(cameras.size(camera()), 3);
-  const auto first = measured->flood.begin() + static_cast<std::ptrdiff_t>(3 * cameras.offset(camera()));
-  std::copy_n(first, linear.data().size(), linear.data().begin());
-  return brightened(std::move(linear));
+  if (!measured || camera() >= measured->transport.cameras().devices()) return {};
+  return imageFromStack(measured->flood, measured->transport.cameras(), camera());
 }
 
 void AcquirePage::setSecondsToLeave(int seconds) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "jobs/time_left.h"
+#include "pipeline/pictures.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
@@ -143,7 +144,8 @@ QWidget* floodlightCard(AcquirePage& model) {
     card->setVisible(!model.isMeasuring());
     const auto wanted = std::pair(model.floodlightNumber(), model.camera());
     if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
-    view->setPicture(wanted.first == 0 ? QImage() : pictureOf(model.floodlight(), 1.0f));
+    const Image flood = wanted.first == 0 ? Image() : model.floodlight();
+    view->setPicture(flood.empty() ? QImage() : pictureOf(flood, displayWhite(flood)));
   };
   QObject::connect(&model, &AcquirePage::changed, card, refresh);
   refresh();

@@ -5,12 +5,13 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
+#include "calibration/calibration_folder.h"
 #include "views/number_text.h"
 
 namespace relucent {
 namespace {
 
-const QString manifestName = "calibration.relucent";
+const QString manifestName = CalibrationFolder::manifestName;
 
 QString sizeText(Size size) {
   return relucent::sizeText(size.width, size.height);

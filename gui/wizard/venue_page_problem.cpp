@@ -3,9 +3,9 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QGuiApplication>
-#include <QStorageInfo>
 
 #include "acquisition/forecast.h"
+#include "jobs/free_space.h"
 #include "views/number_text.h"
 #include "wizard/venue_page.h"
 
@@ -21,10 +21,7 @@ bool hasOneScreen() {
 }  // namespace
 
 std::uint64_t VenuePage::freeBytes() const {
-  QString existing = parent_;
-  while (!QFileInfo::exists(existing) && existing != QDir(existing).absolutePath().section('/', 0, 0))
-    existing = QFileInfo(existing).path();
-  return static_cast<std::uint64_t>(std::max<qint64>(0, QStorageInfo(existing).bytesAvailable()));
+  return freeBytesAt(parent_);
 }
 
 CalibrateSettings VenuePage::wanted() const {

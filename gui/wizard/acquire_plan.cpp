@@ -8,23 +8,27 @@
 
 namespace relucent {
 
+Rasters AcquirePage::projectorRasters() const {
+  std::vector<Size> sizes;
+  for (std::size_t i = 0; i < session_.projectors(); ++i) sizes.push_back(session_.projectorSize(i));
+  return Rasters(std::move(sizes));
+}
+
 std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& settings) const {
   if (!response_ || response_->exposures.empty()) return std::nullopt;
   const std::vector<double>& exposures = response_->exposures;
   const double mean =
       std::accumulate(exposures.begin(), exposures.end(), 0.0) / static_cast<double>(exposures.size());
-  const Size projector = session_.projectorSize();
-  if (projector.empty()) return std::nullopt;
+  const Rasters projectors = projectorRasters();
+  if (projectors.count() == 0) return std::nullopt;
   // Photographs are counted, not their pixels.
-  return relucent::forecast(Rasters(projector), Rasters(projector), exposures.size(), mean, settings,
-                            response_->times, {});
+  const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
+  return relucent::forecast(cameras, projectors, exposures.size(), mean, settings, response_->times, {});
 }
 
 std::vector<BlockLevel> AcquirePage::levels() const {
-  if (session_.projectorSize().empty()) return {};
-  std::vector<Size> sizes;
-  for (std::size_t i = 0; i < session_.projectors(); ++i) sizes.push_back(session_.projectorSize(i));
-  const Rasters projectors(sizes);
+  const Rasters projectors = projectorRasters();
+  if (projectors.count() == 0) return {};
   const AcquisitionTrace::Growth growth = trace_.growth();
   // Of an earlier session only the sum is on record.
   if (isDone() && growth.levels.empty()) return {};

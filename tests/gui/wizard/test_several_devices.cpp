@@ -135,6 +135,19 @@ class TestSeveralDevices : public QObject {
     QCOMPARE(page.response()->channels[0](0.5), 0.1);
   }
 
+  void theForecastCountsThemAll() {
+    AcquirePage page(*session_);
+    session_->reload();
+    auto of = [](const Rasters& seen, const Rasters& lit) {
+      return forecast(seen, lit, 1, 0.01, AcquisitionSettings(), {}, {});
+    };
+    const std::optional<WorkLeft> expected = page.expected();
+    QVERIFY(expected.has_value());
+    QCOMPARE(expected->shots, of(cameras, projectors).shots);
+    QCOMPARE(expected->exposures, of(cameras, projectors).exposures);
+    QVERIFY(expected->shots > of(cameras.size(0), projectors.size(0)).shots);
+  }
+
   void eachDeviceHasItsLivePicture() {
     session_->reload();
     LinearizePage linearize(*session_);

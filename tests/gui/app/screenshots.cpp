@@ -153,9 +153,14 @@ int main(int argc, char** argv) {
   photographs.take("00-start");
   Wizard& steps = wizard.wizard();
   steps.go(1);
-  if (!wizard.camera().look()) until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
+  // Exposures that were kept before are not looked for again.
+  const bool isDecided = wizard.session().result(Step::camera).has_value();
+  if (!isDecided) until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
   photographs.take("02-camera");
-  if (!wizard.session().result(Step::camera)) wizard.camera().primary().run();
+  if (isDecided)
+    steps.go(2);
+  else
+    wizard.camera().primary().run();
   until([&] { return wizard.session().busy().isEmpty() && steps.current() == 2; });
   photographs.take("03-linearize");
   steps.go(3);

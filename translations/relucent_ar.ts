@@ -1107,6 +1107,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>⁨{} %⁩ من بكسلات الكاميرا ترى في أنماط الاختبار غير المتوقَّع: تحقق من أن شيئًا لم يتحرك أو يرتعش</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>لا وجود لكاميرا بحجم ⁨{}x{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>لا وجود لجهاز عرض بحجم ⁨{}x{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>ينقص أمرَ الكاميرا ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>أمر الكاميرا فارغ</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>ينقص أمرَ جهاز العرض ⁨{}⁩</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>أمر جهاز العرض فارغ</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>يجب أن يكون أقصر تعريض أكبر من الصفر وألا يتجاوز أطوله</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

@@ -1099,6 +1099,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>{} % der Kamerapixel sehen in den Testmustern etwas anderes als vorhergesagt: Prüfen Sie, dass sich nichts bewegt und nichts geflackert hat</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>eine Kamera mit {}x{} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>einen Projektor mit {}x{} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>im Befehl der Kamera fehlt {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>der Befehl der Kamera ist leer</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>im Befehl des Projektors fehlt {}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>der Befehl des Projektors ist leer</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>die kürzeste Belichtung muss größer als null und nicht länger als die längste sein</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

@@ -1099,6 +1099,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>el {} % de los píxeles de la cámara ve algo distinto de lo previsto en los patrones de prueba: compruebe que nada se movió ni parpadeó</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>una cámara de {}x{} píxeles es imposible: cada lado tiene de {} a {}</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>un proyector de {}x{} píxeles es imposible: cada lado tiene de {} a {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>en la orden de la cámara falta {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>la orden de la cámara está vacía</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>en la orden del proyector falta {}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>la orden del proyector está vacía</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>la exposición más corta debe ser mayor que cero y no superar la más larga</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

@@ -1099,6 +1099,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>{}&#x202f;% des pixels de la caméra voient autre chose que prévu dans les motifs de test&#x202f;: vérifiez que rien n’a bougé ni scintillé</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>une caméra de {}x{} pixels est impossible : chaque côté en a {} à {}</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>un projecteur de {}x{} pixels est impossible : chaque côté en a {} à {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>la commande de la caméra ne contient pas {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>la commande de la caméra est vide</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>la commande du projecteur ne contient pas {}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>la commande du projecteur est vide</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>le temps de pose le plus court doit être supérieur à zéro et ne pas dépasser le plus long</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

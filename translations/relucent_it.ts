@@ -1099,6 +1099,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>il {} % dei pixel della fotocamera vede qualcosa di diverso dal previsto nei pattern di prova: controllare che nulla si sia mosso o abbia sfarfallato</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>una fotocamera di {}x{} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>un proiettore di {}x{} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>nel comando della fotocamera manca {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>il comando della fotocamera è vuoto</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>nel comando del proiettore manca {}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>il comando del proiettore è vuoto</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>l’esposizione più breve deve essere maggiore di zero e non superare la più lunga</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

@@ -1097,6 +1097,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>カメラ画素の {} % がテストパターンで予測と異なるものを見ています：何も動いたりちらついたりしていないか確認してください</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>{}x{} 画素のカメラはありえません：各辺は {}～{} です</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>{}x{} 画素のプロジェクターはありえません：各辺は {}～{} です</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>カメラのコマンドに {} がありません</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>カメラのコマンドが空です</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>プロジェクターのコマンドに {} がありません</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>プロジェクターのコマンドが空です</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>最短の露出は 0 より大きく、最長の露出以下でなければなりません</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

@@ -1097,6 +1097,34 @@
         <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
         <translation>{} % 的相机像素在测试图案中看到的与预测不符：请检查是否有东西移动或闪烁</translation>
     </message>
+    <message>
+        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>不可能有 {}x{} 像素的相机：每边为 {} 至 {}</translation>
+    </message>
+    <message>
+        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
+        <translation>不可能有 {}x{} 像素的投影机：每边为 {} 至 {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>相机的命令中缺少 {}</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>相机的命令为空</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>投影机的命令中缺少 {}</translation>
+    </message>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>投影机的命令为空</translation>
+    </message>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>最短曝光必须大于零且不长于最长曝光</translation>
+    </message>
 </context>
 <context>
     <name>Duration</name>

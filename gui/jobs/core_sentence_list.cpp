@@ -8,6 +8,7 @@ namespace relucent {
 namespace {
 
 constexpr std::array sentences{
+    QT_TRANSLATE_NOOP("Core", "a camera of {}x{} pixels is impossible: each side is {} to {}"),
     QT_TRANSLATE_NOOP("Core",
                       "a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels "
                       "and turned by {} degrees"),
@@ -19,6 +20,7 @@ constexpr std::array sentences{
     QT_TRANSLATE_NOOP("Core", "a photograph cannot be removed ({})"),
     QT_TRANSLATE_NOOP("Core", "a photograph of {}x{} pixels as {} came with {} of {} bytes"),
     QT_TRANSLATE_NOOP("Core", "a photograph was asked for and none came"),
+    QT_TRANSLATE_NOOP("Core", "a projector of {}x{} pixels is impossible: each side is {} to {}"),
     QT_TRANSLATE_NOOP("Core", "aim it at the projection, take its cap off, and expose longer"),
     QT_TRANSLATE_NOOP("Core", "another program holds the camera"),
     QT_TRANSLATE_NOOP(
@@ -212,6 +214,8 @@ constexpr std::array sentences{
     QT_TRANSLATE_NOOP("Core", "the camera was asked to expose {} s and keeps to {} s"),
     QT_TRANSLATE_NOOP("Core", "the camera's battery seems to be empty ({} % when it was last asked)"),
     QT_TRANSLATE_NOOP("Core", "the camera's colour filter is no Bayer filter"),
+    QT_TRANSLATE_NOOP("Core", "the camera's command does not say {}"),
+    QT_TRANSLATE_NOOP("Core", "the camera's command is empty"),
     QT_TRANSLATE_NOOP("Core", "the camera's exposure time cannot be set"),
     QT_TRANSLATE_NOOP("Core",
                       "the camera's mode dial stands on {}, where the camera chooses exposures itself"),
@@ -263,6 +267,8 @@ constexpr std::array sentences{
                       "the projection reaches only {} % of the camera's range at {} s, the longest exposure"),
     QT_TRANSLATE_NOOP("Core", "The projector lights {} % of the camera's pixels"),
     QT_TRANSLATE_NOOP("Core", "the projector shows nothing, the room's own light is still seen"),
+    QT_TRANSLATE_NOOP("Core", "the projector's command does not say {}"),
+    QT_TRANSLATE_NOOP("Core", "the projector's command is empty"),
     QT_TRANSLATE_NOOP("Core", "the projector's light changed by {} % within a few photographs"),
     QT_TRANSLATE_NOOP("Core", "the projector's screen has {}x{} pixels now and {}x{} were calibrated"),
     QT_TRANSLATE_NOOP("Core", "the projector's screen is asleep and does not wake"),
@@ -272,6 +278,7 @@ constexpr std::array sentences{
     QT_TRANSLATE_NOOP("Core", "the recording cannot be written ({})"),
     QT_TRANSLATE_NOOP("Core", "the report cannot be written"),
     QT_TRANSLATE_NOOP("Core", "the service cannot be switched on ({})"),
+    QT_TRANSLATE_NOOP("Core", "the shortest exposure must be above zero and no longer than the longest"),
     QT_TRANSLATE_NOOP("Core", "the video device cannot be opened again"),
     QT_TRANSLATE_NOOP("Core", "the video device cannot be opened: another program may be using it"),
     QT_TRANSLATE_NOOP("Core", "the video device has been unplugged"),

@@ -5,6 +5,7 @@
 #include <QGuiApplication>
 
 #include "acquisition/forecast.h"
+#include "jobs/core_sentences.h"
 #include "jobs/free_space.h"
 #include "views/number_text.h"
 #include "wizard/venue_page.h"
@@ -79,11 +80,8 @@ VenuePage::Problem VenuePage::firstProblem() const {
                 ? tr("Only your own screen is there. Plug the projector in, and extend the desktop to it.")
                 : tr("Choose the screen that shines on the surface."),
             "screens"};
-  if (std::vector<std::string> found = problems(wanted()); !found.empty()) {
-    QString sentence = QString::fromStdString(found.front());
-    sentence[0] = sentence[0].toUpper();
-    return {sentence + '.'};
-  }
+  if (std::vector<std::string> found = problems(wanted()); !found.empty())
+    return {fullSentence(found.front())};
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)
     return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), "venue-folder"};

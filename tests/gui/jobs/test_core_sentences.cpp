@@ -371,6 +371,10 @@ class TestCoreSentences : public QObject {
         "THE VIDEO DEVICE'S AUTOMATIC FOCUS CANNOT BE SWITCHED OFF");
     row("a sentence in another", "3 attempts at a photograph failed: no photograph came within 2 s",
         "3 ATTEMPTS AT A PHOTOGRAPH FAILED: NO PHOTOGRAPH CAME WITHIN 2 S");
+    row("what a script lacks", "the projector's command does not say {image}",
+        "THE PROJECTOR'S COMMAND DOES NOT SAY {image}");
+    row("an impossible size", "a camera of 4x3 pixels is impossible: each side is 8 to 8192",
+        "A CAMERA OF 4X3 PIXELS IS IMPOSSIBLE: EACH SIDE IS 8 TO 8192");
     row("a finding about a device",
         "Projector 1: white is 18 % brighter than red, green and blue together; switch off the white segment "
         "(often called brilliant colour or bright mode) and choose a picture mode for video or sRGB",

@@ -97,6 +97,8 @@ class TestWizard : public QObject {
     CommandRigSettings script = page.script();
     script.projector = {64, 48};  // its photographs fit on any disk
     script.camera = {48, 36};
+    page.setScript(script);
+    QCOMPARE(page.problem(), QString("The projector's command is empty."));
     script.projectorCommand = "show {image}";
     script.cameraCommand = "photograph {exposure} {output}";
     page.setScript(script);

@@ -67,18 +67,13 @@ aptInstall() {
     --no-upgrade --no-remove -o DPkg::Lock::Timeout=300 "$@"
 }
 
-# The one option of the programs here that install: missing packages may bring installed ones up to date.
-mayUpgrade=
-readOptions() {
-  local option
-  for option in "$@"; do
-    [[ $option == --upgrade ]] || fail "there is no option $option; --upgrade is the only one."
-    mayUpgrade=yes
-  done
+# The programs here that install take no options.
+refuseOptions() {
+  (($# == 0)) || fail "there is no option $1; call it without any."
 }
 
-# Installs what is missing of some sections. What is there is never removed, and left as it is unless mayUpgrade:
-# a system behind its distribution's updates may lack the very versions that development files ask for.
+# Installs what is missing of some sections, as `apt install` would: with the newer versions of installed packages
+# that the missing ones ask for, named before anything is done; nothing else is upgraded and nothing is removed.
 installDependencies() {
   [[ -n $(command -v apt-get) && -n $(command -v dpkg-query) ]] ||
     fail "this is no Debian: install what packaging/dependencies names by other means and build with CMake."
@@ -97,10 +92,7 @@ installDependencies() {
   plan=$(aptInstall --simulate "${missing[@]}" 2>&1) ||
     { echo "$plan" >&2; fail "the distribution cannot install ${missing[*]} beside what is there."; }
   upgrades=$(sed -n 's/^Inst \([^ ]*\) \[.*/\1/p' <<<"$plan" | tr '\n' ' ')
-  [[ -z $upgrades || -n $mayUpgrade ]] ||
-    fail "the missing packages need newer versions of ${upgrades% }, which is for you to decide;" \
-      "run this again with --upgrade to allow it."
-  [[ -z $upgrades ]] || echo "Bringing up to date: ${upgrades% }"
+  [[ -z $upgrades ]] || echo "They need newer versions of these, which are brought up to date: ${upgrades% }"
   aptInstall "${missing[@]}" >>"$log" 2>&1 || { cat "$log" >&2; fail "installing ${missing[*]} failed."; }
 }
 

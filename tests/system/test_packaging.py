@@ -66,7 +66,7 @@ class Install(Scripted):
             somebody = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
         environment = {"PATH": f"{self.folder}/tools:/usr/bin:/bin", "STATE": str(self.state)}
         return subprocess.run(
-            ["bash", "-c", f"set -euo pipefail; source packaging/common.sh; readOptions {options}; "
+            ["bash", "-c", f"set -euo pipefail; source packaging/common.sh; refuseOptions {options}; "
              f"installDependencies {' '.join(sections)}"],
             cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
             **somebody)
@@ -109,22 +109,26 @@ class Install(Scripted):
         self.assertEqual(done.stderr.count("\n"), 1)
         self.assertRegex(done.stderr, r"missing.*apt-get install .*alpha old-name")
 
-    def test_an_upgrade_is_left_to_the_user(self):
+    def test_what_the_missing_packages_need_newer_is_named_and_brought_along(self):
         self.says(installed="old-name", sudo="", plan="Inst libc6 [2.36-9] (2.36-10 Debian),Inst alpha (1.0 Debian)")
         done = self.install("build")
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"newer versions of libc6,.*--upgrade")
-        self.assertFalse([call for call in self.calls() if "--simulate" not in call and call != "update"])
-        self.says(calls="")
-        done = self.install("build", options="--upgrade")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("up to date: libc6\n", done.stdout)
-        self.assertRegex(self.calls()[-1], r"--no-remove.* alpha$")
+        self.assertRegex(done.stdout, r"newer versions of these.*: libc6\n")
+        self.assertRegex(self.calls()[-1], r"--no-upgrade --no-remove.* alpha$")
 
-    def test_an_unknown_option_is_refused(self):
+    def test_nothing_is_done_when_the_plan_fails(self):
+        self.says(installed="old-name", sudo="")
+        tool = self.folder / "tools/apt-get"
+        tool.write_text('#!/bin/bash\necho "$*" >>"$STATE/calls"; [[ $* != *--simulate* ]]\n')
+        done = self.install("build")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "cannot install alpha beside what is there")
+        self.assertFalse([call for call in self.calls() if "--simulate" not in call and call != "update"])
+
+    def test_an_option_is_refused(self):
         done = self.install("build", options="--purge")
         self.assertEqual((done.returncode, done.stdout, self.calls()), (1, "", []))
-        self.assertRegex(done.stderr, "--purge.*--upgrade is the only one")
+        self.assertRegex(done.stderr, "no option --purge")
 
     @unittest.skipUnless(os.geteuid() == 0, "needs to be root")
     def test_root_needs_no_sudo(self):

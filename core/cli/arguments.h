@@ -8,9 +8,20 @@
 #include <vector>
 
 #include "pipeline/acquisition_bench.h"
+#include "pipeline/bench.h"
+#include "pipeline/calibrate.h"
 #include "pipeline/check.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/compensate.h"
+#include "pipeline/difference.h"
+#include "pipeline/evaluate.h"
+#include "pipeline/export.h"
+#include "pipeline/import.h"
+#include "pipeline/plan.h"
 #include "pipeline/prove.h"
+#include "pipeline/relight.h"
+#include "pipeline/report.h"
+#include "pipeline/separate.h"
+#include "pipeline/verify.h"
 
 namespace relucent {
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "devices/temporary_folder.h"
+#include "pipeline/calibrate.h"
 #include "pipeline/evaluation.h"
 
 namespace relucent {

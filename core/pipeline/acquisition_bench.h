@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "pipeline/pipeline.h"
+#include "base/raster.h"
+#include "pipeline/evaluate.h"
 
 namespace relucent {
 

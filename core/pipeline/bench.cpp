@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/bench.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,7 +16,6 @@
 #include "compensation/ridge_choice.h"
 #include "engine/bench/bench_transport.h"
 #include "engine/bench/engine_bench.h"
-#include "pipeline/pipeline.h"
 
 namespace relucent {
 namespace {

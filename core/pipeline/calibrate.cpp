@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/calibrate.h"
+
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/measuring.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/stages.h"
 
 namespace relucent {

@@ -2,6 +2,7 @@
 #include "pipeline/check.h"
 
 #include "devices/test_exposure.h"
+#include "pipeline/calibrate_settings.h"
 #include "pipeline/devices.h"
 
 namespace relucent {

@@ -3,10 +3,11 @@
 
 #include <filesystem>
 
+#include "base/progress.h"
 #include "devices/latency.h"
 #include "devices/light_check.h"
 #include "devices/screen_proof.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/rig_settings.h"
 
 namespace relucent {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/compensate.h"
+
 #include <algorithm>
 
 #include "base/error.h"
@@ -12,7 +14,6 @@
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/pictures.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/projection.h"
 
 namespace relucent {

@@ -9,7 +9,7 @@
 
 #include "base/progress.h"
 #include "devices/screen_rig.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/rig_settings.h"
 #include "rig/rig.h"
 #include "transport/transport_matrix.h"
 #include "venue/venue.h"

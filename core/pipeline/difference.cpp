@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/difference.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +8,6 @@
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/pictures.h"
-#include "pipeline/pipeline.h"
 
 namespace relucent {
 namespace fs = std::filesystem;

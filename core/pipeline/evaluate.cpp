@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/evaluate.h"
+
 #include <cmath>
 #include <numeric>
 

@@ -10,8 +10,8 @@
 
 #include "compensation/methods.h"
 #include "image/image.h"
+#include "pipeline/evaluate.h"
 #include "pipeline/measured_venue.h"
-#include "pipeline/pipeline.h"
 
 namespace relucent {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/export.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +8,6 @@
 #include "base/file.h"
 #include "image/exr.h"
 #include "pipeline/measured_venue.h"
-#include "pipeline/pipeline.h"
 #include "transport/files.h"
 
 namespace relucent {

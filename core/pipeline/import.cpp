@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/import.h"
+#include "pipeline/import.h"
 
 #include <algorithm>
 #include <set>
@@ -15,7 +15,6 @@
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/photograph_sequence.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
 

@@ -5,8 +5,8 @@
 #include "compensation/methods.h"
 #include "devices/temporary_folder.h"
 #include "inverse/cluster_inverse.h"
+#include "pipeline/calibrate.h"
 #include "pipeline/evaluation.h"
-#include "pipeline/pipeline.h"
 
 namespace relucent {
 namespace {

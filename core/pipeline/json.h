@@ -4,9 +4,18 @@
 #include "calibration/json.h"
 
 #include "pipeline/acquisition_bench.h"
+#include "pipeline/bench.h"
+#include "pipeline/calibrate.h"
+#include "pipeline/compensate.h"
+#include "pipeline/difference.h"
+#include "pipeline/evaluate.h"
+#include "pipeline/import.h"
 #include "pipeline/inverse_bench.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/prove.h"
+#include "pipeline/separate.h"
+#include "pipeline/verify.h"
+#include "pipeline/written_files.h"
+#include "venue/venue.h"
 
 namespace relucent {
 

@@ -7,7 +7,7 @@
 #include "compensation/target.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate.h"
 
 namespace relucent {
 

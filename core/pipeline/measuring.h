@@ -4,7 +4,8 @@
 #include "acquisition/observer.h"
 #include "calibration/calibration_folder.h"
 #include "linearization/linearization.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate_settings.h"
+#include "pipeline/measured_venue.h"
 #include "rig/rig.h"
 
 /// The stages of calibrate() one by one, for whoever looks at each result before the next is begun. Every one

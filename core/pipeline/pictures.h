@@ -6,7 +6,7 @@
 
 #include "base/raster.h"
 #include "image/image.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/written_files.h"
 
 namespace relucent {
 

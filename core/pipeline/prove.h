@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/pipeline.h"
+#include "base/progress.h"
+#include "compensation/target.h"
+#include "pipeline/rig_settings.h"
+#include "rig/rig.h"
 
 namespace relucent {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/relight.h"
+
 #include <algorithm>
 
 #include "base/error.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/pictures.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/projection.h"
 
 namespace relucent {

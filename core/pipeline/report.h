@@ -8,12 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "calibration/json.h"
 #include "compensation/ridge_choice.h"
 #include "image/image.h"
 #include "linearization/linearization.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate.h"
+#include "pipeline/evaluate.h"
 #include "pipeline/versions.h"
+#include "pipeline/written_files.h"
 
 namespace relucent {
 
@@ -69,5 +72,19 @@ std::string reportHtml(const ReportData& data);
 
 /// Writes reportHtml() atomically. Throws: Error{disk}.
 void writeReport(const std::filesystem::path& path, const ReportData& data);
+
+struct ReportSettings {
+  std::filesystem::path out;                  // the HTML file; empty: report.html in the calibration folder
+  std::vector<std::filesystem::path> images;  // content shown before and after; none: the product's own
+  bool evaluate = true;          // simulated venues: a table of methods through the true transport
+  std::filesystem::path bundle;  // a .zip for whoever helps, support_bundle.h; empty: none
+  bool photographs = false;      // also what shows the venue is in that
+  std::vector<std::filesystem::path> attachments;  // files put into that, where they exist: logs
+  std::vector<LibraryVersion> libraries;           // named in the report; none: core's
+};
+
+/// One self-contained HTML file about a calibration.
+WrittenFiles report(const std::filesystem::path& folder, const ReportSettings& settings,
+                    const std::filesystem::path& cache, Progress& progress);
 
 }  // namespace relucent

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/separate.h"
+
 #include <algorithm>
 #include <optional>
 
@@ -8,7 +10,6 @@
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/pictures.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/projection.h"
 
 namespace relucent {

@@ -3,8 +3,14 @@
 
 #include "compensation/solver.h"
 #include "devices/device_address.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate_settings.h"
+#include "pipeline/compensate.h"
+#include "pipeline/evaluate.h"
+#include "pipeline/export.h"
+#include "pipeline/import.h"
 #include "pipeline/prove.h"
+#include "pipeline/relight.h"
+#include "pipeline/verify.h"
 
 namespace relucent {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/json.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate_settings.h"
 
 namespace relucent {
 

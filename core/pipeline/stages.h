@@ -4,7 +4,7 @@
 #include <string>
 
 #include "calibration/calibration_folder.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate_settings.h"
 
 namespace relucent {
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "pipeline/pipeline.h"
 #include "pipeline/report.h"
 
 namespace relucent {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/verify.h"
+
 #include "base/error.h"
 #include "base/file.h"
 #include "base/stopwatch.h"
 #include "calibration/results.h"
 #include "image/exr.h"
 #include "pipeline/devices.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/stages.h"
 
 namespace relucent {

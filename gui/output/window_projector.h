@@ -9,7 +9,7 @@
 
 #include "devices/screen_rig.h"
 #include "output/screen_identity.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/rig_settings.h"
 
 namespace relucent {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/pipeline.h"
+#include "pipeline/rig_settings.h"
 
 namespace relucent {
 

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "handover/report_pdf.h"
 #include "image/exr.h"
+#include "pipeline/report.h"
 #include "wizard/proof_file.h"
 
 namespace relucent {

@@ -7,6 +7,7 @@
 
 #include "jobs/job.h"
 #include "pipeline/prove.h"
+#include "pipeline/verify.h"
 #include "wizard/session.h"
 
 namespace relucent {

@@ -4,7 +4,7 @@
 #include <QString>
 #include <vector>
 
-#include "pipeline/pipeline.h"
+#include "pipeline/rig_settings.h"
 
 namespace relucent {
 

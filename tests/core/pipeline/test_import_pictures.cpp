@@ -10,7 +10,11 @@
 #include "image/color.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/compensate.h"
+#include "pipeline/evaluate.h"
+#include "pipeline/import.h"
+#include "pipeline/plan.h"
+#include "pipeline/relight.h"
 #include "support/dng.h"
 #include "support/scripted_rig.h"
 

@@ -12,9 +12,16 @@
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/acquisition_bench.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate.h"
+#include "pipeline/compensate.h"
+#include "pipeline/difference.h"
+#include "pipeline/evaluate.h"
+#include "pipeline/export.h"
 #include "pipeline/prove.h"
+#include "pipeline/relight.h"
+#include "pipeline/separate.h"
 #include "pipeline/standard_images.h"
+#include "pipeline/verify.h"
 #include "transport/files.h"
 
 using namespace relucent;

@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "image/picture_files.h"
+#include "pipeline/calibrate.h"
+#include "pipeline/compensate.h"
+#include "pipeline/evaluate.h"
 #include "pipeline/measured_venue.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/prove.h"
 #include "pipeline/standard_images.h"
 

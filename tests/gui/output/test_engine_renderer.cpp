@@ -9,8 +9,9 @@
 
 #include "calibration/calibration_folder.h"
 #include "image/picture_files.h"
+#include "pipeline/calibrate.h"
+#include "pipeline/compensate.h"
 #include "pipeline/pictures.h"
-#include "pipeline/pipeline.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;

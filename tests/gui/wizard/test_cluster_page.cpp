@@ -11,7 +11,7 @@
 #include "calibration/results.h"
 #include "clustering/grouping.h"
 #include "core/inverse/synthetic_transport.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate_settings.h"
 
 using namespace relucent;
 

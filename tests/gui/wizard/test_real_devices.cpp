@@ -16,6 +16,7 @@
 #include "devices/genicam_driver.h"
 #include "gui/output/two_screens.h"
 #include "output/window_projector.h"
+#include "pipeline/evaluate.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/measuring.h"
 #include "support/fake_gige_camera.h"

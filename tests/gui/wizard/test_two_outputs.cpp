@@ -5,7 +5,7 @@
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/calibrate.h"
 #include "wizard/output_page.h"
 
 using namespace relucent;

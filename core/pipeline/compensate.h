@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "compensation/target.h"
+
+namespace relucent {
+
+struct CompensateSettings {
+  std::filesystem::path image;     // content, sRGB file or linear EXR
+  std::string method = "refined";  // a name from methodDescriptions
+  std::string solver = "fista";    // of `optimum`: a name of SolverSettings::Algorithm
+  TargetSettings target;
+  std::filesystem::path out;  // folder; created; files of the same names are replaced
+};
+std::vector<std::string> problems(const CompensateSettings& settings);
+
+struct CompensateResult {
+  std::string method;
+  double psnrPredicted = 0.0;  // dB, prediction against target where reachable
+  double clipped = 0.0;        // share of drive values at 0 or 1
+  double reachable = 0.0;      // share of the content's camera pixels
+  double seconds = 0.0;        // solving alone
+  std::vector<std::filesystem::path> files;
+  double deltaE = 0.0;  // mean CIEDE2000, prediction against target over the whole content
+  std::map<std::string, double> uncorrectable{};  // reason -> share of the content's pixels
+};
+
+/// Computes the pattern that makes the venue look like an image, and what the camera should then see.
+/// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr (camera signal per
+/// second), target.png, predicted.png (to look at), delta_e.exr (CIEDE2000) and uncorrectable.exr, .png (the
+/// number of its reason a pixel, see Uncorrectable; colours) into `out`.
+CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
+                            Progress& progress);
+
+}  // namespace relucent

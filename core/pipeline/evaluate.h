@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/raster.h"
+#include "compensation/methods.h"
+#include "compensation/target.h"
+
+namespace relucent {
+
+struct EvaluateSettings {
+  std::vector<std::filesystem::path> images;  // none: the product's own test pictures
+  std::vector<std::string> methods;           // none: all of them
+  TargetSettings target;
+  CompensatorSettings compensator;
+};
+std::vector<std::string> problems(const EvaluateSettings& settings);
+
+/// How well one method did on one image, through the venue's true transport.
+struct MethodScore {
+  std::string method;
+  double psnrReachable = 0.0;  // dB, linear light, peak = the target's white
+  double psnrAll = 0.0;
+  double ssim = 0.0;
+  double deltaE = 0.0;   // mean CIEDE2000
+  double seconds = 0.0;  // for one frame
+};
+
+struct ImageScore {
+  std::string name;
+  double reachable = 0.0;  // share of this image's pixels
+  std::vector<MethodScore> methods;
+};
+
+/// How well T itself was measured; relative errors.
+struct TransportScore {
+  double frobenius = 0.0;
+  double rowMedian = 0.0;
+  double rowP95 = 0.0;
+  double relightNatural = 0.0;
+  double relightRandom = 0.0;
+  double energy = 0.0;  // of T 1 over the truth's; 1: all light, and none twice
+};
+
+struct EvaluateResult {
+  std::string venue;
+  Size projector;
+  Size camera;
+  double reachable = 0.0;  // mean over images
+  TransportScore transport;
+  std::vector<ImageScore> images;
+};
+
+/// Compares every method through the true transport of the simulated venue that was calibrated.
+/// Throws: Error{input} if the calibration is of a real venue: its truth is not known.
+EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSettings& settings,
+                        const std::filesystem::path& cache, Progress& progress);
+
+}  // namespace relucent

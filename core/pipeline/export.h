@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "pipeline/written_files.h"
+
+namespace relucent {
+
+struct ExportSettings {
+  std::filesystem::path transport;  // T as SciPy BSR, 3x3 blocks, expanded to pixels; empty: not wanted
+  std::filesystem::path leaves;   // T as it is kept: a column for every node of the projectors' mean pyramids
+  std::filesystem::path inverse;  // the inverse operator, SciPy BSR, 3x3 blocks; empty: not wanted
+  std::filesystem::path maps;     // folder for black, flood, reachability, flags as EXR; empty: not wanted
+  std::uint64_t mostBytes = std::uint64_t{2} << 30;  // of `transport`, see expandedToPixels()
+};
+std::vector<std::string> problems(const ExportSettings& settings);
+
+/// Writes the measured data for other programs.
+WrittenFiles exportCalibration(const std::filesystem::path& folder, const ExportSettings& settings,
+                               Progress& progress);
+
+}  // namespace relucent

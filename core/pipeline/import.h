@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "acquisition/import.h"
+#include "base/progress.h"
+#include "base/raster.h"
+
+namespace relucent {
+
+struct ImportPicturesSettings {
+  std::filesystem::path patterns;  // folder of pictures: what was projected, in the projector's own pixels
+  /// Folder of pictures: linear signals, one for each pattern; JPEG is decoded by the curve of sRGB. Raw
+  /// files give the sensor's own values at half its size; of a photograph that is there twice the raw file
+  /// counts.
+  std::filesystem::path photographs;
+  ImportSettings import;
+};
+std::vector<std::string> problems(const ImportPicturesSettings& settings);
+
+struct ImportResult {
+  int patterns = 0;
+  int fitted = 0;
+  int heldOut = 0;
+  HeldOutError error;  // on held-out patterns, normalised root mean square
+  Size projector;
+  Size camera;
+  std::uint64_t leaves = 0;
+  double flaggedShare = 0.0;
+  double seconds = 0.0;
+  std::uint64_t peakMemoryBytes = 0;
+  std::vector<std::string> findings;
+};
+
+/// A new calibration out of patterns and photographs taken elsewhere, paired in the order of their names, or
+/// in the order in which raw files were taken (photograph_sequence.h); files that are no pictures are passed
+/// over. Nothing is written before everything is computed. Throws:
+/// Error{input} if the folders hold different numbers of pictures or pictures of different sizes, if `folder`
+/// holds anything already, or as importTransport(); Error{disk, format} for unreadable files.
+ImportResult importPictures(const std::filesystem::path& folder, const ImportPicturesSettings& settings,
+                            Progress& progress);
+
+}  // namespace relucent

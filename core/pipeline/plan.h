@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "acquisition/pattern_plan.h"
+#include "base/progress.h"
+#include "pipeline/written_files.h"
+
+namespace relucent {
+
+/// Writes the patterns of planPatterns() as numbered PNG files for cameras that nothing connects to the
+/// projector, with plan.json (what each is) and instructions.txt (how to photograph them). The folder can be
+/// given to importPictures() as it is.
+/// Throws: Error{input} if `out` holds pictures already; Error{disk}; Cancelled.
+WrittenFiles exportPlan(const PatternPlanSettings& settings, const std::filesystem::path& out,
+                        Progress& progress);
+
+}  // namespace relucent

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/raster.h"
+#include "venue/venue.h"
+
+namespace relucent {
+
+/// External programs as devices: anybody's camera by script.
+/// {image} in the projector's command is the file to show; {exposure} in the camera's command is the time
+/// in seconds, {output} the file to write (float EXR, 16-bit PNG or TIFF, or 8-bit).
+struct CommandRigSettings {
+  std::string projectorCommand;
+  std::string cameraCommand;
+  Size projector;
+  std::optional<Size> camera;      // none: the size of the first photograph
+  double shortestExposure = 1e-3;  // seconds
+  double longestExposure = 4.0;    // seconds
+  /// A camera that Relucent drives itself, by its address (devices/device_address.h), in place of the
+  /// camera's command and exposures.
+  std::string cameraAddress{};
+  double latency = 0.0;  // seconds from the end of the projector's command until its picture is out
+  std::string record{};  // folder for all that is shown and photographed (devices/recording.h); empty: none
+  /// Pictures a second of the projector: exposures become whole pictures (devices/whole_frames.h). 0: as they
+  /// are asked for.
+  double frameRate = 0.0;
+};
+
+/// A screen of the desktop as projector, and any camera by its address. Opened by whoever has windows
+/// (pipeline/devices.h).
+struct ScreenRigSettings {
+  /// What the screen is known by after it was unplugged: its maker's names where it tells them, else where it
+  /// is plugged in.
+  struct Display {
+    std::string connector;  // "HDMI-1"
+    std::string manufacturer, model, serialNumber;
+    bool operator==(const Display&) const = default;
+  };
+  Display display;
+  Size projector;                  // the screen's own pixels
+  double frameRate = 60.0;         // pictures a second: exposures are whole pictures
+  std::string cameraAddress{};     // devices/device_address.h; empty: not chosen yet
+  std::optional<Size> camera{};    // none: all that it has
+  double shortestExposure = 1e-3;  // seconds; of external programs, which cannot be asked
+  double longestExposure = 4.0;
+  double latency = 0.0;  // seconds from the swap until the picture is out; 0: measured at the step Camera
+};
+
+/// A recording in place of devices (devices/recording.h).
+struct ReplayRigSettings {
+  std::string folder;
+};
+
+/// No devices: patterns and photographs of them that were taken elsewhere.
+struct ImportedRigSettings {
+  Size projector;  // of the patterns
+  Size camera;     // of the photographs
+  int pictures = 0;
+  std::string patterns;  // folders that they were read from
+  std::string photographs;
+  std::string fingerprint;  // of all pictures' files
+};
+
+/// How the rig is made: a simulated venue, external programs, a screen of the desktop, a recording, or none
+/// at all.
+using RigSettings = std::variant<VenueSettings, CommandRigSettings, ImportedRigSettings, ReplayRigSettings,
+                                 ScreenRigSettings>;
+
+}  // namespace relucent

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace relucent {
+
+/// Files that an operation wrote.
+struct WrittenFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> notes{};  // sentences that whoever reads the files should know
+};
+
+}  // namespace relucent

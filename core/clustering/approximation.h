@@ -5,7 +5,7 @@
 
 namespace relucent {
 
-/// T~ and how far it is from T.
+/// T~ and its error.
 struct Approximation {
   TransportMatrix transport;
   std::vector<float> error;  // per camera pixel, as in Clustering
@@ -17,7 +17,7 @@ struct Approximation {
 Approximation scaledToFloodlight(const ConnectionGraph& graph, const Grouping& grouping,
                                  const ClusteringSettings& settings, Progress& progress);
 
-/// The same error, and nothing stored of T~.  Throws: Cancelled.
+/// The same error, without storing T~.  Throws: Cancelled.
 std::vector<float> errorOfScaled(const ConnectionGraph& graph, const Grouping& grouping,
                                  const ClusteringSettings& settings, Progress& progress);
 

@@ -8,9 +8,9 @@
 
 namespace relucent {
 
-/// A small number for every cluster, so that clusters that touch in a map differ wherever `colours` are
-/// enough for it: greedily in the order of the clusters, the least used of the colours that no neighbour has.
-/// Neighbours are pixels above, below and beside each other in the same device.
+/// Assigns a colour number to every cluster, so that clusters that touch in a map differ if `colours`
+/// suffice: greedily in the order of the clusters, the least used colour that no neighbour has. Neighbours
+/// are pixels above, below and beside each other in the same device.
 /// `map`: per pixel a cluster or noCluster, see Clustering.  Shapes: one number a cluster.
 std::vector<std::uint8_t> clusterColours(const std::vector<std::uint32_t>& map, const Rasters& rasters,
                                          std::size_t clusters, int colours);

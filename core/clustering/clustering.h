@@ -10,22 +10,22 @@
 
 namespace relucent {
 
-/// How line 21 of Algorithm 1 scales what remains.
+/// How line 21 of Algorithm 1 scales the remaining connections.
 enum class Rescaling {
   patches,  // first each patch to its own light, in luminance; then the row to the flood image
   rows      // only the row to the flood image
 };
 
-/// When clusters are held to a size.
+/// Limits the size of clusters.
 enum class SizeCap { never, whenPercolated, always };
 
 struct ClusteringSettings {
-  // Connections dimmer than either limit are left out before Algorithm 1; the row's brightest never is.
+  // Connections dimmer than either limit are left out before Algorithm 1, except the row's brightest.
   float leastLuminance = 0.0f;  // camera signal per second
   double leastShare = 0.0;      // of the row's brightest
 
   double patchRadius = 8.0;  // thresh1: projector pixels round a patch's brightest; the paper: 5 to 12
-  double patchCut = 0.5;  // thresh2: share of a patch's brightest, up to which is cut; the paper: 0.3 to 0.7
+  double patchCut = 0.5;  // thresh2: share of a patch's brightest up to which is cut; the paper: 0.3 to 0.7
   Rescaling rescaling = Rescaling::patches;
 
   SizeCap cap = SizeCap::whenPercolated;
@@ -33,14 +33,14 @@ struct ClusteringSettings {
 };
 std::vector<std::string> problems(const ClusteringSettings& settings);
 
-/// In place of a cluster: a pixel that is connected to nothing.
+/// Instead of a cluster: a pixel without connections.
 constexpr std::uint32_t noCluster = std::numeric_limits<std::uint32_t>::max();
 
-/// What a cluster joins.
+/// Size of a cluster.
 struct ClusterSize {
   std::uint32_t unknowns = 0;     // projector pixels
   std::uint32_t rows = 0;         // camera pixels
-  std::uint32_t connections = 0;  // that are kept between them
+  std::uint32_t connections = 0;  // kept connections between them
   bool operator==(const ClusterSize&) const = default;
 };
 
@@ -81,18 +81,18 @@ struct Clustering {
 ///  1-11. Per camera pixel: the brightest unlabelled connected projector pixel is the centre of a patch; all
 ///     unlabelled connected ones within patchRadius of it join and are labelled; until all are. Pixels of
 ///     different projectors are never near each other.
-///  12-18. Connections of a patch with a luminance <= patchCut * the patch's highest are removed.
-///  20. A projector pixel left without connections gets back the one to the camera pixel that it lit most.
+///  12-18. Connections of a patch with luminance <= patchCut * the patch's highest are removed.
+///  20. A projector pixel left without connections regains the one to the camera pixel that it lights most.
 ///  21. Remaining connections are scaled. The text wants "the original contribution of the entire patch",
 ///     the pseudo-code calls this scaling the rows to fit the floodlight: with Rescaling::patches both hold,
 ///     since patches that have their own light add up to the row's but for far light and colour, which a
 ///     factor per row and camera channel puts right. Rescaling::rows has that factor alone.
-///  Clusters are the connected components of what is left.
-/// It percolates where footprints of neighbouring camera pixels overlap: one cluster then joins most of the
-/// picture. The cap is the way out: projector pixels go to the camera pixel they light most, then
-/// connections join clusters in descending value / sqrt(row's highest * column's highest), while the result
-/// has at most mostUnknowns projector pixels; connections between clusters are cut. Ties go to the lower
-/// camera pixel, then to the lower projector pixel. Same bits for every number of threads.
+///  Clusters are the connected components of the remaining graph.
+/// Percolation occurs where footprints of neighbouring camera pixels overlap: one cluster then joins most of
+/// the picture. The cap prevents this: projector pixels are assigned to the camera pixel they light most,
+/// then connections join clusters in descending value / sqrt(row's highest * column's highest), while the
+/// result has at most mostUnknowns projector pixels; connections between clusters are cut. Ties go to the
+/// lower camera pixel, then to the lower projector pixel. Same bits for every number of threads.
 /// Source: Wetzstein & Bimber 2007, Algorithm 1; core/clustering/README.md.
 /// Throws: Error{usage} for wrong settings; Cancelled.
 Clustering clustered(const ConnectionGraph& graph, const ClusteringSettings& settings, Progress& progress);

@@ -11,23 +11,23 @@
 
 namespace relucent {
 
-/// A camera pixel sees a projector pixel: one edge of the bipartite graph that clusters are parts of.
+/// One edge of the bipartite graph of camera and projector pixels: the camera pixel sees the projector pixel.
 struct Connection {
   std::uint32_t pixel = 0;  // projector pixel, over all projectors
   std::uint32_t leaf = 0;   // the entry of T that carries it
-  float luminance = 0.0f;   // of what the camera pixel sees of the projector pixel in white
+  float luminance = 0.0f;   // of the camera pixel's signal from the projector pixel at white
 };
 
 struct ConnectionGraphSettings {
-  double leastShare = 0.01;  // of the row's brightest projector pixel: dimmer leaves carry no connection
-  int coarsestLevel = 3;     // wider leaves carry none: their light is even over more than a patch
+  double leastShare = 0.01;  // of the row's brightest projector pixel: dimmer leaves become no connection
+  int coarsestLevel = 3;     // wider leaves become none: their light is uniform over more than a patch
 };
 std::vector<std::string> problems(const ConnectionGraphSettings& settings);
 
 /// The near field of T pixel by pixel, every row from its brightest connection down: prepared once, after
-/// which clustering with other thresholds is quick. A leaf of several pixels is a connection to each of them
-/// with its mean; where leaves are nested, the brightest carries a pixel's connection. Rows that are not
-/// usable, and values that are negative or no numbers, have no connections.
+/// which clustering with other thresholds is fast. A leaf of several pixels is a connection to each of them
+/// with its mean; where leaves are nested, the brightest determines a pixel's connection. Unusable rows, and
+/// values that are negative or NaN, have no connections.
 /// Refers to T, which must outlive it.  Storage: 12 bytes a connection.
 class ConnectionGraph {
  public:
@@ -42,9 +42,9 @@ class ConnectionGraph {
   std::size_t connections() const { return connections_; }
   std::size_t bytes() const;
 
-  /// Brightest first, equals by the lower projector pixel.
+  /// Brightest first, ties by the lower projector pixel.
   std::span<const Connection> row(std::size_t row) const { return {&edges_[start_[row]], length_[row]}; }
-  /// Where a row begins in arrays with a place for every connection; places() long.
+  /// Index of a row's first connection in arrays of places() elements, one per connection.
   std::size_t placeOf(std::size_t row) const { return start_[row]; }
   std::size_t places() const { return start_.back(); }
 
@@ -54,11 +54,12 @@ class ConnectionGraph {
   double squaredNorm(std::size_t row) const { return squaredNorm_[row]; }
   /// Whether the row has leaves inside leaves.
   bool nested(std::size_t row) const { return nested_[row] != 0; }
-  /// Share of the light of all usable rows, in luminance, that the connections carry.
+  /// Share of the light of all usable rows, in luminance, of all connections.
   double carriedLight() const { return carriedLight_; }
-  /// The same light itself: the sum of the connections' luminances.
+  /// That light itself: the sum of the connections' luminances.
   double carriedLuminance() const { return carriedLuminance_; }
-  /// Leaves of coarser levels carry no connections; below the setting if there were too many otherwise.
+  /// Leaves of coarser levels become no connections; lower than the setting if there would be too many
+  /// otherwise.
   int coarsestLevel() const { return coarsestLevel_; }
 
  private:

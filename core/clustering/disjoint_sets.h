@@ -12,11 +12,11 @@ namespace relucent {
 /// Disjoint sets of 0 to size() - 1, joined by any number of threads at once without locks. A set's root is
 /// its lowest element, whatever the order of the joins.
 /// Union-find with path halving (Tarjan & van Leeuwen 1984). Parents are never above their children, so a
-/// link is one exchange that succeeds only while the higher root is one still; and a shortened path that
-/// another thread overwrites with a longer one is still a path to the same root.
+/// link is one compare-exchange that succeeds only while the higher root is still a root; and if another
+/// thread overwrites a shortened path with a longer one, it still leads to the same root.
 class DisjointSets {
  public:
-  /// Every element alone again. The memory is kept.
+  /// Resets every element to a set of its own; keeps the memory.
   void reset(std::size_t size) {
     parent_.resize(size);
     std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});

@@ -10,8 +10,8 @@
 
 namespace relucent {
 
-/// Lines 1 to 20 of Algorithm 1, and the connected components of what they leave. Memory is kept from one
-/// call to the next, and what is asked for twice in a row is cut once.
+/// Lines 1 to 20 of Algorithm 1, and the connected components of the result. Memory is kept between calls,
+/// and a repeated call with the same settings does not cut again.
 class PatchCut {
  public:
   explicit PatchCut(const ConnectionGraph& graph);
@@ -20,13 +20,13 @@ class PatchCut {
   void cut(const ClusteringSettings& settings, Progress& progress);
 
   const ConnectionGraph& graph() const { return graph_; }
-  /// By place in the graph: the connection stays.
+  /// By index in the graph: the connection is kept.
   const std::vector<std::uint8_t>& kept() const { return kept_; }
-  /// How many stay, per camera pixel.
+  /// Number of kept connections per camera pixel.
   const std::vector<std::uint32_t>& keptOfRow() const { return keptOfRow_; }
-  /// Per projector pixel, of the connections that stay: none had any.
+  /// Per projector pixel, the brightest of the kept connections; none: it has none.
   const std::vector<Brightest>& brightest() const { return brightest_; }
-  /// Sum of the luminances of what stays.
+  /// Sum of the luminances of the kept connections.
   double light() const { return light_; }
   /// Projector pixels that had been cut off.
   std::size_t reinserted() const { return reinserted_; }

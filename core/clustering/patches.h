@@ -10,7 +10,7 @@
 
 namespace relucent {
 
-/// Where every projector pixel is; projectors stand too far apart for a patch to reach two.
+/// Positions of all projector pixels; projectors are placed so far apart that no patch reaches two.
 class PixelPlaces {
  public:
   explicit PixelPlaces(const Rasters& projectors);
@@ -20,8 +20,8 @@ class PixelPlaces {
   std::vector<Pixel> place_;
 };
 
-/// Lines 2 to 11 for one camera pixel: patches are numbered as they are found, each begins with its
-/// brightest.
+/// Lines 2 to 11 for one camera pixel: patches are numbered in the order of their brightest connections, with
+/// which they begin.
 class PatchFinder {
  public:
   explicit PatchFinder(const PixelPlaces& places) : places_(&places) {}
@@ -45,7 +45,7 @@ class PatchFinder {
 /// A row's connections that are bright enough to take part.
 std::span<const Connection> bright(std::span<const Connection> row, const ClusteringSettings& settings);
 
-/// Calls visit(k) for every k below `count` where kept[k] is 1, not 0: eight at a time are passed over.
+/// Calls visit(k) for every k below `count` with kept[k] == 1; skips zeros eight at a time.
 template <typename Visit>
 void forKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
   static_assert(std::endian::native == std::endian::little);
@@ -61,7 +61,7 @@ void forKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
 
 template <typename Join>
 std::size_t PatchFinder::visit(std::span<const Connection> row, double radius, const Join& join) {
-  // Squared distances are whole numbers.
+  // Squared distances are integers.
   auto reach = static_cast<std::int64_t>(radius * radius);
   auto isNear = [reach](Pixel a, Pixel b) {
     std::int64_t dx = a.x - b.x, dy = a.y - b.y;

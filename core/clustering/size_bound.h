@@ -10,18 +10,18 @@
 
 namespace relucent {
 
-/// What cutting patches left of a graph.
+/// What is kept of a graph after patches are cut.
 struct CutGraph {
   const ConnectionGraph& graph;
-  std::span<const std::uint8_t> kept;    // by place in the graph
+  std::span<const std::uint8_t> kept;    // by index in the graph
   std::span<const Brightest> brightest;  // per projector pixel, of the kept connections
 };
 
 /// The largest clusters along the strongest connections that hold at most `most` projector pixels; see
-/// clustered() for their order. As Kruskal's algorithm it takes connections in descending order; and like
-/// its filtering variant (Osipov, Sanders & Singler 2009), level by level, it ranks only those that can still
-/// join something: a connection within a cluster, or between two that are too large together, never can
-/// again. That leaves the result as it is. Memory is kept from one call to the next.
+/// clustered() for their order. As Kruskal's algorithm it takes connections in descending order; and like its
+/// filtering variant (Osipov, Sanders & Singler 2009), level by level, it ranks only those that can still
+/// join something: a connection within a cluster, or between two that are too large together, never can. This
+/// does not change the result. Memory is kept between calls.
 class SizeBound {
  public:
   /// Throws: Cancelled.
@@ -37,7 +37,7 @@ class SizeBound {
     float strength;
     std::uint32_t row, pixel;
   };
-  /// By strength, the strongest first.
+  /// By strength, descending.
   static constexpr std::size_t levels = 16;
   static constexpr std::size_t parts = 64;
 

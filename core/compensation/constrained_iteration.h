@@ -4,10 +4,10 @@
 #include "compensation/solver.h"
 #include "compensation/stacks.h"
 
-/// What the solvers of solver.h share; nobody else includes this.
+/// Shared by the solvers of solver.h; no other file includes this.
 namespace relucent::detail {
 
-/// grad f from T x, 0 on pixels that are not free.
+/// grad f from T x; 0 on pixels that are not free.
 Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit);
 
 /// Products with T and sums that the iterative solvers need, in the metric of the preconditioner C.
@@ -31,7 +31,7 @@ class Iteration {
   double energy(const Stack& a, const Stack& b) const;
   /// Root mean square over the free pixels of x - clamp01(x - C g).
   double projectedGradient(const Stack& x, const Stack& g) const;
-  /// What share of the way from x to trial is best: f is quadratic, so this is known in closed form.
+  /// The optimal share of the step from x to trial, in closed form since f is quadratic.
   double bestShare(const Stack& x, const Stack& trial, const Stack& g, double energyOfStep) const;
 
  private:
@@ -40,11 +40,11 @@ class Iteration {
   std::size_t freeValues_ = 0;
 };
 
-/// Progress of something that ends when a norm has fallen below a tolerance or after so many steps.
+/// Progress of an iteration that ends when a norm falls below a tolerance, or after a number of steps.
 void reportDescent(Progress& progress, double norm, double firstNorm, int iteration,
                    const SolverSettings& settings);
 
-/// One algorithm a file. They leave `objective` and `projectedGradient` of the result to solveConstrained().
+/// One algorithm per file. solveConstrained() fills in `objective` and `projectedGradient` of the result.
 SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings,
                        Progress& progress);
 SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const SolverSettings& settings,

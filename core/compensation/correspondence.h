@@ -10,9 +10,9 @@
 namespace relucent {
 
 /// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,
-/// sum over all channels; -1 where it lights none. Only direct leaves count (DirectLeaves): what a projector
-/// pixel sends out of the view comes back as glow, and glow has no place. Nor has a leaf below 1 % of its
-/// row's brightest.
+/// sum over all channels; -1 where it lights none. Only direct leaves count (DirectLeaves): light that a
+/// projector pixel sends outside the view returns as indirect light, which cannot be placed. Leaves below 1 %
+/// of their row's brightest do not count.
 std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
                                                   const std::vector<std::uint8_t>& usable,
                                                   const DirectLightSettings& settings);

@@ -13,40 +13,40 @@
 namespace relucent {
 
 struct DirectLightSettings {
-  /// How far round a camera pixel's brightest projector pixel light counts as direct, as a share of the
-  /// projector's larger side; at least three pixels. A rule of thumb: wide
-  /// enough for defocus, narrow beside the smooth patterns of diffuse interreflection.
+  /// Distance from a camera pixel's brightest projector pixel within which light counts as direct, as a share
+  /// of the projector's larger side; at least three pixels. A heuristic: wide
+  /// enough for defocus, narrow compared with the smooth patterns of diffuse interreflection.
   double reach = 1.0 / 32.0;
 };
 std::vector<std::string> problems(const DirectLightSettings& settings);
 
 /// Where a camera pixel looks to.
 struct DirectLook {
-  std::int32_t projectorPixel = -1;  // in the middle of the brightest leaf's block; -1: nothing lights it
-  float light = 0.0f;                // that leaf's per projector pixel of its block, sum over the channels
-  float share = 0.0f;                // of the flood image, how much of the pixel's light is direct
+  std::int32_t projectorPixel = -1;  // centre of the brightest leaf's block; -1: nothing lights it
+  float light = 0.0f;  // value of that leaf per projector pixel of its block, sum over the channels
+  float share = 0.0f;  // share of the pixel's flood image that is direct
 };
 
-/// Of its light a camera pixel needs this share direct to count as one that sees the projection itself: even
-/// light from everywhere puts 0.5 % of itself so near.
+/// A camera pixel counts as directly lit if at least this share of its light is direct: of uniform indirect
+/// light 0.5 % comes from within the reach.
 inline constexpr double leastDirectShare = 0.1;
 
-/// Which leaves of a row of T are direct, without making a matrix of them:
+/// Decides which leaves of a row of T are direct, without building a matrix:
 ///  1. Per camera pixel and projector the leaf that is brightest per projector pixel of its block (sum over
-///     the channels); the middle of its block is where the camera pixel looks to in that projector. Of
+///     the channels); the centre of its block is where the camera pixel looks to in that projector. Of
 ///     several projectors only those count that light it a tenth as much as the brightest does.
-///  2. A leaf is direct if its block's middle is no further from there than the reach, along x and along y,
+///  2. A leaf is direct if its block's centre is no further from there than the reach, along x and along y,
 ///     and its block no wider than the reach. Light over a wider area comes from no single place: indirect.
-/// What directPart() and everything else decides by that asks where the projection itself falls.
+/// Used by directPart() and wherever it matters where the projection itself falls.
 class DirectLeaves {
  public:
-  /// T stays the caller's and must outlive this.
+  /// T must outlive this object.
   DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings);
 
   /// Calls visit(entry, block) for the direct leaves of a row.
   template <typename Visit>
   void eachDirect(std::size_t row, const Visit& visit) const {
-    // Beside another projector's beam, what arrives in this one's shadow is indirect.
+    // Where another projector lights a pixel directly, light of this one in its own shadow is indirect.
     constexpr float leastShare = 0.1f;
     std::vector<Place> places = placesOf(row);
     float most = 0.0f;
@@ -81,14 +81,14 @@ class DirectLeaves {
 };
 
 /// The direct part of T: the leaves that DirectLeaves names.
-/// The rest, T - direct, is indirect: interreflections, scattering, caustics; and light that a second way
-/// takes straight to the camera pixel, through glass or past a depth edge: T does not tell it from those.
+/// The rest, T - direct, is indirect: interreflections, scattering, caustics; and light on a second direct
+/// path to the camera pixel, through glass or past a depth edge, which T does not distinguish from those.
 /// Law: direct + indirect = T, leaf by leaf.  Source: core/compensation/README.md.
 /// Throws: Cancelled.
 TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSettings& settings,
                            Progress& progress);
 
-/// Of every camera pixel what directPart() is decided by, without making it.
+/// For every camera pixel the data on which directPart() decides, without building it.
 std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
                                     Progress& progress);
 
@@ -96,8 +96,8 @@ std::vector<DirectLook> directLooks(const TransportMatrix& transport, const Dire
 std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks,
                                       double leastShare = leastDirectShare);
 
-/// What somebody would measure who knows of defocus, but of no indirect light: the direct part, every row
-/// scaled so that all light of the flood image comes through it.
+/// Transport of a model with defocus but without indirect light: the direct part, every row scaled to the
+/// whole flood image.
 /// Rows without direct light are empty.
 TransportMatrix defocusOnly(const TransportMatrix& transport, const DirectLightSettings& settings,
                             Progress& progress);

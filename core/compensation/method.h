@@ -8,17 +8,17 @@
 
 namespace relucent {
 
-/// The ways to compensate, from the least knowledge of the light transport to the most.
+/// The methods of compensation, ordered by how much of the light transport they use.
 enum class Method { none, scalar, mix, sharpen, clusters, windows, refined, optimum };
 
-/// A way to compensate that is on offer.
+/// An available method of compensation.
 struct MethodDescription {
   Method method;
   std::string_view name;      // as on the command line
   std::string_view sentence;  // what it does
 };
 
-/// All of them: the one list that names, help, reports and comparisons are made from.
+/// All methods: the single list from which names, help, reports and comparisons are made.
 inline constexpr std::array methodDescriptions{
     MethodDescription{Method::none, "none", "the picture warped into place, nothing corrected"},
     MethodDescription{Method::scalar, "scalar", "each pixel's brightness corrected on its own"},

@@ -18,20 +18,20 @@
 namespace relucent {
 
 struct CompensatorSettings {
-  /// How `clusters` cuts and inverts. Uncapped, clusters run through the whole picture nearly everywhere.
+  /// Settings of `clusters`. Without a cap, clusters percolate in almost every venue.
   ClusteringSettings clustering{.patchCut = 0.3, .cap = SizeCap::always};
   ClusterInverseSettings clusterInverse{.ridge = 2.0};
-  /// How `windows` and `clusters` send their error back once: share of M W r, and of C T^T W r.
+  /// The correction step of `windows` and `clusters`: share of M W r, and of C T^T W r.
   float correctionByInverse = 0.5f;
   float correctionByAdjoint = 1.0f;
-  /// a_k of `refined`, in pairs: short steps settle what T passes on in full (low frequencies), long ones
-  /// reach what it dims. |prod (1 - a_k s)| <= 1 for all 0 <= s <= 1, the spectrum of C T^T W T, after any
-  /// number of steps: nothing grows.
+  /// a_k of `refined`, in pairs: short steps settle components that T passes in full (low frequencies), long
+  /// ones reach those that it attenuates. |prod (1 - a_k s)| <= 1 for all 0 <= s <= 1, the spectrum of C T^T
+  /// W T, after any number of steps: no component grows.
   std::vector<float> steps = {1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 10.0f, 1.2f, 5.0f, 1.2f, 3.0f, 1.2f, 20.0f};
   SolverSettings optimum;
-  /// Of `sharpen`: steepest descent, as Zhang & Nayar.
+  /// Of `sharpen`: steepest descent, as in Zhang & Nayar.
   SolverSettings sharpening{SolverSettings::Algorithm::steepestDescent, 20};
-  DirectLightSettings direct;  // what `sharpen` takes for defocus
+  DirectLightSettings direct;  // reach of the defocus in `sharpen`
 };
 std::vector<std::string> problems(const CompensatorSettings& settings);
 
@@ -39,12 +39,12 @@ std::vector<std::string> problems(const CompensatorSettings& settings);
 struct Compensation {
   Stack projector;     // linear drive, 0 to 1
   double clipped = 0;  // share of the content's projector values that the projector's limits cut off
-  int iterations = 0;  // products with T and T^T that it took, in pairs
+  int iterations = 0;  // pairs of products with T and T^T
 };
 
 /// Turns targets into projector images. Prepared once for a venue.
 /// Projector pixels whose brightest camera pixel lies outside the content stay black, and so do those that no
-/// usable camera pixel sees: what falls there was not asked for.
+/// usable camera pixel sees.
 /// `venue` and `inverse` must outlive it.
 class Compensator {
  public:
@@ -73,10 +73,10 @@ class Compensator {
 
  private:
   Stack perPixel(Method method, const Target& target) const;
-  /// Brings the projection of `mix` nearer to what was wanted through the defocus of T.
+  /// Improves the projection of `mix` with the defocus of T.
   Compensation sharpened(const Target& target, Compensation mixed, const std::vector<std::uint8_t>& free,
                          Progress& progress) const;
-  /// The one factor that brings flood * content nearest to the wanted image in the least squares, at most 1.
+  /// The factor for which flood * content is closest to the wanted image in least squares, at most 1.
   float bestBrightness(const Target& target) const;
   /// Clamped M b, corrected once. `free`: projector pixels of the content; `preconditioner`: C.
   Compensation byInverse(const std::function<Stack(const Stack&)>& inverse, const Target& target,

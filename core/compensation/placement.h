@@ -19,7 +19,7 @@ using Corners = std::array<std::array<double, 2>, 4>;
 /// The corners of an upright rectangle.
 Corners uprightCorners(double x, double y, double width, double height);
 
-/// Whether the corners turn clockwise all the way round, with an area worth the name.
+/// Whether the corners form a convex clockwise quadrilateral with a significant area.
 bool isConvex(const Corners& corners);
 
 /// The projective map that takes the corners to the unit square's (0,0), (1,0), (1,1), (0,1).
@@ -28,21 +28,21 @@ Eigen::Matrix3d unitSquareFrom(const Corners& corners);
 
 /// The largest upright rectangle of shape `aspect` (width / height) that lies in usable pixels. Small holes
 /// do not count: 90 % of the rectangle, and 90 % of a strip along each of its sides, must be usable. Of
-/// equally large ones the one with most usable pixels, then the one nearest to the middle of the view.
-/// Nothing if no rectangle at least 4 pixels high fits.
+/// equally large ones the one with most usable pixels, then the one nearest to the centre of the view. Empty
+/// if no rectangle at least 4 pixels high fits.
 std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, Size size, double aspect);
 
-/// What happens where content and quadrilateral differ in shape.
+/// How content is fitted to a quadrilateral of another aspect ratio.
 enum class Fit {
   fill,   // stretched
-  fit,    // the whole content with bars beside it that do not belong to it
-  cover,  // the whole quadrilateral, content cut off on two sides
+  fit,    // the whole content, with bars that are not content
+  cover,  // the whole quadrilateral, content cropped on two sides
 };
 /// Names as on the command line: "fill", "fit", "cover".
 std::string_view toString(Fit fit);
 std::optional<Fit> fitFromName(std::string_view name);
 
-/// A part of an image, in shares of its width and height.
+/// A part of an image, relative to its width and height.
 struct ImagePart {
   double x0 = 0.0, y0 = 0.0, x1 = 1.0, y1 = 1.0;
 };
@@ -55,7 +55,7 @@ struct Placement {
 
 /// The placement of content of shape `aspect` (width / height) in a quadrilateral. Centred. The shape of a
 /// quadrilateral is the mean length of its upper and lower edge over that of the others; the bars of `fit`
-/// and the cuts of `cover` follow its perspective. Contract: isConvex(quadrilateral), aspect > 0.
+/// and the crops of `cover` follow its perspective. Contract: isConvex(quadrilateral), aspect > 0.
 Placement fitted(const Corners& quadrilateral, double aspect, Fit fit);
 
 /// Content placed into a view: pixel centres within the corners are inside, and show the mean of the content

@@ -6,7 +6,7 @@
 
 namespace relucent {
 
-/// What the cameras should see, and how far that is from what was wanted.
+/// The predicted camera images, and their error.
 struct Prediction {
   Stack camera;                // T p + e
   Image deltaE;                // CIEDE2000 of the first camera's pixels; NaN outside the content
@@ -16,11 +16,11 @@ struct Prediction {
   double clipped = 0.0;        // share of the content's projector values that were cut off
 };
 
-/// How far what the cameras see is from what was wanted. `clipped` stays 0.
+/// The error of given camera images. `clipped` stays 0.
 /// Shapes: `camera` and `target` of `cameras`. Content that covers no pixel has a mean of 0.
 Prediction compared(Stack camera, const Target& target, const Rasters& cameras);
 
-/// The preview of a compensation: T is believed.
+/// The preview of a compensation, assuming that T is exact.
 /// Shapes: `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.
 Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation);
 

@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// How well the windows did with one ridge.
+/// Result of the windows with one ridge.
 struct RidgeTrial {
   double ridge = 0.0;
   double psnr = 0.0;  // dB, `windows` through T, mean over the pictures
@@ -22,12 +22,12 @@ struct RidgeChoice {
   WindowInverse inverse;          // with that ridge
 };
 
-/// Finds the ridge of the windows by trying them: pictures of natural statistics are compensated, clamped as
-/// a projector must, and sent through T. Too small a ridge asks for light below black and above white, too
-/// large a one leaves defocus; where between is best depends on the venue.
+/// Finds the ridge of the windows by search: pictures with natural statistics are compensated, clamped to the
+/// projector's range, and simulated with T. Too small a ridge requires light below black and above white, too
+/// large a one leaves defocus; the optimum depends on the venue.
 ///  1. From settings.ridge in factors of 2, upwards and downwards, as long as the mean PSNR over the
 ///     reachable pixels grows; within 1/16 and 16 times settings.ridge.
-///  2. Of those within 0.1 dB of the best the largest: T's own errors, which the trial cannot see, speak for
+///  2. Of those within 0.1 dB of the best the largest: T's own errors, which the trial cannot show, call for
 ///     more ridge, never for less.
 /// A venue without a lit part that content would fit into keeps settings.ridge.
 /// Throws: as computeWindows().

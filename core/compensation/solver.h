@@ -12,21 +12,21 @@
 
 namespace relucent {
 
-/// The weighted least squares with box constraints that compensation is:
+/// Compensation as weighted least squares with box constraints:
 ///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= 1,   b = wanted - e.
 struct ConstrainedProblem {
   const TransportMatrix& transport;
   const Stack& wantedLessBlack;           // b, camera stack
   const std::vector<float>& weight;       // w per camera pixel
-  const std::vector<std::uint8_t>& free;  // per projector pixel: 0 is held at 0
+  const std::vector<std::uint8_t>& free;  // per projector pixel; pixels with 0 are fixed at 0
 };
 
 struct SolverSettings {
   enum class Algorithm {
     fista,            // accelerated projected gradient with restart
     barzilaiBorwein,  // projected spectral steps with exact line search
-    steepestDescent,  // the paper's: projected steepest descent with exact line search
-    dense,            // active set on the matrix written out: small scale only, starts from nothing
+    steepestDescent,  // as in the paper: projected steepest descent with exact line search
+    dense,            // active set on the dense matrix: small scale only, ignores the start
   };
   Algorithm algorithm = Algorithm::fista;
   int mostIterations = 200;
@@ -38,8 +38,8 @@ std::vector<std::string> problems(const SolverSettings& settings);
 std::string_view toString(SolverSettings::Algorithm algorithm);
 std::optional<SolverSettings::Algorithm> algorithmFromName(std::string_view name);
 
-/// What an algorithm is meant to be used with. Steepest descent: the five steps of Wetzstein & Bimber 2007,
-/// section 3.1, with the step length of Zhang & Nayar 2006. Dense: as many subproblems as it takes.
+/// Default options of an algorithm. Steepest descent: the five steps of Wetzstein & Bimber 2007, section 3.1,
+/// with the step length of Zhang & Nayar 2006. Dense: as many subproblems as needed.
 SolverSettings defaultsOf(SolverSettings::Algorithm algorithm);
 
 struct SolveResult {
@@ -51,17 +51,18 @@ struct SolveResult {
 };
 
 /// C_j = 1 / (T^T W (T 1))_j, with 1 on the free pixels only: the diagonal that bounds T^T W T from above for
-/// transport that is nowhere negative, so a step of one never overshoots. 0 where nothing weighted is seen.
-/// Only a diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
+/// non-negative transport, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a
+/// diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
 /// Shapes: projector stack.  Source: core/compensation/README.md.
 Stack diagonalPreconditioner(const ConstrainedProblem& problem);
 
 /// grad f(p) = T^T W (T p - b), 0 on pixels that are not free.
 Stack gradient(const ConstrainedProblem& problem, const Stack& p);
 
-/// Solves from `start` (clamped first). Never ends worse than it began. Stop and keep: the best so far.
-/// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite; Error{input} if there is
-/// too much for the dense algorithm.
+/// Solves from `start` (clamped first). The result is never worse than the start. Stop and keep: the best so
+/// far.
+/// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite; Error{input} if the
+/// problem is too large for the dense algorithm.
 SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
                              const SolverSettings& settings, Progress& progress);
 

@@ -13,48 +13,48 @@
 
 namespace relucent {
 
-/// What compensation needs to know of a measured venue, whoever measured it.
+/// The measured venue, as compensation needs it.
 struct MeasuredVenue {
   TransportMatrix transport;
   Stack black;                       // e
-  Stack flood;                       // T 1 as photographed, less e
+  Stack flood;                       // T 1 as photographed, minus e
   std::vector<std::uint8_t> usable;  // per camera pixel: lit by the projector and not flagged
-  /// Per camera pixel: sees the projection itself, not only its glow (directlyLit()). Empty: all of them.
+  /// Per camera pixel: directly lit, see directlyLit(). Empty: all of them.
   std::vector<std::uint8_t> direct{};
 };
 
 /// Per pixel of all cameras: usable, and directly lit.
 std::vector<std::uint8_t> seesProjection(const MeasuredVenue& venue);
-/// The first camera's pixels that content may cover when nobody says where: seesProjection() of them.
+/// The first camera's pixels that content may cover if no corners are given: its seesProjection().
 std::vector<std::uint8_t> placeable(const MeasuredVenue& venue);
 
 struct TargetSettings {
   /// Corners of the content in the first camera's view; none: largestUpright() over placeable().
   std::optional<Corners> corners;
-  Fit fit = Fit::fill;                // where content and corners differ in shape
+  Fit fit = Fit::fill;                // if content and corners differ in aspect ratio
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
   double blackLift = 0.0;             // share of white added to black
-  double unreachableWeight = 0.1;     // weight of pixels that cannot show what is wanted
+  double unreachableWeight = 0.1;     // weight of unreachable pixels
 };
 std::vector<std::string> problems(const TargetSettings& settings);
 
-/// The image wanted at the cameras.
+/// The target image at the cameras.
 struct Target {
-  Stack content;                        // the content as it is placed, 0 to 1; 0 outside
+  Stack content;                        // the placed content, 0 to 1; 0 outside
   Stack wanted;                         // camera signal per second; e outside
   std::vector<std::uint8_t> inside;     // per camera pixel: the content covers it
   std::vector<std::uint8_t> reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
-  std::vector<float> weight;     // per camera pixel: 1 inside, less where unreachable, 0 where of no use
+  std::vector<float> weight;     // per camera pixel: 1 inside, less where unreachable, 0 where unusable
   std::array<float, 3> white{};  // wanted signal of the content's white: the peak for PSNR
   Corners corners{};             // where the content was placed: within the quadrilateral for Fit::fit
 };
 
-/// K: how the venue mixes the projector's colours on average,
+/// K: the mean colour mixing of the venue,
 ///   K = mean over the usable pixels of diag(B_i 1)^-1 B_i,   B_i = the row sum of T.
 /// Every row of K sums to one, so grey content stays grey.
 ColourBlock meanColourMixing(const MeasuredVenue& venue);
 
-/// Places and scales linear content (three channels, values 0 to 1) into what the first camera should see:
+/// Places and scales linear content (three channels, values 0 to 1) to the target of the first camera:
 ///   wanted = white * (lift + (1 - lift) K content).
 /// White is the same signal in all channels: as bright as `reachablePercentile` allows, that is so bright
 /// that this share of the usable pixels inside cannot show it (their T 1 + e lies below it in some channel).

@@ -13,15 +13,15 @@
 
 namespace relucent {
 
-/// Why a camera pixel cannot show what is wanted there; of several reasons the first in this order.
+/// Why a camera pixel cannot show the wanted value; of several reasons the first in this order.
 enum class Uncorrectable : std::uint8_t {
-  none,       // it can, as far as T tells
-  outside,    // nothing is wanted there
-  unlit,      // not usable: too little light of the projector, or its measurement did not hold
+  none,       // it can, according to T
+  outside,    // outside the content
+  unlit,      // not usable: too little light from the projector, or its measurement failed verification
   shadowed,   // lit by indirect light alone
-  seenTwice,  // another place of the view shows the same projector pixels
-  tooDark,    // T 1 + e lies below what is wanted in some channel: the surface is too dark
-  tooBright,  // e lies above it: black level and room light are too bright
+  seenTwice,  // another part of the view shows the same projector pixels
+  tooDark,    // T 1 + e is below the wanted value in some channel: the surface is too dark
+  tooBright,  // e is above it: black level and room light are too bright
 };
 inline constexpr std::array allReasons{
     Uncorrectable::none,      Uncorrectable::outside, Uncorrectable::unlit,    Uncorrectable::shadowed,
@@ -32,23 +32,24 @@ std::string_view toString(Uncorrectable reason);
 struct UncorrectableSettings {
   DirectLightSettings direct;
   double leastDirectShare = relucent::leastDirectShare;  // shadowed: less of the flood image is direct
-  /// Seen twice: the two places are this far apart, as a share of the camera's larger side, at least three
-  /// pixels: further than defocus and the camera's pixels spread one projector pixel (direct.reach).
+  /// Seen twice: the two positions are at least this far apart, as a share of the camera's larger side, at
+  /// least three pixels: further than defocus and the camera's pixels spread one projector pixel
+  /// (direct.reach).
   double apart = 1.0 / 32.0;
-  /// The brighter place counts too where the other has at least this share of its light: then neither can be
-  /// given up for the other.
+  /// The brighter position counts too if the other has at least this share of its light: then neither can be
+  /// given priority.
   double comparable = 0.5;
 };
 std::vector<std::string> problems(const UncorrectableSettings& settings);
 
 /// Per camera pixel, of all cameras, whether it can show what is wanted, and why not.
-/// Seen twice is decided so: let j be the projector pixel that lights camera pixel i most, and i' the pixel
-/// of the same camera that j lights most. i and i' far apart: i has no light of its own. Shapes: one value a
-/// camera pixel.  Source: core/compensation/README.md.  Throws: Cancelled.
+/// Seen twice: let j be the projector pixel that lights camera pixel i most, and i' the pixel of the same
+/// camera that j lights most. i and i' far apart: i has no light of its own. Shapes: one value a camera
+/// pixel.  Source: core/compensation/README.md.  Throws: Cancelled.
 std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Target& target,
                                             const UncorrectableSettings& settings, Progress& progress);
 
-/// What share of the pixels where something is wanted has each reason, in the order of allReasons.
+/// Share of the content's pixels with each reason, in the order of allReasons.
 std::array<double, allReasons.size()> sharesOf(const std::vector<Uncorrectable>& map);
 
 }  // namespace relucent

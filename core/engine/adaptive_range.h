@@ -12,12 +12,12 @@
 namespace relucent {
 
 struct AdaptiveRangeSettings {
-  double outOfReach = 2.0;    // percent of the pixels that may want more, or less, than the venue can show
+  double outOfReach = 2.0;    // percent of the pixels that may exceed the venue's range on either side
   double dimmest = 0.5;       // least brightness, relative to the target's
   double brightest = 1.5;     // most
   double mostLift = 0.1;      // share of white added to black
-  double timeConstant = 1.0;  // seconds in which 63 % of a change are made
-  double cut = 0.4;           // share of the pixels that change their brightness when a scene ends
+  double timeConstant = 1.0;  // time constant, seconds
+  double cut = 0.4;           // share of the pixels whose change of brightness marks a scene change
 };
 std::vector<std::string> problems(const AdaptiveRangeSettings& settings);
 
@@ -29,34 +29,32 @@ struct DisplayRange {
   bool operator==(const DisplayRange&) const = default;
 };
 
-/// What a pixel can show, channel by channel, as shares of the target's white.
+/// The range of a pixel, per channel, relative to the target's white.
 struct Reach {
   std::array<float, 3> least{};  // e / white
   std::array<float, 3> most{};   // (T 1 + e) / white
 };
 
-/// The range in which content just fits what can be reached. k = K c, the content as the venue mixes it:
+/// The range with which content just fits the venue. k = K c, the content in the venue's colour mixing:
 ///   brightness = the lowest outOfReach % quantile over the pixels of  min_c most_c / k_c,
 ///   blackLift  = the highest outOfReach % quantile over the pixels of  max_c (least_c - k_c) / (1 - k_c),
-/// both held to the settings. Brighter content never gets a greater brightness, nor a greater lift.
-/// Shapes: as many `mixed` as `reach`. Without pixels: 1 and 0. What is no number counts as black.
+/// both limited by the settings. Brighter content never gets a greater brightness or lift.
+/// Shapes: as many `mixed` as `reach`. Without pixels: 1 and 0. NaN counts as black.
 DisplayRange demandedRange(const std::vector<Reach>& reach, const std::vector<std::array<float, 3>>& mixed,
                            const AdaptiveRangeSettings& settings);
 
-/// Lets the range follow what films demand, unseen: it glides there with a time constant, brightness by
-/// ratios,
+/// Adapts the range to films imperceptibly: exponentially with a time constant, brightness in its logarithm,
 ///   x(t + dt) = x* + (x(t) - x*) exp(-dt / timeConstant),
-/// rests when it has all but arrived, so that a picture that stands does not change for ever, and jumps where
-/// a scene ends. A scene ends where the histogram of brightness (32 classes of its square root) changes at
-/// once by more than `cut`: 1/2 sum |h - h'|.
+/// stops when it has almost converged, so that a still picture settles, and jumps at a scene change, where
+/// the histogram of brightness (32 classes of its square root) changes by more than `cut`: 1/2 sum |h - h'|.
 class AdaptiveRange {
  public:
-  /// `engine` and `content` must outlive it. Looks at some thousand camera pixels, evenly spread.
+  /// `engine` and `content` must outlive it. Samples a few thousand camera pixels on a regular grid.
   /// Throws: std::logic_error for wrong settings.
   AdaptiveRange(const EngineVenue& engine, const EngineContent& content,
                 const AdaptiveRangeSettings& settings = {});
 
-  /// The range of a frame that is shown `elapsed` after the one before it. Allocates nothing.
+  /// The range of a frame that is shown `elapsed` after the previous one. Allocates nothing.
   /// Contract: the frame has the content's size.
   DisplayRange follow(const ContentFrame& frame, std::chrono::duration<double> elapsed);
   /// Whether the same frame would get the same range again.
@@ -72,7 +70,7 @@ class AdaptiveRange {
   Size size_;
   ColourBlock mixing_;
   std::array<float, 256> linearOfSrgb_{};
-  std::vector<Pixel> place_;  // of the content, at the middle of a camera pixel
+  std::vector<Pixel> place_;  // of the content, at the centre of a camera pixel
   std::vector<Reach> reach_;
   std::vector<std::array<float, 3>> mixed_;
   std::vector<float> lowest_, highest_;

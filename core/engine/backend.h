@@ -11,15 +11,15 @@
 
 namespace relucent {
 
-/// What is asked of one frame.
+/// Parameters of one frame.
 struct FrameRequest {
-  bool compensated = true;  // false: the content warped into place only, under its best brightness
-  int steps = 2;            // K: how many of the refinement steps
+  bool compensated = true;  // false: only warped into place, with the best single brightness
+  int steps = 2;            // K: number of refinement steps
   float brightness = 1.0f;  // of the content's white, relative to the target's
   float blackLift = 0.0f;   // share of white added to black
 };
 
-/// What a frame took and came to.
+/// Timing and statistics of a frame.
 struct FrameReport {
   int steps = 0;
   double clipped = 0.0;  // share of the content's projector values that the projector's limits cut off
@@ -27,18 +27,18 @@ struct FrameReport {
   std::chrono::duration<double> stepSeconds{};  // all its refinement steps
 };
 
-/// Something that turns content into projector pictures, frame by frame.
+/// Computes projector pictures from content, frame by frame.
 class EngineBackend {
  public:
   virtual ~EngineBackend() = default;
 
-  /// What it runs on, for people: "CPU, AVX2, FMA".
+  /// Name of the device, for display: "CPU, AVX2, FMA".
   virtual std::string_view name() const = 0;
-  /// Takes over content of another size. May allocate. `content` must outlive its use.
+  /// Switches to content of another size. May allocate. `content` must outlive its use.
   /// Throws: Error{device} if the device is out of memory or gone.
   virtual void setContent(const EngineContent& content) = 0;
   /// One frame. `frame.size` must be what setContent() was given. `words`: one 32-bit word for each pixel of
-  /// all projectors in turn, see DriveEncoder. False: the device was lost, `words` hold nothing of use.
+  /// all projectors in turn, see DriveEncoder. False: the device was lost, `words` are invalid.
   virtual bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
                       FrameReport& report) noexcept = 0;
 };

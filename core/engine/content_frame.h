@@ -7,13 +7,13 @@
 
 namespace relucent {
 
-/// A picture in somebody else's memory, top row first.
+/// A picture in memory owned by the caller, top row first.
 struct ContentFrame {
   enum class Format {
     rgb8,         // sRGB-encoded, 3 bytes a pixel
-    rgba8,        // sRGB-encoded, 4 bytes a pixel, the fourth is not looked at
+    rgba8,        // sRGB-encoded, 4 bytes a pixel, the fourth is ignored
     bgra8,        // the same with blue first
-    linearFloat,  // linear light, 3 floats a pixel; cut off at 0 and 1, what is no number is 0
+    linearFloat,  // linear light, 3 floats a pixel; clipped to [0, 1], NaN becomes 0
   };
 
   const void* data = nullptr;

@@ -12,12 +12,12 @@ namespace relucent {
 /// pixel a small rectangle of content pixels with weights, the same means as place() takes. 16 bits a weight.
 class ContentWarp {
  public:
-  /// A camera pixel's rectangle of the content, and where its weights are, row by row.
+  /// A camera pixel's rectangle of the content, and the position of its weights, row by row.
   struct Footprint {
     std::int32_t x = 0, y = 0;
     std::uint16_t width = 0, height = 0;  // 0: the content does not reach the pixel
     std::uint32_t weight = 0;
-    float scale = 0.0f;  // one weight counts code * scale; they sum to one
+    float scale = 0.0f;  // weight = code * scale; they sum to one
   };
 
   ContentWarp() = default;

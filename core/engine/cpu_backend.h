@@ -13,11 +13,11 @@
 
 namespace relucent {
 
-/// The engine on the processor: all cores, the widest instructions that there are. The same bits for every
-/// number of threads. A frame allocates nothing.
+/// The engine on the processor: all cores, the widest available instructions. The same bits for every number
+/// of threads. A frame allocates nothing.
 class CpuBackend : public EngineBackend {
  public:
-  /// `engine` must outlive it. `kernels`: none is the quickest.
+  /// `engine` must outlive it. `kernels`: none selects the fastest.
   explicit CpuBackend(const EngineVenue& engine, const EngineKernels* kernels = nullptr);
 
   std::string_view name() const override { return name_; }
@@ -37,8 +37,7 @@ class CpuBackend : public EngineBackend {
   using Words = std::span<std::uint32_t>;
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
-  /// What some camera pixels should see of the placed content, wanted = mixing c + offset, and how much that
-  /// counts there.
+  /// The target of some camera pixels, wanted = mixing c + offset, and its weight.
   void fitTarget(std::size_t begin, std::size_t end, const ColourBlock& mixing, float offset) noexcept;
   void warpOnly(Words words) noexcept;
   /// p = clamp(M u).
@@ -47,7 +46,7 @@ class CpuBackend : public EngineBackend {
   void correct(Words words) noexcept;
   /// p = clamp(p + length C adjoint).
   void refine(float length, Words words) noexcept;
-  /// The update of a refine() or a correct() on one line, and its words if there are any to be written.
+  /// The update of a refine() or a correct() on one line, and its words if requested.
   void finishLine(std::size_t device, int y, float length, Words words) noexcept;
   void encodeLine(std::size_t device, int y, Words words) const noexcept;
   /// One row of tiles of M u: put(p, value) for all its values where something is free.
@@ -56,10 +55,11 @@ class CpuBackend : public EngineBackend {
 
   /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r.
   void passThrough(Pass pass) noexcept;
-  /// `sums` = T^T lit of all nodes, of the camera pixels with that weight alone.
+  /// `sums` = T^T lit of all nodes, only of the camera pixels with that weight.
   void passBack(float weight, std::vector<float>& sums) noexcept;
   void prepareBound() noexcept;
-  /// What hardly any weighted pixel sees would take steps of any length on rounding errors.
+  /// Without this limit, projector pixels that hardly any weighted pixel sees would take arbitrarily long
+  /// steps because of rounding errors.
   float leastBound() const noexcept { return 1e-7f * largestBound_; }
   void makePreconditioner() noexcept;
   PatchRows rowsOf(const TransportPatch& patch) const noexcept;
@@ -74,7 +74,7 @@ class CpuBackend : public EngineBackend {
 
   // Camera stacks.
   std::vector<float> wanted_, held_, weight_, unmixed_, placed_;
-  // Node values: p with its means, and what comes back of the residual or of a part of what is lit.
+  // Node values: p with its means, and the adjoint sums of the residual or of a part of the lit pixels.
   std::vector<float> nodes_, adjoint_, part_;
   PatchSums patchSums_;
   std::vector<float> waiting_;

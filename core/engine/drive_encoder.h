@@ -12,13 +12,13 @@
 namespace relucent {
 
 enum class Dither {
-  none,       // the nearest drive level
+  none,       // nearest drive level
   ordered,    // Bayer's 8x8 thresholds
   blueNoise,  // thresholds without low frequencies
 };
 
 /// Turns linear light into a projector's drive levels by look-up. With dither the mean light over a few
-/// pixels is what was wanted, not the mean drive:
+/// pixels is the wanted one, not the mean drive:
 ///   level = k + [light >= light(k) + threshold (light(k + 1) - light(k))],   light(k) <= light < light(k +
 ///   1)
 /// One 32-bit word a pixel, red lowest: 8 bits a channel and 255 (GL_RGBA8), or 10 bits and 3 (GL_RGB10_A2).
@@ -39,19 +39,19 @@ class DriveEncoder {
   DriveEncoder(const ProjectorResponse& response, int bits, Dither dither);
 
   int bits() const { return bits_; }
-  /// [channel][step]: a level whose light is not above that at the step; `steps` a channel.
+  /// [channel][step]: a level whose light is at most that at the step; `steps` a channel.
   std::span<const std::uint16_t> firstLevels() const { return first_; }
-  /// How many levels begin between two steps, at the most.
+  /// Largest number of levels between two steps.
   int mostPerStep() const { return mostPerStep_; }
   /// [channel][level]: its light; levels + 1 a channel, the last one beyond every light.
   std::span<const float> lights() const { return light_; }
-  /// [channel][level]: from which light on the next level is nearer in drive. Without dither only.
+  /// [channel][level]: the light above which the next level is nearer in drive. Without dither only.
   std::span<const float> middles() const { return middle_; }
   /// side x side; empty without dither.
   std::span<const float> thresholds() const { return threshold_; }
   std::size_t levels() const { return std::size_t{1} << bits_; }
 
-  /// The words for line y of linear light, 3 values a pixel; what is no number is black.
+  /// The words for line y of linear light, 3 values a pixel; NaN is black.
   void encodeLine(const float* light, int width, int y, std::uint32_t* words) const noexcept;
 
  private:
@@ -65,8 +65,8 @@ class DriveEncoder {
   std::vector<float> light_, middle_, threshold_;
 };
 
-/// Where in the thresholds a channel starts: as far from the others as can be, so that the channels' dots do
-/// not fall on each other.
+/// Offset of a channel in the thresholds: as far as possible from the others, so that the channels' patterns
+/// do not coincide.
 inline constexpr std::array<std::array<int, 2>, 3> ditherOffsets{{{0, 0}, {21, 43}, {43, 21}}};
 
 }  // namespace relucent

@@ -10,11 +10,11 @@
 
 namespace relucent {
 
-/// What a pass over T reads and writes for each camera pixel. Arrays over all camera pixels.
+/// Inputs and outputs of a pass over T per camera pixel. Arrays over all camera pixels.
 struct CameraArrays {
-  const float* wanted = nullptr;  // 3: what should be seen, less black
+  const float* wanted = nullptr;  // 3: the target, minus black
   const float* weight = nullptr;  // 1
-  const float* lit = nullptr;     // 3: what is seen while everything free is fully lit
+  const float* lit = nullptr;     // 3: the signal with all free projector pixels at full drive
   const float* unmix = nullptr;   // 3x3, row-major
   float* unmixed = nullptr;       // 4: the weighted residual through `unmix`, and a zero
 };
@@ -28,32 +28,32 @@ struct PatchRows {
   const float* mixing = nullptr;
 };
 
-/// Floats of a column in a pass over T, and of one that only sums.
+/// Floats per column in a pass over T, and in one that only sums.
 inline constexpr std::size_t stepColumn = 8, sumColumn = 4;
 
-/// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly cut.
+/// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly clipped.
 inline constexpr float visibleCut = 0.002f;
 
-/// The inner loops of the engine, for one instruction set. They differ in roundings only.
+/// The inner loops of the engine, for one instruction set. They differ only in rounding.
 struct EngineKernels {
   const char* instructions;
   /// One tile of the windows: values[c * pixels + i] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
   /// `clamped`: to 0 and 1.
   void (*window)(const WindowArrays& windows, std::size_t tile, const float* unmixed, bool clamped,
                  float* values);
-  /// A step's way through T and back for one patch, in one reading of its leaves:
+  /// Product with T and its adjoint for one patch, reading its leaves once:
   ///   r = weight (wanted - T light),   sums += T^T r
-  /// `columns`: 8 floats a column, light there and sums back together, because they are needed together:
-  /// projector value 3, anything; sum 3, 0.
+  /// `columns`: 8 floats a column, light and adjoint sums together, because they are needed together:
+  /// projector value 3, unused; sum 3, 0.
   void (*step)(const PatchRows& rows, const CameraArrays& camera, float* columns);
   /// The same, and `unmixed` is written.
   void (*correct)(const PatchRows& rows, const CameraArrays& camera, float* columns);
-  /// sums += T^T lit, of those rows alone whose weight is `weight`. 4 floats a column: sum 3, 0.
+  /// sums += T^T lit, only for rows whose weight is `weight`. 4 floats a column: sum 3, 0.
   void (*bound)(const PatchRows& rows, const CameraArrays& camera, float weight, float* sums);
-  /// p <- clamp(p + length c back); returns how many values were visibly cut off.
+  /// p <- clamp(p + length c back); returns the number of visibly clipped values.
   std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
-  /// c <- 1 / d,  d = share bound + partShare part, where that is more than `least` and more than rounding
-  /// leaves of the difference; 0 elsewhere.
+  /// c <- 1 / d,  d = share bound + partShare part, where that exceeds `least` and the rounding error of the
+  /// difference; 0 elsewhere.
   void (*reciprocal)(float* c, const float* bound, const float* part, float share, float partShare,
                      float least, std::size_t count);
 };

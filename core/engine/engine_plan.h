@@ -20,11 +20,11 @@ struct EngineSettings {
   int bits = 8;           // of the projectors' input: 8 or 10
   Dither dither = Dither::blueNoise;
   CompensatorSettings compensator;  // the correction of the windows, and the steps behind it
-  int patchSide = 64;               // of T's patches, in camera pixels: what they touch fits the cache
+  int patchSide = 64;               // of T's patches, in camera pixels, so that their nodes fit the cache
 };
 std::vector<std::string> problems(const EngineSettings& settings);
 
-/// What frames need to know of a venue, made once. Back ends copy what they want elsewhere.
+/// A venue as prepared for rendering. Back ends copy what they need in another form.
 struct EngineVenue {
   const MeasuredVenue& venue;
   const WindowInverse& inverse;
@@ -36,18 +36,18 @@ struct EngineVenue {
 };
 
 /// Prepares a venue. `responses`: one for each projector. `venue` and `inverse` must outlive the result.
-/// Throws: Error{numerics} if what was measured holds values that are not finite; std::logic_error if the
-/// inverse belongs to another venue or settings are wrong.
+/// Throws: Error{numerics} if measured values are not finite; std::logic_error if the inverse belongs to
+/// another venue or settings are wrong.
 EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& inverse,
                          const std::vector<ProjectorResponse>& responses, const EngineSettings& settings);
 
-/// What frames need to know of content of one size: where it goes and what that means for the projectors.
+/// Content of one size as prepared for rendering: its placement and the projector pixels concerned.
 struct EngineContent {
   ContentWarp warp;                // into the first camera's view
   Corners corners{};               // where the content was placed
   float white = 0.0f;              // wanted signal of the content's white
   std::vector<std::uint8_t> free;  // per projector pixel: it belongs to the content; the others are black
-  Stack lit;                       // camera stack: what is seen while everything free is fully lit
+  Stack lit;                       // camera stack: the signal with all free projector pixels at full drive
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

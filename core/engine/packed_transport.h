@@ -9,26 +9,26 @@
 
 namespace relucent {
 
-/// A leaf of T as it is read every frame, 8 bytes: what one camera pixel sees of one node, a number for each
-/// projector channel, and the node's place in its patch's list. As four 16-bit lanes, so that one load brings
-/// everything; whoever multiplies by the fourth lane must multiply it by zero.
+/// A leaf of T as read in every frame, 8 bytes: a camera pixel's factor for each projector channel of a node,
+/// and the node's position in its patch's list. As four 16-bit lanes, so that one load suffices; code that
+/// multiplies all lanes must multiply the fourth by zero.
 struct PackedLeaf {
   std::array<std::int16_t, 3> code{};
   std::uint16_t column = 0;
 };
 
 /// A compact set of camera pixels whose leaves touch at most 65536 nodes. Nodes are numbered within the
-/// patch, in ascending order of their place in the NodeLayout.
+/// patch, in ascending order of their index in the NodeLayout.
 struct TransportPatch {
   std::uint32_t rowBegin = 0, rowEnd = 0;        // of PackedTransport's rows
   std::uint32_t columnBegin = 0, columnEnd = 0;  // of PackedTransport::nodes()
 };
 
-/// T for the real-time engine, a third of its bytes.
+/// T for the real-time engine, in a third of the memory.
 ///   T_ij = B_i diag(t_ij)
-/// B_i is camera pixel i's mixing (the row sum of T), and what differs between the nodes that it sees is one
-/// factor for each projector channel: t_ijc = <B_ic, T_ijc> / |B_ic|^2 over the columns c, the least-squares
-/// fit. The factors of a row sum to one, so the flood image stays what it was. Immutable.
+/// B_i is camera pixel i's mixing (the row sum of T); the nodes that it sees differ by one factor per
+/// projector channel: t_ijc = <B_ic, T_ijc> / |B_ic|^2 over the columns c, the least-squares fit. The factors
+/// of a row sum to one, so the flood image is preserved. Immutable.
 /// Source: core/engine/README.md.
 class PackedTransport {
  public:
@@ -47,7 +47,7 @@ class PackedTransport {
   const std::vector<float>& mixing() const { return mixing_; }
   /// The nodes of all patches' lists.
   const std::vector<std::uint32_t>& nodes() const { return node_; }
-  /// What a product reads.
+  /// Bytes that a product reads.
   std::size_t bytes() const;
   /// The most nodes of any patch.
   std::size_t mostColumns() const;

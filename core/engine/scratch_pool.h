@@ -9,14 +9,14 @@
 
 namespace relucent {
 
-/// Buffers for the bodies of parallel loops, all made beforehand: a body borrows one and hands it back.
-/// Should there ever be more threads than buffers, a body waits for one.
+/// Buffers for the bodies of parallel loops, all allocated beforehand: a body borrows one and returns it. If
+/// there are more threads than buffers, a body waits.
 class ScratchPool {
  public:
   ScratchPool(std::size_t buffers, std::size_t floats)
       : buffers_(buffers, std::vector<float>(floats)), taken_(new std::atomic_flag[buffers]{}) {}
 
-  /// A buffer on loan.
+  /// A borrowed buffer.
   class Loan {
    public:
     explicit Loan(ScratchPool& pool) noexcept : pool_(pool), index_(pool.take()) {}

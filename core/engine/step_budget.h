@@ -5,15 +5,15 @@
 
 namespace relucent {
 
-/// Chooses K, the number of refinement steps, from what frames have taken: the most that a frame's budget
-/// holds. Slow to believe that there is time for more, quick to do less.
+/// Chooses K, the number of refinement steps, from the times of previous frames: the most that fit a frame's
+/// budget. Increases K slowly and decreases it at once.
 class StepBudget {
  public:
-  /// `budget`: what a frame may take in all. `most`: of the steps.
+  /// `budget`: time for a whole frame. `most`: the limit of K.
   StepBudget(std::chrono::duration<double> budget, int most) : budget_(budget), most_(most) {}
 
   int steps() const { return steps_; }
-  /// What the last frame took. Frames that were not compensated say nothing and are not to be given.
+  /// Adds the time of the last frame. Only for compensated frames.
   void add(const FrameReport& frame) noexcept;
 
  private:
@@ -21,9 +21,9 @@ class StepBudget {
   int most_ = 0;
   int steps_ = 0;
   bool known_ = false;
-  // Smoothed over frames: without the steps, and one step.
+  // Smoothed times: a frame without steps, and one step.
   std::chrono::duration<double> fixed_{}, step_{};
-  int calm_ = 0;  // frames in a row that left time for one more
+  int calm_ = 0;  // consecutive frames that left time for one more step
 };
 
 }  // namespace relucent

@@ -12,7 +12,7 @@ namespace relucent {
 
 enum class ClusterSolver {
   ridge,        // A^+ = (A^T A + lambda I)^-1 A^T, by Cholesky on the smaller side
-  truncatedSvd  // A^+ = V S^+ U^T without the small singular values: the paper's
+  truncatedSvd  // A^+ = V S^+ U^T without the small singular values, as in the paper
 };
 
 enum class ClusterColour {
@@ -31,8 +31,8 @@ std::vector<std::string> problems(const ClusterInverseSettings& settings);
 
 /// The paper's operator: every cluster inverted on its own, recombined into one sparse T+.
 ///   p_cluster = A^+ U r_cluster
-/// U takes each camera pixel to a common scale: its unmixing (shared) or the inverse of its brightness
-/// (full), so that dark surfaces count as much as bright ones. Storage: 16-bit fixed point on a scale per
+/// U brings each camera pixel to a common scale: its unmixing (shared) or the inverse of its brightness
+/// (full), so that dark surfaces count as much as bright ones. Storage: 16-bit fixed point with one scale per
 /// cluster, 2 (shared) or 18 (full) bytes for each pair of projector and camera pixel in a cluster.
 /// Immutable; made by computeClusterInverse().  Source: core/inverse/README.md; Wetzstein & Bimber 2007,
 /// section 4.
@@ -69,11 +69,11 @@ class ClusterInverse {
   std::vector<float> scale_;          // per cluster: weight = scale * code
 };
 
-/// Inverts every cluster of T~. A dim projector pixel's row of A^+ is scaled to white by dividing it by what
-/// it makes of the flood image; where its weights all but cancel there, so that dividing would blow them up,
-/// the pixel is given the mean of the camera pixels that see it instead, weighted as they do. `usable`: per
-/// camera pixel, 0 where it must not be relied on. Throws: Error{usage} for wrong settings; Error{memory} if
-/// a cluster is too large to be inverted; Error{numerics} if one cannot be factored; Cancelled.
+/// Inverts every cluster of T~. A dim projector pixel's row of A^+ is scaled to white by dividing it by its
+/// value for the flood image; where its weights almost cancel there, so that dividing would amplify them, the
+/// pixel gets the weighted mean of the camera pixels that see it instead. `usable`: per camera pixel, 0 where
+/// it is unreliable. Throws: Error{usage} for wrong settings; Error{memory} if a cluster is too large to be
+/// inverted; Error{numerics} if one cannot be factored; Cancelled.
 ClusterInverse computeClusterInverse(const Clustering& clustering, const std::vector<std::uint8_t>& usable,
                                      const ClusterInverseSettings& settings, Progress& progress);
 

@@ -7,7 +7,7 @@
 
 namespace relucent {
 
-/// Regularised inverse of one cluster's matrix (see computeClusterInverse()), scaled to white if asked for.
+/// Regularised inverse of one cluster's matrix (see computeClusterInverse()), scaled to white on request.
 /// Shapes: rows x columns -> columns x rows.  `lambda`: absolute, for the ridge.
 /// Throws: Error{numerics} if A^T A + lambda I cannot be factored.
 Eigen::MatrixXf clusterPseudoInverse(const Eigen::MatrixXf& block, double lambda,

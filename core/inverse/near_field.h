@@ -12,8 +12,8 @@ namespace relucent {
 /// The bright part of every row of T, with the colours unmixed and so reduced to one number a projector
 /// channel: value(leaf) = diag(U_i T_i,leaf), zero rows where a camera pixel is not usable.
 /// A leaf belongs to the near field if its value per projector pixel is at least `nearShare` of the row's
-/// largest, whatever its level: a wide, dim leaf of the far field does not, a wide leaf that carries the
-/// direct light of a T measured no finer does.
+/// largest, whatever its level: this excludes wide, dim leaves of far light, but includes wide leaves with
+/// the direct light of a T that was not measured more finely.
 struct NearField {
   using Value = std::array<float, 4>;  // three channels and padding to a vector register
 

@@ -10,11 +10,11 @@
 
 namespace relucent {
 
-/// What the windows of one T have in common whatever their ridge: steps 1 to 3 of computeWindows(), about
-/// half of its work. For trying ridges. `transport` must outlive it.
+/// The part of the windows of one T that does not depend on the ridge: steps 1 to 3 of computeWindows(),
+/// about half of its work. For the search of a ridge. `transport` must outlive it.
 class PreparedWindows {
  public:
-  /// `settings.ridge` is not looked at.
+  /// `settings.ridge` is ignored.
   PreparedWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
                   const WindowSettings& settings, Progress& progress);
 
@@ -25,7 +25,7 @@ class PreparedWindows {
  private:
   const NodeLayout& layout_;
   NearField near_;
-  WindowInverse without_;  // all of it but the weights
+  WindowInverse without_;  // everything but the weights
 };
 
 }  // namespace relucent

@@ -7,10 +7,10 @@
 
 namespace relucent {
 
-/// Colours that a surface returns by less than this share of the rest are noise, not information.
+/// Colours that a surface reflects by less than this share of the others are treated as noise.
 inline constexpr float unmixingShare = 0.03f;
 
-/// Inverse of a 3x3 colour mixing that stays bounded where the mixing loses a colour:
+/// Inverse of a 3x3 colour mixing that stays bounded where the mixing suppresses a colour:
 ///   U = (B^T B + (share * |B|_F)^2 I)^-1 B^T.   Zero for B = 0.
 ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share = unmixingShare);
 

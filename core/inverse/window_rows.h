@@ -15,7 +15,7 @@ struct WindowRows {
   std::vector<std::uint32_t> row;
 };
 
-/// For every tile of projector pixels the `settings.rows` camera pixels whose near fields put most light into
+/// For every tile of projector pixels the `settings.rows` camera pixels whose near fields have most light in
 /// it. `tiles`: their grid on each projector.
 WindowRows chooseWindowRows(const NearField& near, const NodeLayout& layout, const Rasters& tiles,
                             const WindowSettings& settings);

@@ -12,10 +12,10 @@ namespace relucent {
 
 /// The linear system of one window at a time,
 ///   G = T_W T_W^T   and   T_J,   one colour channel,
-/// from the near fields of the window's camera pixels W, whatever the levels of their leaves. Pixels are told
-/// apart up to 8 beyond the tile J; what is further off (refraction, mirrors) enters G by areas of 8 x 8
-/// pixels or its own size: its detail is of no use to the tile, but must not pass for the tile's light
-/// either. Kept between windows so that nothing is allocated for each.
+/// from the near fields of the window's camera pixels W, whatever the levels of their leaves. Single pixels
+/// are resolved up to 8 pixels beyond the tile J; leaves further away (refraction, mirrors) enter G as areas
+/// of 8 x 8 pixels or their own size: their detail is irrelevant to the tile, but their light must not be
+/// attributed to it. Reused for all windows to avoid allocations.
 class WindowSystem {
  public:
   /// Keeps references: both outlive it.
@@ -28,7 +28,7 @@ class WindowSystem {
 
   /// G, lower triangle. Shape: rows x rows.
   Eigen::MatrixXf& gram() { return gram_; }
-  /// T_J. Shape: rows x pixels of a whole tile, row by row; zero where the tile leaves the projector.
+  /// T_J. Shape: rows x pixels of a whole tile, row by row; zero where the tile extends beyond the projector.
   const Eigen::MatrixXf& columns() const { return columns_; }
 
  private:
@@ -44,9 +44,9 @@ class WindowSystem {
     Node place;
     float pixels;
     std::size_t begin, end;
-    Eigen::Index beyond = -1;  // of the areas beyond all regions, the one that it lies in
+    Eigen::Index beyond = -1;  // index of the area beyond all regions that contains it
   };
-  /// The part of a projector whose pixels are told apart.
+  /// The part of a projector in which single pixels are resolved.
   struct Region {
     int projector;
     Block block;

@@ -17,7 +17,7 @@ struct WindowSettings {
 };
 std::vector<std::string> problems(const WindowSettings& settings);
 
-/// The arrays of a WindowInverse, without owning them: for programs that apply it with loops of their own.
+/// The arrays of a WindowInverse, without owning them: for callers that apply it with loops of their own.
 /// Valid as long as the WindowInverse.
 struct WindowArrays {
   const Rasters* tiles = nullptr;        // their grid on each projector
@@ -30,12 +30,12 @@ struct WindowArrays {
 };
 
 /// The default inverse operator: for every tile of projector pixels a small regularised inverse over the
-/// camera pixels that see it strongest; the windows of neighbouring tiles overlap.
+/// camera pixels that receive most of its light; the windows of neighbouring tiles overlap.
 ///   p_tile = M_tile U r,   M_tile = T_J^T (G + lambda N)^-1,   G = T_W T_W^T
 /// U unmixes the colours of every camera pixel by its own 3x3 mixing, after which each colour channel is a
-/// scalar system of its own. N is the noise that U makes of the camera's. M is the best linear estimate under
-/// an unknown mean: the flood image T 1 gives white. Storage: 16-bit fixed point, 6 bytes for each projector
-/// pixel and row of its window. Immutable; made by computeWindows().  Source: core/inverse/README.md.
+/// scalar system of its own. N is the camera's noise after U. M is the best linear estimate under an unknown
+/// mean: the flood image T 1 gives white. Storage: 16-bit fixed point, 6 bytes for each projector pixel and
+/// row of its window. Immutable; made by computeWindows().  Source: core/inverse/README.md.
 class WindowInverse {
  public:
   WindowInverse() = default;
@@ -75,11 +75,11 @@ class WindowInverse {
 /// Computes all windows.
 ///  1. U_i = the regularised inverse of camera pixel i's 3x3 mixing B_i (sum over its row of T).
 ///  2. Every row's near field: the leaves, of whatever level, that are bright per projector pixel.
-///  3. For every tile the `rows` camera pixels whose near fields put most light into it.
+///  3. For every tile the `rows` camera pixels whose near fields have most light in it.
 ///  4. G over the pixels round the tile, beyond them over areas of 8x8; Cholesky.
-///  5. M = T_J^T (G + lambda N)^-1, and the least change to it that makes the flood image white.
-/// `usable`: per camera pixel, 0 where it must not be relied on. A thresholded T should have been rescaled to
-/// the flood image before.  Source: core/inverse/README.md.
+///  5. M = T_J^T (G + lambda N)^-1, with the smallest change that makes the inverse of the flood image white.
+/// `usable`: per camera pixel, 0 where it is unreliable. A thresholded T should have been rescaled to the
+/// flood image before.  Source: core/inverse/README.md.
 /// Throws: Error{numerics} if a G is not positive definite; Cancelled.
 WindowInverse computeWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
                              const WindowSettings& settings, Progress& progress);

@@ -10,7 +10,7 @@
 
 namespace relucent {
 
-/// How far a projector's light is from adding up, and what of it serves the ramps.
+/// Deviations of a projector's light from additivity, and the weights for its ramps.
 struct Additivity {
   double white = 0.0;          // (W-K) / ((R-K) + (G-K) + (B-K)) - 1, worst camera channel by magnitude
   double superposition = 0.0;  // (H-K + H'-K) / (W-K) - 1 for a random half H and its complement H'
@@ -23,7 +23,7 @@ struct Additivity {
 Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std::uint64_t seed,
                              Progress& progress);
 
-/// Sentences on deviations above `limit`: what they look like and what to switch off.
+/// Findings about deviations above `limit`: the likely cause and what to switch off.
 std::vector<std::string> additivityFindings(const Additivity& additivity, const std::string& projector,
                                             double limit);
 

@@ -12,11 +12,11 @@ namespace relucent {
 using ShotPair = std::pair<Shot, Shot>;
 
 /// Fits readNoise and gain to pairs of equal shots: half the mean square of differences, in bins of equal
-/// mean signal, against that mean; a line by iteratively reweighted least squares that outlying bins do not
-/// pull. Differences of lamp power between the two shots are divided out first. Bins within 5 standard
-/// deviations of zero are left out: cutting at zero makes them look calmer than they are; the darkest frames
-/// only bound the read noise from below.
-/// `model` brings response and saturation; where the data say nothing its readNoise and gain stay.
+/// mean signal, against that mean; a line is fitted by iteratively reweighted least squares, robust to
+/// outlying bins. Differences of lamp power between the two shots are divided out first. Bins within 5
+/// standard deviations of zero are left out: clipping at zero reduces their noise; the darkest frames only
+/// bound the read noise from below.
+/// `model` provides response and saturation; without sufficient data its readNoise and gain are kept.
 /// Floors: rounding for readNoise, 1e-7 for gain.
 CameraModel withMeasuredNoise(CameraModel model, const std::vector<ShotPair>& pairs, std::size_t camera);
 

@@ -8,15 +8,15 @@
 
 namespace relucent {
 
-/// A camera's response from one light at several exposures, as its signals tell it.
+/// A camera's response, estimated from one light at several exposures.
 struct CameraResponse {
   std::array<ResponseCurve, 3> curves;  // the identity where the camera is linear
   double exponent = 1.0;                // of the power law closest to the measured curve, worst channel
   double deviation = 0.0;               // largest relative deviation from that power law
 };
 
-/// Exposures to tell a response from: from the longest of `exposures` to a quarter of the shortest, within
-/// the camera's range, in steps of 2 and 1.5 by turns. Equal steps would leave every response that repeats
+/// Exposures for estimating a response: from the longest of `exposures` to a quarter of the shortest, within
+/// the camera's range, in alternating steps of 2 and 1.5. Equal steps would leave every response that repeats
 /// from step to step, f(2 z) = 2 f(z), as likely as the straight line.
 std::vector<double> responseBracket(const ExposureRange& range, const std::vector<double>& exposures);
 
@@ -24,9 +24,9 @@ std::vector<double> responseBracket(const ExposureRange& range, const std::vecto
 ///   u(z_ik) - ln t_k - d_k = l_i,
 /// u = ln response, linear between knots that are even in ln z, so that a linear camera and every power law
 /// are represented exactly; d_k are errors of the nominal exposure times (0.03 a priori, no power law
-/// among them), l_i the light, eliminated. Second differences of u are held small where the data say nothing.
-/// A camera counts as linear unless its exponent is off by more than 0.04 (what errors of 5 % in the times
-/// can feign) or its shape by more than 0.03.  Source: core/linearization/README.md, [DEB].
+/// among them), l_i the light, eliminated. Second differences of u are penalised where there are no data. A
+/// camera counts as linear unless its exponent is off by more than 0.04 (the effect of errors of 5 % in the
+/// times) or its shape by more than 0.03.  Source: core/linearization/README.md, [DEB].
 CameraResponse cameraResponse(const Shot& bracket, std::size_t camera, double saturation);
 
 }  // namespace relucent

@@ -12,17 +12,17 @@ namespace relucent {
 /// Exposures that suit a venue.
 struct ExposureChoice {
   std::vector<double> seconds;     // longest first
-  std::vector<double> saturation;  // per camera: the signal from which on nothing is told
+  std::vector<double> saturation;  // per camera: signals from this value on are saturated
   std::vector<std::string> findings;
 };
 
-/// Exposure times that all cameras of a rig can be asked for.
+/// Exposure times that all cameras of a rig support.
 /// Throws: Error{device} if there are none.
 ExposureRange commonRange(const Rig& rig);
 
-/// Photographs full white over the cameras' whole range, black at one exposure, and closes in on the exposure
-/// at which the 99.5th percentile of what the projectors light is 0.8 of saturation. Highlights that clip
-/// there, a caustic or a glint, get a shorter exposure of their own.
+/// Photographs full white over the cameras' whole range, black at one exposure, and searches for the exposure
+/// at which the 99.5th percentile of the lit pixels is 0.8 of saturation. Highlights that clip there, a
+/// caustic or a glint, get a shorter exposure.
 /// Several cameras share their exposures: the brightest view decides the shortest, the darkest the longest.
 /// Throws: Error{input} for a camera that sees no difference between white and black.
 ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress);

@@ -16,7 +16,7 @@ struct ProjectorResponse {
   std::array<ResponseCurve, 3> channels;
 
   /// Encoded drive for linear values; clamps to [0, 1].
-  /// Large images go through tables: the light that the drive makes, decode(encode(L)), is within
+  /// Large images go through tables: the resulting light, decode(encode(L)), is within
   /// sqrt(L) / 2000 of L for every curve, and within 1e-6 for smooth ones. 0 and 1 are exact.
   Image encode(const Image& linear) const;
   /// Linear values of encoded drive, exact; clamps to [0, 1].
@@ -30,33 +30,33 @@ struct LinearizationSettings {
   double additivityLimit = 0.025;  // larger relative deviations are a finding
   std::uint64_t seed = 1;          // order of the ramp and the halves that test superposition
 };
-/// Sentences about what is wrong with settings; empty: nothing.
+/// What is wrong with the settings; empty: nothing.
 std::vector<std::string> problems(const LinearizationSettings& settings);
 
-/// What calibration of both ends of the light path found.
+/// Results of the calibration of projectors and cameras.
 struct Linearization {
   std::vector<ProjectorResponse> projectors;
   /// With the true exposure times (CameraModel::times), relative to the shortest of `exposures`.
   std::vector<CameraModel> cameras;
   /// Exposure times, longest first, that cover this venue: the flood image just unsaturated at the shortest,
-  /// dim interreflections above the noise at the longest. One only, where the camera has no longer one.
+  /// dim interreflections above the noise at the longest. Only one if the camera has no longer one.
   std::vector<double> exposures;
   /// Per projector: largest relative deviation of white from red + green + blue, and of the flood image from
   /// the sum of two halves.
   std::vector<double> additivityError;
-  /// What its shots took: a benchmark of the devices. Shots that a log held already are not in it.
+  /// Time that its shots took: a benchmark of the devices. Shots read from a log do not count.
   ShotTimes times;
-  /// Sentences about what was found wrong (a white segment, a picture mode, a flicker); empty: nothing.
+  /// Findings (a white segment, a picture mode, flicker); empty: none.
   std::vector<std::string> findings;
 };
 
-/// Measures both ends of the light path with even patterns:
-///  1. exposures: the 99.5th percentile of the flood image comes to 0.8 of saturation; 12 times that for
+/// Measures projectors and cameras with uniform patterns:
+///  1. exposures: the 99.5th percentile of the flood image at 0.8 of saturation; 12 times that for
 ///     what is dim; both within what the cameras can do;
-///  2. cameras: saturation, response (linear, unless the bracket says otherwise), noise from pairs of equal
+///  2. cameras: saturation, response (linear unless the bracket shows otherwise), noise from pairs of equal
 ///     shots, true exposure times;
 ///  3. additivity: white against red + green + blue, flood against two random halves;
-///  4. projector ramps: levels of each channel in random order, drift divided out by black and white
+///  4. projector ramps: levels of each channel in random order, drift compensated by black and white
 ///     references between, isotonic regression, monotone cubic.
 /// About 3 * levels + 60 shots for one projector.  Source: core/linearization/README.md.
 /// Throws: Error{input} if a camera sees no difference between black and white, or no camera sees a

@@ -8,15 +8,15 @@
 
 namespace relucent {
 
-/// What a projector's ramps look like while they are being measured: drive -> light, seen roughly, without
-/// the weights, drift and noise of the fit. For the eye only.
+/// Approximate ramps of a projector while they are being measured, drive -> light, without the weights, drift
+/// correction and noise model of the fit. For display only.
 class RampPreview {
  public:
-  /// One photograph of an even pattern; others, and those that are saturated, tell nothing.
+  /// Adds one photograph of a uniform pattern; other patterns and saturated photographs are ignored.
   void add(const Image& encodedPattern, const RawFrame& frame);
 
-  /// Per channel: drive -> light relative to the brightest level so far, less black. Empty until black and
-  /// some level have been seen.
+  /// Per channel: drive -> light relative to the brightest level so far, minus black. Empty until black and
+  /// at least one level have been photographed.
   std::array<std::map<double, double>, 3> curves() const;
 
  private:

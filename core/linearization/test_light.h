@@ -31,15 +31,15 @@ class LightMeter {
   Rasters rasters_;
 };
 
-/// A fixed weighted sum over the values that a light reaches well: how much of it a frame holds.
+/// A fixed weighted sum over well-lit values: the amount of a light in a frame.
 ///   sum_i a_i L_i,   a_i = D_i / variance(D_i) where D = lit - black is above a tenth of its 99th percentile
-/// Linear in the frame, so it may be applied to frames first and their numbers be subtracted afterwards.
+/// Linear in the frame, so it may be applied before differences are taken.
 class LightWeights {
  public:
   LightWeights() = default;
   LightWeights(const HdrFrame& lit, const HdrFrame& black);
 
-  /// No value stands out: the cameras do not see this light.
+  /// No value is above the limit: the cameras do not see this light.
   bool empty() const { return terms_.empty(); }
   double of(const HdrFrame& frame) const;
   double varianceOf(const HdrFrame& frame) const;

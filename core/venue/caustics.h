@@ -10,7 +10,7 @@
 
 namespace relucent {
 
-/// Light that reaches opaque surfaces through glass, traced from the projectors and kept where it lands:
+/// Light that reaches opaque surfaces through glass, traced from the projectors and stored where it lands:
 /// paths that no connection from the camera's side can find.
 /// Source: Jensen, "Global illumination using photon maps", 1996.
 class Caustics {

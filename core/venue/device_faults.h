@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// What can go wrong with simulated devices while they are used.
+/// Faults that can be simulated while the devices are used.
 enum class FaultKind {
   flicker,          // every other exposure is brighter by `amount`, relative
   ambient,          // room light rises by `amount` of the mean of what the camera sees at full light
@@ -21,8 +21,8 @@ enum class FaultKind {
   hand,             // a part of the view is dark
 };
 
-/// One fault, during shots [first, last] of a stage; the part of the view that flash and hand concern is the
-/// rectangle [x0, x1) x [y0, y1) as shares of its width and height.
+/// One fault, during shots [first, last] of a stage; `flash` and `hand` affect the rectangle [x0, x1) x [y0,
+/// y1) as shares of its width and height.
 struct DeviceFault {
   FaultKind kind = FaultKind::flicker;
   std::string stage;
@@ -38,11 +38,11 @@ struct DeviceFault {
 struct FaultSchedule {
   std::vector<DeviceFault> faults;
 
-  /// The faults that act on a shot.
+  /// The faults that are active during a shot.
   std::vector<DeviceFault> during(const ShotId& shot) const;
 };
 
-/// The picture that the wall gets.
+/// The picture as it reaches the wall.
 Image withFaults(const Image& encodedDrive, const std::vector<DeviceFault>& faults);
 /// The light that reaches the sensor. `full`: mean radiance at full light.  Shapes: three channels a pixel.
 Stack withFaults(Stack fromProjectors, const Stack& ambient, Size size, double full, int exposure,

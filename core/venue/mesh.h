@@ -11,7 +11,7 @@
 namespace relucent {
 
 /// Triangles, counter-clockwise seen from outside. `normals`: per vertex, for smooth shading; empty: flat.
-/// `map`: per vertex, where textures are looked up.
+/// `map`: texture coordinates per vertex.
 struct Mesh {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
@@ -30,15 +30,16 @@ Mesh box(const Eigen::Vector3f& base, const Eigen::Vector3f& size, float turn);
 Mesh ellipsoid(const Eigen::Vector3f& centre, const Eigen::Vector3f& radii, int segments,
                const std::function<float(const Eigen::Vector3f&)>& displacement = {});
 
-/// A profile (radius, height), from below to above outside, turned about the vertical axis through `base`.
+/// A profile (radius, height), listed from bottom to top along its outside, rotated about the vertical axis
+/// through `base`.
 Mesh lathe(const Eigen::Vector3f& base, std::span<const Eigen::Vector2f> profile, int segments);
 
-/// The vertices of a grid, columns x rows, with smooth normals; place(i, j) for i of columns and j of rows.
-/// `closed`: the last column joins the first.
+/// The vertices of a grid, columns x rows, with smooth normals; place(i, j) gives the position of vertex i of
+/// `columns`, j of `rows`. `closed`: the last column joins the first.
 Mesh grid(int columns, int rows, bool closed, const std::function<Eigen::Vector3f(int, int)>& place,
           const std::function<Eigen::Vector2f(int, int)>& map);
 
-/// Both in one.
+/// Both meshes as one.
 Mesh joined(const Mesh& a, const Mesh& b);
 
 }  // namespace relucent

@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// Where a device stands and looks; right, up and forward are orthonormal.
+/// Position and orientation of a device; right, up and forward are orthonormal.
 struct Pose {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   Eigen::Vector3f right = Eigen::Vector3f::UnitX();
@@ -26,7 +26,7 @@ struct CameraOptics {
   Pose pose;
   float throwRatio = 1.5f;  // distance : width of the picture
 
-  /// The ray through a place on the raster (pixels; pixel x covers [x, x + 1)).
+  /// The ray through a position on the raster (pixels; pixel x covers [x, x + 1)).
   Ray ray(const Eigen::Vector2f& place) const;
 };
 
@@ -34,7 +34,7 @@ struct CameraOptics {
 struct Connection {
   Eigen::Vector3f direction;  // towards the lens
   float distance = 0.0f;
-  Eigen::Vector2f place;    // on the projector's raster, whose pixel decides the light
+  Eigen::Vector2f place;    // position on the projector's raster; its pixel determines the light
   float irradiance = 0.0f;  // of a surface that faces the lens, at full drive
   float pixelArea = 0.0f;   // m^2 that one projector pixel covers there, perpendicular to the direction
 };
@@ -42,7 +42,7 @@ struct Connection {
 /// A light path that leaves a projector.
 struct Emission {
   Ray ray;
-  float power = 0.0f;  // of one pixel at full drive, if all its light went this way
+  float power = 0.0f;  // of one pixel at full drive, if all its light followed this path
 };
 
 /// A projector with a thin lens: a point at depth d is lit by a disc of diameter
@@ -60,19 +60,20 @@ struct ProjectorOptics {
   /// Width of one pixel on the focal plane, m.
   float pixelPitch() const { return focus / (throwRatio * static_cast<float>(raster.width)); }
 
-  /// From `point` to a place on the lens given by `lens`, a point of the unit square.
-  /// Empty where the path does not come from the picture.
+  /// From `point` to the position on the lens given by `lens`, a point of the unit square.
+  /// Empty if the path does not come from the picture.
   std::optional<Connection> connect(const Eigen::Vector3f& point, const Eigen::Vector2f& lens) const;
-  /// From a place on the raster through a place on the lens.
+  /// From a position on the raster through a position on the lens.
   Emission emission(const Eigen::Vector2f& place, const Eigen::Vector2f& lens) const;
 
  private:
   Eigen::Vector3f onLens(const Eigen::Vector2f& lens) const;
-  /// Radiance times area of the lens, for a place on the raster at `tangents` of angle from the axis.
+  /// Radiance times area of the lens, for a position on the raster whose angles from the axis have the
+  /// tangents `tangents`.
   float strength(const Eigen::Vector2f& tangents) const;
 };
 
-/// A point of the unit square on the unit disc, areas kept in proportion.
+/// Maps the unit square to the unit disc, preserving ratios of areas.
 /// Source: Shirley & Chiu, "A low distortion map between disk and square", 1997.
 Eigen::Vector2f discFromSquare(const Eigen::Vector2f& square);
 

@@ -14,7 +14,7 @@ namespace relucent {
 
 struct Ray {
   Eigen::Vector3f origin;
-  Eigen::Vector3f direction;  // of length 1
+  Eigen::Vector3f direction;  // unit vector
 };
 
 /// Where a ray meets a triangle.
@@ -23,10 +23,10 @@ struct RayHit {
   std::uint32_t mesh = 0;
   std::uint32_t triangle = 0;
   float u = 0.0f, v = 0.0f;  // weights of the triangle's second and third vertex
-  Eigen::Vector3f normal;    // geometric, of length 1, outwards
+  Eigen::Vector3f normal;    // geometric, unit vector, outwards
 };
 
-/// Finds what rays meet first among meshes. The only place that knows Embree.
+/// Finds the first intersection of rays with meshes. The only class that uses Embree.
 class RayCaster {
  public:
   explicit RayCaster(const std::vector<const Mesh*>& meshes);

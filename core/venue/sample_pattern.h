@@ -17,7 +17,8 @@ class SamplePattern {
   SamplePattern(int count, std::uint64_t seed);
 
   int count() const { return count_; }
-  /// Point `index` of a pair, moved by `shift` around the unit square; pairs repeat after the last.
+  /// Point `index` of a pair, shifted by `shift` with wrap-around in the unit square; pairs repeat after the
+  /// last.
   Eigen::Vector2f point(int index, int pair, const Eigen::Vector2f& shift) const {
     const Eigen::Vector2f& stored = points_[static_cast<std::size_t>((pair % pairs) * count_ + index)];
     return {wrapped(stored.x() + shift.x()), wrapped(stored.y() + shift.y())};

@@ -14,7 +14,7 @@ struct Surface {
   Material material;
 };
 
-/// Surfaces and the devices that look at them. Metres; y is up.
+/// Surfaces and the devices that face them. Metres; y is up.
 struct Scene {
   std::vector<Surface> surfaces;
   std::vector<ProjectorOptics> projectors;

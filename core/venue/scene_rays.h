@@ -17,7 +17,7 @@ struct SurfacePoint {
   float distance = 0.0f;
   const Material* material = nullptr;
 
-  /// The point seen from where `direction` comes from.
+  /// The surface point for a ray that arrives along `direction`.
   ScatteringPoint scatteringTowards(const Eigen::Vector3f& direction) const;
 };
 
@@ -27,7 +27,7 @@ class SceneRays {
   explicit SceneRays(const Scene& scene);
 
   std::optional<SurfacePoint> nearest(const Ray& ray) const;
-  /// Whether light passes freely from `point` along `direction` for `distance`. Glass is in its way.
+  /// Whether light passes freely from `point` along `direction` for `distance`. Glass blocks it.
   bool free(const SurfacePoint& point, const Eigen::Vector3f& direction, float distance) const;
   /// The ray that leaves `point` along `direction`.
   static Ray leaving(const SurfacePoint& point, const Eigen::Vector3f& direction);

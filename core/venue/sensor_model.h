@@ -21,7 +21,7 @@ class SensorModel {
   /// Relative power of the lamp while `request` is exposed: drift and flicker.
   double lampPower(const CaptureRequest& request) const;
 
-  /// The exposure that a wish for `seconds` comes to.
+  /// The actual exposure time for a requested one of `seconds`.
   static double granted(double seconds);
   static ExposureRange exposures() { return {1.0 / 8000.0, 4.0}; }
 

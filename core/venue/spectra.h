@@ -8,8 +8,8 @@
 
 namespace relucent {
 
-/// Light is carried in twelve bands of 25 nm, centred at 410, 435, ... 685 nm: enough for the mixing of
-/// colours to depend on the surface, as it does in life.
+/// Light is carried in twelve bands of 25 nm, centred at 410, 435, ... 685 nm: enough for the colour mixing
+/// to depend on the surface, as in reality.
 constexpr int bandCount = 12;
 using Spectrum = Eigen::Array<float, bandCount, 1>;
 
@@ -23,10 +23,11 @@ const std::array<Spectrum, 3>& projectorPrimaries();
 /// Response per band of the camera's channels, balanced: a white surface under all primaries gives 1, 1, 1.
 const std::array<Spectrum, 3>& cameraSensitivities();
 
-/// What transport `t` per band means for three-channel devices: block(c, p) = sum_b S_c(b) t(b) P_p(b).
+/// Transport `t` per band, converted to a block for three-channel devices: block(c, p) = sum_b S_c(b) t(b)
+/// P_p(b).
 ColourBlock colourBlock(const Spectrum& transport);
 
-/// What the camera sees of a surface under room light (warm, 1 on a grey surface's green channel).
+/// Camera signal of a surface under room light (warm; 1 in the green channel of a grey surface).
 Eigen::Array3f underRoomLight(const Spectrum& reflectance);
 
 }  // namespace relucent

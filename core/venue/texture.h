@@ -6,7 +6,7 @@
 
 namespace relucent {
 
-/// Where a texture is asked for: a place in the world (metres) and on the surface's own map (metres on flat
+/// Where a texture is evaluated: a position in the world (metres) and in texture coordinates (metres on flat
 /// surfaces).
 struct TexturePoint {
   Eigen::Vector3f position;
@@ -25,7 +25,7 @@ Texture wallpaper(const Eigen::Array3f& ground, const Eigen::Array3f& flower, fl
 Texture bricks();
 /// Veined, weathered stone.
 Texture stone(const Eigen::Array3f& rgb);
-/// Boards along the map's first axis.
+/// Boards along the first texture coordinate.
 Texture wood();
 /// Painted diamonds in several colours on coarse plaster.
 Texture harlequin(float size);

@@ -7,12 +7,13 @@
 
 namespace relucent {
 
-/// A scene's light transport as traced, scaled to camera signal per second.
+/// The traced light transport of a scene, scaled to camera signal per second.
 struct TracedTransport {
-  /// Rows: nodes of the projectors' pyramids; columns: camera pixels. Stored this way round because most
-  /// patterns are mostly dark, and dark rows cost nothing.
+  /// Rows: nodes of the projectors' pyramids; columns: camera pixels. Stored transposed because most patterns
+  /// are mostly dark, and dark rows are skipped.
   BlockSparse cameraByNode;
-  /// What the rows' fixed-point values are relative to; with the values it determines the matrix to the bit.
+  /// Full scale of the fixed-point values of each row; together with the values it determines the matrix
+  /// exactly.
   std::vector<float> fullScale;
   /// The camera's picture under room light, white = 1. Shape: 3 * camera pixels.
   Stack roomLight;

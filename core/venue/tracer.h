@@ -22,13 +22,13 @@ struct TracerSettings {
 };
 
 /// Follows light paths from the camera into a scene. At every vertex the path is connected to a point on
-/// every projector's lens; the picture element that this path comes from gets its transport:
+/// every projector's lens; the transport is added to the projector pixel that this path comes from:
 ///   T[camera pixel, node] += throughput * brdf * cosine * irradiance
 /// Paths without a diffuse bounce, those through glass included, land on single projector pixels. Light
 /// that has bounced arrives from a wide area of the picture: it is spread over nodes about as large as the
 /// distance to the neighbouring paths, with bilinear weights, and rows stay compact and smooth.
-/// Every pixel uses the same well-spread set of paths, moved by less than their spacing, so that what is
-/// left of the sampling error looks smooth too.
+/// Every pixel uses the same well-spread set of paths, shifted by less than their spacing, so that the
+/// remaining sampling error is smooth too.
 /// Units: a white diffuse surface under irradiance 1 has transport 1 in all bands.
 /// Source: core/venue/README.md; Veach 1997, chapters 8 to 10.
 class Tracer {

@@ -23,8 +23,8 @@ class TransportRow {
   void add(const Node& node, const Spectrum& transport);
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Hands siblings that together are less than `share` of the row on to their parent, from the finest
-  /// level that may be merged upwards: light that hardly counts is not resolved. Energy is kept.
+  /// Merges siblings that together are less than `share` of the row into their parent, starting from the
+  /// finest level that may be merged: insignificant light is not resolved. Energy is preserved.
   /// Nodes of levels below `finest` and of each projector's `coarsest` level stay.
   void condense(float share, int finest, int coarsest);
 

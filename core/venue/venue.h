@@ -15,10 +15,10 @@ namespace relucent {
 
 struct FaultSchedule;
 
-/// A simulated venue on offer.
+/// A simulated venue that is available.
 struct VenueDescription {
   std::string name;      // "corner"
-  std::string sentence;  // what there is to see
+  std::string sentence;  // short description
   int projectors = 1;
 };
 const std::vector<VenueDescription>& venues();
@@ -27,15 +27,15 @@ const std::vector<VenueDescription>& venues();
 struct DeviceModelSettings {
   int projectorBits = 8;
   int cameraBits = 12;
-  double contrast = 1500.0;    // projector's full white : its black
-  double gamma = 2.2;          // shape of the projector's response, from which each channel deviates
+  double contrast = 1500.0;    // projector's full white : black
+  double gamma = 2.2;          // mean shape of the projector's response; each channel deviates from it
   double vignetting = 0.2;     // loss of light in the projector's corners
   double fullWell = 15000.0;   // electrons at full scale; decides the shot noise
   double readElectrons = 6.0;  // read noise
   double ambient = 0.002;      // room light, relative to the flood image's mean
   double drift = 0.0;          // relative change of lamp power over 1000 shots
   double flicker = 0.0;        // relative standard deviation of lamp power between exposures
-  bool whiteSegment = false;   // the colour wheel has a white segment: channels do not add up
+  bool whiteSegment = false;   // the colour wheel has a white segment: channels are not additive
   double cameraGamma = 1.0;    // 1: linear; otherwise signal = light^(1 / cameraGamma)
 };
 
@@ -51,13 +51,13 @@ std::vector<std::string> problems(const VenueSettings& settings);
 
 class VenueLight;
 
-/// A venue that exists only in the computer: a scene traced into its light transport, and models of
-/// projectors and a camera that answer from it with codes, noise, saturation and response curves.
+/// A simulated venue: a scene with its traced light transport, and models of projectors and a camera with
+/// quantisation, noise, saturation and response curves.
 /// The brightest parts of the flood image reach full scale in 1/60 s.
 class SimulatedVenue {
  public:
-  /// Traces the scene, or reads its transport from `cache`, a folder, created if need be; with an empty path
-  /// nothing is kept. A damaged or foreign file in the cache is replaced.
+  /// Traces the scene, or reads its transport from `cache`, a folder, created if necessary; with an empty
+  /// path nothing is cached. A damaged or foreign file in the cache is replaced.
   /// Throws: Error{input} for settings with problems(); Error{disk} if the cache cannot be written;
   /// Cancelled.
   SimulatedVenue(const VenueSettings& settings, const std::filesystem::path& cache, Progress& progress);
@@ -67,10 +67,10 @@ class SimulatedVenue {
   /// Devices as the pipeline sees them. They may outlive this object. Each call gives a new set, showing
   /// black.
   Rig rig() const;
-  /// The same with faults (device_faults.h), which may be changed while the rig is in use.
+  /// The same with faults (device_faults.h); the schedule may be changed while the rig is in use.
   Rig rig(std::shared_ptr<const FaultSchedule> faults) const;
 
-  /// The truth, for `evaluate` and tests only.
+  /// The true transport, for `evaluate` and tests only.
   /// T: camera signal per second per linear light of the projectors, free of noise. Vignetting is part of it;
   /// the response curves, the white segment and the black level are not.
   const TransportMatrix& trueTransport() const;

@@ -23,7 +23,7 @@ class VenueLight {
   const Stack& ambient() const { return ambient_; }
   /// e: the projectors' black level and the ambient light.
   const Stack& black() const { return black_; }
-  /// T the usual way round; made when first asked for.
+  /// T in row order, computed on first use.
   const TransportMatrix& transport() const;
 
  private:

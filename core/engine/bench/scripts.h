@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-/// The texts of the .py files beside this one, which the build puts into the library.
+/// The texts of the .py files beside this one, which the build compiles into the library.
 namespace relucent::scripts {
 
 extern const std::string_view scipy_products;

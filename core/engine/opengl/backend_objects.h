@@ -10,7 +10,8 @@
 
 namespace relucent {
 
-/// What a frame on a graphics card works with, and its stages. All calls while the context is current.
+/// Buffers and programs of a frame on a graphics card, and its stages. The context must be current in all
+/// calls.
 struct OpenGlBackend::Objects {
   explicit Objects(const EngineVenue& engine);
 
@@ -21,9 +22,9 @@ struct OpenGlBackend::Objects {
   void showPlaced() noexcept;
   /// p = clamp(M u), or with the correction.
   void invert(bool correction) noexcept;
-  /// The residual and the sums of what goes back, of all nodes.
+  /// The residual and its adjoint sums of all nodes.
   void passThrough(bool correction) noexcept;
-  /// What coarser nodes got back goes to their pixels; a step ends there, by an update of p.
+  /// Adds the adjoint sums of coarser nodes to their pixels, and ends a step by an update of p.
   void spread(bool correction, float length) noexcept;
   void takeStep(float length) noexcept;
   void encode() noexcept;
@@ -32,7 +33,7 @@ struct OpenGlBackend::Objects {
            backward.slices.bytes() + nodes.bytes() + nodeStart.bytes() + segments.bytes();
   }
 
-  /// Part of a buffer that a shader can reach at once.
+  /// Part of a buffer that a shader can bind at once.
   struct Batch {
     std::size_t first, count;  // tiles or slices
     std::size_t begin, bytes;  // of the buffer that is bound in parts
@@ -70,7 +71,7 @@ struct OpenGlBackend::Objects {
   std::size_t columns = 0, longCount = 0, nodeCount = 0, cameraPixels = 0, projectorPixels = 0;
   std::size_t freeValues = 0;
 
-  // Six vectors a camera pixel, see common.glsl; `known` is what is in `camera`.
+  // Six vectors a camera pixel, see common.glsl; `known` is the content of `camera`.
   std::vector<float> known;
   GlBuffer camera, wanted, unmixed, placed;
   GlBuffer light, nodeLight, columnLight, back, segmentSums, sums;

@@ -9,15 +9,15 @@
 namespace relucent {
 
 /// An OpenGL 4.3 context without a window and without a display, for compute shaders. It is current only
-/// while a Current lives, on one thread at a time.
+/// during the lifetime of a Current, on one thread at a time.
 class GlContext {
  public:
   enum class Device {
-    any,       // a graphics card if there is one, else the processor pretends to be one
+    any,       // a graphics card if there is one, else a software renderer
     graphics,  // a graphics card
   };
 
-  /// Throws: Error{device} if there is no such device with OpenGL 4.3, saying what was found.
+  /// Throws: Error{device} if there is no such device with OpenGL 4.3, with the available devices.
   explicit GlContext(Device wanted);
   ~GlContext();
   GlContext(const GlContext&) = delete;
@@ -25,13 +25,13 @@ class GlContext {
 
   /// The driver's name of its device.
   const std::string& renderer() const { return renderer_; }
-  /// The processor does the work: slower than a back end made for it.
+  /// A software renderer, which is slower than the back end for the processor.
   bool software() const { return software_; }
-  /// The driver has reset the device, or gave an error since the last question. Contract: current.
+  /// The driver has reset the device, or reported an error since the last call. Contract: current.
   bool failed() const noexcept;
 
-  /// Makes the context current, and what was current before when it ends. OpenGL contexts of GLX must not be
-  /// current on the same thread.
+  /// Makes the context current during its lifetime, and restores the previous one. OpenGL contexts of GLX
+  /// must not be current on the same thread.
   class Current {
    public:
     explicit Current(const GlContext& context) noexcept;
@@ -59,7 +59,7 @@ class GlContext {
   bool reportsReset_ = false;
 };
 
-/// A driver's name for a renderer that runs on the processor.
+/// Whether a driver's name is that of a software renderer.
 bool isSoftwareRenderer(const std::string& name);
 
 }  // namespace relucent

@@ -19,8 +19,8 @@ namespace relucent {
 class GlBuffer {
  public:
   GlBuffer() = default;
-  /// Zeros, or a copy of `data`. Throws: Error{device} if the device's memory does not hold it, or more than
-  /// a shader can reach is wanted: `inParts` is for buffers of which only parts are bound.
+  /// Zeros, or a copy of `data`. Throws: Error{device} if the device's memory is too small, or the size
+  /// exceeds what a shader can bind: `inParts` is for buffers of which only parts are bound.
   explicit GlBuffer(std::size_t bytes, const void* data = nullptr, bool inParts = false);
   template <typename T>
   explicit GlBuffer(const std::vector<T>& values, bool inParts = false)
@@ -41,10 +41,10 @@ class GlBuffer {
   void read(std::size_t begin, void* data, std::size_t bytes) const noexcept;
   void clear() noexcept { clear(0, bytes_); }
   void clear(std::size_t begin, std::size_t bytes) noexcept;
-  /// The old content need not be kept: spares waiting for whoever still reads it.
+  /// Declares the old content unused, which avoids waiting for shaders that still read it.
   void forget() noexcept { glInvalidateBufferData(name_); }
 
-  /// What a shader can reach of one buffer, and where a bound part of a buffer may begin.
+  /// Bytes of a buffer that a shader can bind, and the alignment of a bound part.
   static std::size_t largest();
   static std::size_t alignment();
 
@@ -59,7 +59,7 @@ class GlProgram {
   static constexpr std::size_t group = 64;
 
   GlProgram() = default;
-  /// `defines`: names for its conditional parts. Throws: Error{device} with the compiler's words.
+  /// `defines`: preprocessor symbols. Throws: Error{device} with the compiler's message.
   explicit GlProgram(std::string_view source, std::initializer_list<const char*> defines = {});
   ~GlProgram();
   GlProgram(GlProgram&& other) noexcept { *this = std::move(other); }
@@ -84,14 +84,14 @@ class GlProgram {
     glProgramUniformMatrix3fv(name_, location, 1, GL_TRUE, rowMajor);
   }
 
-  /// Runs it over so many invocations or a few more, after everything before has been written.
+  /// Runs at least that many invocations, after all previous writes.
   void run(std::size_t invocations) const noexcept;
 
  private:
   GLuint name_ = 0;
 };
 
-/// The moment when the device comes by, on its own clock.
+/// A time stamp of the device's clock, taken when its queue reaches this point.
 class GlTimestamp {
  public:
   GlTimestamp() = default;

@@ -10,13 +10,12 @@ namespace relucent {
 
 class GlContext;
 
-/// The engine on a graphics card, in compute shaders of OpenGL 4.3. The same bits every time on the same
-/// device and driver. A frame allocates nothing here; what drivers do is theirs. May be used by any thread,
-/// one at a time.
+/// The engine on a graphics card, in compute shaders of OpenGL 4.3. Deterministic on the same device and
+/// driver. A frame allocates nothing here, although drivers may. May be used by any thread, one at a time.
 class OpenGlBackend : public EngineBackend {
  public:
   /// `engine` must outlive it.
-  /// Throws: Error{device} if the driver refuses the shaders, or the device's memory does not hold T and M.
+  /// Throws: Error{device} if the driver rejects the shaders, or the device's memory does not hold T and M.
   OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context);
   ~OpenGlBackend() override;
 
@@ -33,7 +32,7 @@ class OpenGlBackend : public EngineBackend {
   /// Bytes read and written per second when the device copies its memory. Throws: Error{device}.
   double copyBandwidth();
 
-  /// From now on as if the device were gone. For tests.
+  /// Simulates a lost device. For tests.
   void loseDevice() { lost_ = true; }
 
  private:

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-/// The texts of the .comp files beside this one, which the build puts into the library.
+/// The texts of the .comp files beside this one, which the build compiles into the library.
 namespace relucent::shaders {
 
 extern const std::string_view common, place, windows, means, gather, forward, backward, sum_nodes, spread,

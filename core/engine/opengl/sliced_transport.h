@@ -9,25 +9,25 @@
 
 namespace relucent {
 
-/// Rows of leaves in slices of 32, as a graphics card reads them: of all rows of a slice the first leaves,
-/// one behind the other, then all second ones. Rows of a patch are sorted by their length, so that hardly
-/// anything is filled up; what is filled up has codes 0. ("SELL-C-sigma": Kreutzer et al. 2014.)
+/// Rows of leaves in slices of 32 for a graphics card: first the first leaves of all rows of a slice, then
+/// all second ones, and so on. Rows of a patch are sorted by length, so that little padding is needed;
+/// padding has codes 0. ("SELL-C-sigma": Kreutzer et al. 2014.)
 struct LeafSlices {
   static constexpr std::uint32_t lanes = 32;
-  /// Where a slice's leaves begin, in units of 32; and what its leaves' places count from.
+  /// Start of a slice's leaves, in units of 32; and the base of their positions.
   struct Slice {
     std::uint32_t leaf = 0, base = 0;
   };
-  std::vector<Slice> slices;  // and one behind the last
+  std::vector<Slice> slices;  // plus one past the last
   std::vector<PackedLeaf> leaves;
 
   std::size_t count() const { return slices.empty() ? 0 : slices.size() - 1; }
 };
 
 /// PackedTransport for graphics cards: the same 8 bytes a leaf, once by camera pixels for T p and once by
-/// nodes for the adjoint, which so needs no atomic additions: sums are taken in the same order every time.
+/// nodes for the adjoint, which therefore needs no atomic additions: sums have a fixed order.
 struct SlicedTransport {
-  /// A camera pixel's place in its slice. `pixel` is noPixel where a slice was filled up.
+  /// A camera pixel's position in its slice. `pixel` is noPixel in padding.
   struct Row {
     std::uint32_t pixel = noPixel;
     std::array<float, 9> mixing{};

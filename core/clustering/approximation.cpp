@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "clustering/patches.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

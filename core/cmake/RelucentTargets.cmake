@@ -41,7 +41,7 @@ function(relucent_reads_prelude target name)
     $<TARGET_PROPERTY:relucent_${name}_prelude,INCLUDE_DIRECTORIES>)
 endfunction()
 
-# relucent_core_library(image SOURCES color.cpp ... USES base PUBLIC lib ... PRIVATE lib ...)
+# relucent_core_library(image SOURCES colour.cpp ... USES base PUBLIC lib ... PRIVATE lib ...)
 #   USES    the core folders above this one that it may include: the layers, as link lines
 #   PUBLIC  libraries whose headers appear in this folder's headers
 #   PRIVATE libraries met only inside its sources
@@ -58,7 +58,7 @@ function(relucent_core_library name)
   endif()
 endfunction()
 
-# relucent_test(core/image/test_color.cpp USES image ...): one Qt Test program, one ctest entry.
+# relucent_test(core/image/test_colour.cpp USES image ...): one Qt Test program, one ctest entry.
 #   ON_TWO_SCREENS  on an X server with an operator's and a projector's screen; skipped where none starts
 # RELUCENT_TEST_PRELUDE, if set, names the prelude of a folder's tests.
 function(relucent_test source)

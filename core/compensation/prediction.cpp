@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/metrics.h"
 
 namespace relucent {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent::drawing {
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/mask.h"
 
 namespace relucent {

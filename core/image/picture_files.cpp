@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 
 namespace relucent {

@@ -9,7 +9,7 @@
 #include "compensation/methods.h"
 #include "compensation/prediction.h"
 #include "compensation/uncorrectable.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/stopwatch.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/metrics.h"
 #include "image/picture_files.h"
 #include "pipeline/devices.h"

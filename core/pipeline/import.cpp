@@ -10,7 +10,7 @@
 #include "base/stopwatch.h"
 #include "calibration/results.h"
 #include "devices/raw_photograph.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 

@@ -11,7 +11,7 @@
 #include "base/stopwatch.h"
 #include "compensation/methods.h"
 #include "compensation/prediction.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/devices.h"

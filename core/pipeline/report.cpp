@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "pipeline/report_charts.h"
 #include "pipeline/report_html.h"
 #include "pipeline/report_measurement.h"

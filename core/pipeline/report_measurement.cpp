@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "image/color.h"
+#include "image/colour.h"
 #include "pipeline/report_charts.h"
 #include "pipeline/report_html.h"
 #include "pipeline/report_pictures.h"

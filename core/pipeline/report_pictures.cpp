@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/picture_files.h"
 
 namespace relucent {

@@ -2,7 +2,7 @@
 #include "transport/footprint.h"
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

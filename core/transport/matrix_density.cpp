@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "transport/block_kernels.h"
 
 namespace relucent {

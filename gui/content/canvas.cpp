@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/picture_files.h"
 
 namespace relucent {

@@ -4,7 +4,7 @@
 #include <QImage>
 #include <QVideoFrame>
 
-#include "image/video_color.h"
+#include "image/video_colour.h"
 
 namespace relucent {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/still_solver.h"
 
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "theme/tokens.h"
 
 namespace relucent {

@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "compensation/prediction.h"
 #include "compensation/uncorrectable.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/metrics.h"
 #include "image/picture_files.h"
 #include "pipeline/stages.h"

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "engine/opengl/backend_objects.h"
 #include "engine/opengl/gl_context.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clustering/clustering.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 

@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "core/engine/engine_scenes.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 using namespace relucent;
 using namespace relucent::synthetic;

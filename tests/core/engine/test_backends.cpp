@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "core/engine/engine_backends.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace {
 std::atomic<std::size_t> allocations{0};

@@ -2,7 +2,7 @@
 #include <QtTest>
 
 #include "base/random.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/metrics.h"
 
 using namespace relucent;

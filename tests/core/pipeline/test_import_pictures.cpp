@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "devices/raw_photograph.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/compensate.h"

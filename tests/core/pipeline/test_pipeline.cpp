@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/acquisition_bench.h"

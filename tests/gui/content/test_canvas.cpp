@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/exr.h"
 #include "support/sentences.h"
 

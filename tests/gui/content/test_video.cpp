@@ -9,7 +9,7 @@
 
 #include "avi_film.h"
 #include "content/playlist.h"
-#include "image/color.h"
+#include "image/colour.h"
 #include "support/sentences.h"
 
 using namespace relucent;
@@ -81,7 +81,7 @@ class TestVideo : public QObject {
       for (int x = 0; x < size.width(); ++x) {
         QRgb pixel = shown.pixel(x, y);
         if (x >= middle) QCOMPARE(pixel & 0xffffff, qRgb(grey, grey, grey) & 0xffffff);
-        // Rounded samples: see test_video_color.
+        // Rounded samples: see test_video_colour.
         if (x < middle) QVERIFY(std::abs(qRed(pixel) - red) <= 3 && qGreen(pixel) <= 2 && qBlue(pixel) <= 2);
       }
   }

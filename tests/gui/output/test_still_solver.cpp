@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/engine/engine_scenes.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 using namespace relucent;
 

@@ -2,7 +2,7 @@
 #include <QtTest>
 
 #include "base/random.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 using namespace relucent;
 
@@ -142,4 +142,4 @@ class TestColor : public QObject {
 };
 
 QTEST_APPLESS_MAIN(TestColor)
-#include "test_color.moc"
+#include "test_colour.moc"

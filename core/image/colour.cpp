@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/color.h"
+#include "image/colour.h"
 
 #include <algorithm>
 #include <cmath>

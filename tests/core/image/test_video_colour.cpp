@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/video_color.h"
+#include "image/video_colour.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "image/color.h"
+#include "image/colour.h"
 
 using namespace relucent;
 using Matrix = VideoEncoding::Matrix;
@@ -144,4 +144,4 @@ class TestVideoColor : public QObject {
 };
 
 QTEST_GUILESS_MAIN(TestVideoColor)
-#include "test_video_color.moc"
+#include "test_video_colour.moc"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/video_color.h"
+#include "image/video_colour.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "image/color.h"
+#include "image/colour.h"
 
 namespace relucent {
 namespace {

@@ -15,10 +15,10 @@ namespace relucent {
 namespace {
 
 // Rows are X, Y, Z; their sums are the white that labFromXyz() divides by.
-constexpr std::array<Color, 3> xyzRows{
+constexpr std::array<Colour, 3> xyzRows{
     {{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}};
 
-double dot(const Color& a, const Color& b) {
+double dot(const Colour& a, const Colour& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -49,7 +49,7 @@ Image mapped(const Image& image, const Function& function) {
   return result;
 }
 
-Color labOfEncoded(std::span<const float> pixel) {
+Colour labOfEncoded(std::span<const float> pixel) {
   return labFromXyz(xyzFromLinearRgb({srgbDecode(pixel[0]), srgbDecode(pixel[1]), srgbDecode(pixel[2])}));
 }
 
@@ -74,7 +74,7 @@ Image srgbDecoded(const Image& encoded) {
   return mapped(encoded, srgbDecode);
 }
 
-double luminance(const Color& linearRgb) {
+double luminance(const Colour& linearRgb) {
   return dot(xyzRows[1], linearRgb);
 }
 
@@ -83,26 +83,26 @@ Image luminance(const Image& linear) {
   Image result(linear.size(), 1);
   for (std::size_t i = 0; i < linear.pixels(); ++i) {
     const auto pixel = linear.pixel(i);
-    result.data()[i] = static_cast<float>(luminance(Color{pixel[0], pixel[1], pixel[2]}));
+    result.data()[i] = static_cast<float>(luminance(Colour{pixel[0], pixel[1], pixel[2]}));
   }
   return result;
 }
 
-Color xyzFromLinearRgb(const Color& linearRgb) {
+Colour xyzFromLinearRgb(const Colour& linearRgb) {
   return {dot(xyzRows[0], linearRgb), dot(xyzRows[1], linearRgb), dot(xyzRows[2], linearRgb)};
 }
 
-Color labFromXyz(const Color& xyz) {
+Colour labFromXyz(const Colour& xyz) {
   constexpr double edge = 6.0 / 29.0;
   auto f = [](double t) {
     return t > edge * edge * edge ? std::cbrt(t) : t / (3.0 * edge * edge) + 4.0 / 29.0;
   };
-  const Color white = xyzFromLinearRgb({1.0, 1.0, 1.0});
+  const Colour white = xyzFromLinearRgb({1.0, 1.0, 1.0});
   const double x = f(xyz[0] / white[0]), y = f(xyz[1] / white[1]), z = f(xyz[2] / white[2]);
   return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
 
-double ciede2000(const Color& lab1, const Color& lab2) {
+double ciede2000(const Colour& lab1, const Colour& lab2) {
   // Step 1: chroma with the a axis stretched near grey, and hue (equations 2 to 7).
   const double meanChroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2.0;
   const double stretch = 1.0 + 0.5 * (1.0 - chromaWeight(meanChroma));

@@ -10,7 +10,7 @@
 namespace relucent {
 
 /// Three values of a colour in whatever space the name of the variable says.
-using Color = std::array<double, 3>;
+using Colour = std::array<double, 3>;
 
 /// The sRGB transfer function, exact and piecewise; odd beyond 0, so that negative values survive.
 /// Source: IEC 61966-2-1.
@@ -20,7 +20,7 @@ Image srgbEncoded(const Image& linear);
 Image srgbDecoded(const Image& encoded);
 
 /// Y = 0.2126 R + 0.7152 G + 0.0722 B, of linear values.  Source: ITU-R BT.709.
-double luminance(const Color& linearRgb);
+double luminance(const Colour& linearRgb);
 inline constexpr std::array<float, 3> luminanceWeights{0.2126f, 0.7152f, 0.0722f};
 inline float luminanceOf(float red, float green, float blue) {
   return luminanceWeights[0] * red + luminanceWeights[1] * green + luminanceWeights[2] * blue;
@@ -29,12 +29,12 @@ inline float luminanceOf(float red, float green, float blue) {
 Image luminance(const Image& linear);
 
 /// Linear sRGB -> CIE XYZ, white at Y = 1 (D65).  Source: IEC 61966-2-1.
-Color xyzFromLinearRgb(const Color& linearRgb);
+Colour xyzFromLinearRgb(const Colour& linearRgb);
 /// CIE XYZ -> CIE L*a*b* with the white of sRGB, so that grey is a = b = 0.  Source: CIE 15.
-Color labFromXyz(const Color& xyz);
+Colour labFromXyz(const Colour& xyz);
 
 /// The colour difference CIEDE2000 with kL = kC = kH = 1.  Source: Sharma, Wu & Dalal 2005.
-double ciede2000(const Color& lab1, const Color& lab2);
+double ciede2000(const Colour& lab1, const Colour& lab2);
 
 /// What a viewer adapted to `white` sees, as sRGB: encode(clamp(linear / white, 0, 1)) per channel.
 /// The common ground of meanDeltaE() and ssim().

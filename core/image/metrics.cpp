@@ -40,7 +40,7 @@ cv::Mat lumaOf(const Image& encoded) {
   for (std::size_t i = 0; i < encoded.pixels(); ++i) {
     const auto pixel = encoded.pixel(i);
     luma.ptr<double>()[i] =
-        encoded.channels() == 3 ? luminance(Color{pixel[0], pixel[1], pixel[2]}) : pixel[0];
+        encoded.channels() == 3 ? luminance(Colour{pixel[0], pixel[1], pixel[2]}) : pixel[0];
   }
   return luma;
 }

@@ -10,7 +10,7 @@ namespace {
 
 /// Sharma, Wu & Dalal 2005, table 1: two colours and their difference, rounded to 4 digits.
 struct Pair {
-  Color first, second;
+  Colour first, second;
   double difference;
 };
 const std::vector<Pair> sharmaPairs{{{50.0000, 2.6772, -79.7751}, {50.0000, 0.0000, -82.7485}, 2.0425},
@@ -50,7 +50,7 @@ const std::vector<Pair> sharmaPairs{{{50.0000, 2.6772, -79.7751}, {50.0000, 0.00
 
 }  // namespace
 
-class TestColor : public QObject {
+class TestColour : public QObject {
   Q_OBJECT
 
  private slots:
@@ -84,12 +84,12 @@ class TestColor : public QObject {
   }
 
   void luminanceIsLinearAndOneForWhite() {
-    QVERIFY(std::abs(luminance(Color{1, 1, 1}) - 1.0) < 1e-15);
+    QVERIFY(std::abs(luminance(Colour{1, 1, 1}) - 1.0) < 1e-15);
     Random random{7};
     for (int i = 0; i < 100; ++i) {
-      const Color a{random.uniform(), random.uniform(), random.uniform()};
-      const Color b{random.uniform(), random.uniform(), random.uniform()};
-      const Color sum{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+      const Colour a{random.uniform(), random.uniform(), random.uniform()};
+      const Colour b{random.uniform(), random.uniform(), random.uniform()};
+      const Colour sum{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
       QVERIFY(std::abs(luminance(sum) - luminance(a) - luminance(b)) < 1e-14);
       QCOMPARE(xyzFromLinearRgb(a)[1], luminance(a));
     }
@@ -97,7 +97,7 @@ class TestColor : public QObject {
 
   void greyHasNoChroma() {
     for (double level : {0.0, 0.001, 0.18, 0.5, 1.0}) {
-      const Color lab = labFromXyz(xyzFromLinearRgb({level, level, level}));
+      const Colour lab = labFromXyz(xyzFromLinearRgb({level, level, level}));
       QVERIFY(std::abs(lab[1]) < 1e-10 && std::abs(lab[2]) < 1e-10);
     }
     QVERIFY(std::abs(labFromXyz(xyzFromLinearRgb({1, 1, 1}))[0] - 100.0) < 1e-10);
@@ -141,5 +141,5 @@ class TestColor : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(TestColor)
+QTEST_APPLESS_MAIN(TestColour)
 #include "test_colour.moc"

@@ -24,7 +24,7 @@ double directSsim(const Image& a, const Image& b, int centreX, int centreY) {
       const double weight = std::exp(-(dx * dx + dy * dy) / (2.0 * 1.5 * 1.5));
       auto luma = [&](const Image& image) {
         const int x = centreX + dx, y = centreY + dy;
-        return luminance(Color{image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)});
+        return luminance(Colour{image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)});
       };
       const double valueA = luma(a), valueB = luma(b);
       weights += weight;

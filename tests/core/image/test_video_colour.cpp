@@ -17,7 +17,7 @@ using Transfer = VideoEncoding::Transfer;
 namespace {
 
 /// One colour as a sender encodes it, the standards' equations forward: R'G'B' to Y, Cb, Cr of `bits`.
-std::array<std::uint16_t, 3> encoded(const Color& rgb, const VideoEncoding& encoding, int bits) {
+std::array<std::uint16_t, 3> encoded(const Colour& rgb, const VideoEncoding& encoding, int bits) {
   bool bt709 = encoding.matrix == Matrix::bt709, full = encoding.range == Range::full;
   double red = bt709 ? 0.2126 : 0.299, blue = bt709 ? 0.0722 : 0.114;
   double y = red * rgb[0] + (1.0 - red - blue) * rgb[1] + blue * rgb[2];
@@ -41,7 +41,7 @@ std::array<int, 3> decoded(std::array<std::uint16_t, 3> code, const VideoEncodin
 
 }  // namespace
 
-class TestVideoColor : public QObject {
+class TestVideoColour : public QObject {
   Q_OBJECT
 
  private slots:
@@ -143,5 +143,5 @@ class TestVideoColor : public QObject {
   void anEmptyFrameIsNothing() { srgbFromVideo({}, {0, 0}, {}, nullptr, 0); }
 };
 
-QTEST_GUILESS_MAIN(TestVideoColor)
+QTEST_GUILESS_MAIN(TestVideoColour)
 #include "test_video_colour.moc"

@@ -18,11 +18,11 @@ class ActionBar : public QFrame {
  public:
   explicit ActionBar(Wizard& wizard, QWidget* parent = nullptr);
   QWidget* firstFocus() const;
-  /// Does the primary command if it is enabled.
+  /// Triggers the primary command if it is enabled.
   void runPrimary();
 
  Q_SIGNALS:
-  /// The sentence was clicked: show the widget of that name, which can change what it says.
+  /// The reason was clicked: show the widget of that name, with which the user can resolve it.
   void causeWanted(const QString& name);
 
  protected:

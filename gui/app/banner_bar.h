@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// The banner of the page that is looked at, if it has one.
+/// The banner of the current page, if it has one.
 class BannerBar : public QWidget {
   Q_OBJECT
 

@@ -13,16 +13,16 @@ struct HelpPage {
   QString id;        // of the file: "03-linearize"
   QString title;     // its heading
   QString text;      // Markdown
-  QString language;  // that it is written in: "de", "zh_CN"; empty where it is in several
+  QString language;  // language of the page: "de", "zh_CN"; empty for a mixture
 
-  /// The side to read from; auto: each paragraph's own.
+  /// Reading direction; auto: by paragraph.
   Qt::LayoutDirection direction() const;
 };
 
 /// Languages that the guide in the folder `help` (`help`/LANGUAGE/*.md) is written in, sorted.
 QStringList guideLanguages(const QString& help);
 
-/// The pages of English, which has them all, in their order; each in `language` ("de_AT"), else in the
+/// All pages in the order of the English guide, which is complete; each in `language` ("de_AT"), else in the
 /// language without its country ("de"), else in English.
 QList<HelpPage> guidePages(const QString& help, const QString& language);
 

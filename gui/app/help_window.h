@@ -10,12 +10,12 @@
 
 namespace relucent {
 
-/// The guide in a language ("de"), each page that it lacks in English, in the order of the steps; then what
-/// belongs to no step, last about the program and whose work it is made with.
+/// The guide in a language ("de"), missing pages in English, in the order of the steps; then pages that
+/// belong to no step, the last one about the program and the libraries that it uses.
 QList<HelpPage> helpPages(const QString& language);
 
-/// A page as it is read: from the side of its language, room between paragraphs, pictures no wider than there
-/// is room for.
+/// Displays a page: with the direction of its language, spacing between paragraphs, and pictures scaled to
+/// the available width.
 class HelpText : public QTextBrowser {
   Q_OBJECT
 
@@ -30,11 +30,11 @@ class HelpText : public QTextBrowser {
  private:
   void spread();
   HelpPage page_;
-  int width_ = 0;  // that pictures were made for
+  int width_ = 0;  // width that pictures were scaled to
 };
 
-/// The user's guide beside the program: pages at the left, what they say at the right, and a search through
-/// all of them.
+/// The window of the user's guide: list of pages at the left, the page at the right, and a search over all of
+/// them.
 class HelpWindow : public QDialog {
   Q_OBJECT
 
@@ -43,7 +43,7 @@ class HelpWindow : public QDialog {
   explicit HelpWindow(const QString& language, QWidget* parent = nullptr);
   /// Of a step, from 0.
   void showPage(int index);
-  /// In the place of a guide in another language, at the page that it showed.
+  /// Replaces a guide in another language, at the page that it showed.
   void replace(const HelpWindow& before);
 
  protected:

@@ -11,9 +11,9 @@
 
 namespace relucent {
 
-/// The language that the program speaks: its own sentences, Qt's, how numbers are written (by the default
-/// QLocale, with the digits 0 to 9 in every language), and from which side one reads. What is made after
-/// choose() speaks it; what was made before has to be made again.
+/// The language of the program: its own sentences, Qt's, number formats (by the default QLocale, with the
+/// digits 0 to 9 in every language), and the reading direction. Widgets made after choose() use it; older
+/// ones have to be made again.
 class Language {
  public:
   /// `folder`: of relucent_LANGUAGE.qm.
@@ -22,12 +22,12 @@ class Language {
   Language(const Language&) = delete;
   Language& operator=(const Language&) = delete;
 
-  /// "de", "zh_CN": what there is a translation for.
+  /// "de", "zh_CN": the available translations.
   QStringList available() const;
-  /// Empty: the computer's, as far as it is available, else English. Of a language without translation the
-  /// sentences are English and the rest stays the language's.
+  /// Empty: the system's if available, else English. For a language without translation the sentences are
+  /// English, number formats and direction those of the language.
   void choose(const QString& code);
-  /// Of the sentences: "de"; "en" where nothing else fits.
+  /// Language of the sentences: "de"; "en" if there is no translation.
   const QString& spoken() const { return spoken_; }
 
  private:

@@ -18,8 +18,8 @@ namespace relucent {
 
 class HelpWindow;
 
-/// The frame round all pages: rail, header, banner, stage, inspector, action bar, status strip, and the keys
-/// that work everywhere. Knows pages by their contract only.
+/// The frame around all pages: rail, header, banner, stage, inspector, action bar, status strip, and the keys
+/// that work everywhere. Knows pages by their interface only.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -29,7 +29,7 @@ class MainWindow : public QMainWindow {
              std::vector<PageView> views);
 
   void showSettings();
-  /// The guide, at the page of the step that is looked at.
+  /// Opens the guide at the page of the current step.
   void showHelp();
 
  protected:
@@ -67,7 +67,7 @@ class MainWindow : public QMainWindow {
   ElidedLabel *title_, *subtitle_;
   QPushButton* dim_;
   std::vector<QPushButton*> footer_;  // of the rail
-  HelpWindow* help_ = nullptr;        // once it has been asked for
+  HelpWindow* help_ = nullptr;        // once it has been opened
   QStackedWidget *stages_, *inspectors_;
 };
 

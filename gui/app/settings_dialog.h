@@ -7,12 +7,12 @@
 
 namespace relucent {
 
-/// Everything that is the user's to set and belongs to no venue. A change acts at once.
+/// User settings that belong to no venue. A change takes effect at once.
 class SettingsDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// `languages`: codes of what may be chosen, "de".
+  /// `languages`: codes of the available languages, "de".
   SettingsDialog(Preferences& preferences, QStringList languages, QWidget* parent = nullptr);
 
  private:

@@ -11,19 +11,19 @@
 
 namespace relucent {
 
-/// Arguments that mean nothing.
+/// Invalid arguments.
 struct WrongArguments : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// To be written, and nothing else done: the help, or the version.
+/// Only a text to print: the help or the version.
 struct PrintText {
   QString text;
 };
 struct PlayShow {
   ShowSettings settings;
 };
-/// `arguments`: of the show that is to start by itself, with paths from the root.
+/// `arguments`: of the show to start at log-in, with absolute paths.
 struct InstallShow {
   Start start;
   QStringList arguments;
@@ -35,7 +35,7 @@ struct UninstallShow {
 
 using ShowArguments = std::variant<PrintText, PlayShow, InstallShow, UninstallShow>;
 
-/// What `relucent ARGUMENTS` asks for; the first one is the program's name.
+/// Parses `relucent ARGUMENTS`; the first one is the program's name.
 /// Throws: WrongArguments; as contentOf().
 ShowArguments parseShowArguments(const QStringList& arguments);
 

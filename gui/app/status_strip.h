@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// Projector, camera, disk, the room's light once it is known, and what was saved last.
+/// Projector, camera, disk, the room's light once it is known, and the last saved state.
 class StatusStrip : public QFrame {
   Q_OBJECT
 

@@ -17,7 +17,7 @@ class StepButton : public QAbstractButton {
   StepButton(int number, QWidget* parent = nullptr);
   void show(const QString& name, const StepStatus& status, bool current, bool locked);
   QSize sizeHint() const override { return {208, 50}; }
-  /// Its name is read whole; the result below may end in an ellipsis.
+  /// Its name is shown in full; the result below may end in an ellipsis.
   QSize minimumSizeHint() const override;
 
  protected:

@@ -6,10 +6,10 @@
 
 namespace relucent {
 
-/// Whether the arguments ask for the wizard: none at all, or the folder of one calibration.
+/// Whether the arguments request the wizard: none at all, or the folder of one calibration.
 bool asksForWizard(int argc, char** argv);
 
-/// Whether a window of that size has room on the screen, with what the desktop puts round it.
+/// Whether a window of that size, with its decoration, fits the screen.
 bool hasRoom(QSize window, QSize screen);
 
 /// `relucent [CALIBRATION]`. Exit status: 0.

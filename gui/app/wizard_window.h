@@ -18,15 +18,15 @@
 
 namespace relucent {
 
-/// The wizard with all its pages: the one place that knows which there are.
+/// The wizard with all its pages: the one place that lists them.
 class WizardWindow {
  public:
-  /// `cache`: folder of traced venues. `settings` outlives it. `translations`: see Language.
+  /// `cache`: folder of traced venues. `settings` must outlive it. `translations`: see Language.
   WizardWindow(QSettings& settings, std::filesystem::path cache,
                const QString& translations = ":/translations");
   ~WizardWindow();
 
-  /// Another one after the language has changed.
+  /// Replaced when the language changes.
   MainWindow& window() { return *window_; }
   Wizard& wizard() { return wizard_; }
   Preferences& preferences() { return preferences_; }
@@ -46,8 +46,8 @@ class WizardWindow {
   void speakAnew();
 
   Preferences preferences_;
-  QString languageCode_;  // as it was chosen
-  Language language_;     // before any page says a word
+  QString languageCode_;  // as chosen
+  Language language_;     // made before any page has text
   Session session_;
   VenuePage venue_;
   CameraPage camera_;

@@ -8,15 +8,16 @@
 
 namespace relucent {
 
-/// What all content is brought to before it is compensated.
+/// The format to which all content is converted before it is compensated.
 struct Canvas {
   QSize size{1920, 1080};
   Fit fit = Fit::fit;
 };
 
-/// A picture of a file: upright; sRGB in Format_RGBX8888, transparent parts on black, a colour profile in the
-/// file taken for true; of files with float samples linear in Format_RGBX32FPx4.
-/// Throws: Error{disk} if unreadable, Error{format} if no picture; Error{input} for NaN and infinities.
+/// Reads a picture file: upright; sRGB in Format_RGBX8888, transparent parts on black, converted by the
+/// file's colour profile; files with float samples are linear in Format_RGBX32FPx4.
+/// Throws: Error{disk} if unreadable, Error{format} if it is not a picture; Error{input} for NaN and
+/// infinities.
 QImage readContent(const QString& file);
 
 /// The picture scaled to the canvas; bars are black. Its format stays.

@@ -5,8 +5,7 @@
 
 namespace relucent {
 
-/// What the path of a playlist's item names: a file or folder, or something that is no file, written as
-/// "kind:which".
+/// Parses the path of a playlist item: a file or folder, or another source, written as "kind:which".
 struct ContentAddress {
   enum class Kind {
     file,    // anything else: a path

@@ -9,16 +9,16 @@
 
 namespace relucent {
 
-/// Where a decoder or a camera leaves its newest frame, and whoever shows it takes it: any thread, never
-/// waiting for each other. What nobody takes is never converted.
+/// Passes the newest frame from a decoder or camera to its consumer, on any threads, without waiting for each
+/// other. Frames that are not taken are not converted.
 class FrameSlot {
  public:
   void put(const QVideoFrame& frame);
   /// Frames are JPEG pictures, see pictureOf().
   void tellJpeg();
-  /// The reason why no frame will ever come.
+  /// The reason why no frame will arrive.
   void fail(const QString& reason);
-  /// Waits for a first frame, or a reason why there is none. Whether there is a frame.
+  /// Waits for a first frame or a failure. Returns whether there is a frame.
   bool waitForFirst(int milliseconds);
   QString failure() const;
 

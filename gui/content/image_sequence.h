@@ -6,7 +6,7 @@
 
 namespace relucent {
 
-/// Numbered pictures of a film, at a fixed rate. A picture that cannot be read leaves the one before it.
+/// Numbered pictures of a film, at a fixed rate. In place of an unreadable picture the previous one stays.
 class ImageSequence : public ContentSource {
  public:
   /// Throws: Error{input} if there are no files or the rate is not above 0 and at most 240.
@@ -22,7 +22,7 @@ class ImageSequence : public ContentSource {
   ContentPicture frame_;
 };
 
-/// The pictures of a folder in the order of their names, numbers in them counted: 9 before 10.
+/// The pictures of a folder in the natural order of their names: 9 before 10.
 /// Throws: Error{input} if it holds none.
 QStringList picturesIn(const QString& folder);
 

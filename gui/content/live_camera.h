@@ -8,13 +8,13 @@
 
 namespace relucent {
 
-/// The live picture of a capture device: a camera, or a box that takes the picture of another computer. While
-/// it gives none its last picture stays.
+/// The live picture of a capture device: a camera, or a frame grabber. While it delivers nothing its last
+/// picture stays.
 class LiveCamera : public ContentSource {
  public:
-  /// `which`: what the device calls itself, or a part of it; empty: the first one. Waits for a first picture.
-  /// Throws: Error{device} naming the devices that are there if there is no such one, or if it gives no
-  /// picture; as pictureOf().
+  /// `which`: the device's name, or a part of it; empty: the first one. Waits for a first picture.
+  /// Throws: Error{device} with the available devices if there is no such one, or if it delivers no picture;
+  /// as pictureOf().
   LiveCamera(const QString& which, const Canvas& canvas);
   ~LiveCamera() override;
 

@@ -8,17 +8,17 @@
 
 namespace relucent {
 
-/// The live picture of one of the desktop's screens, or of a window, through the X server: what stands there
-/// when it is asked for, without the pointer. Of a window, what others cover is missing. While the screen or
-/// the window is away its last picture stays.
+/// The live picture of one of the desktop's screens, or of a window, through the X server: its present
+/// contents, without the pointer. Covered parts of a window are missing. While the screen or window does not
+/// exist its last picture stays.
 class LiveScreen : public ContentSource {
  public:
   enum class What {
     screen,  // by its connector: HDMI-1
-    window,  // by its number, as xwininfo tells it, or a part of its title
+    window,  // by its number, as in xwininfo, or a part of its title
   };
-  /// Throws: Error{device} if there is no X server, Error{input} naming the screens or windows that are there
-  /// if there is no such one.
+  /// Throws: Error{device} if there is no X server, Error{input} with the available screens or windows if
+  /// there is no such one.
   LiveScreen(What what, const QString& which, const Canvas& canvas);
   ~LiveScreen() override;
 

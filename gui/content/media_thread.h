@@ -8,14 +8,14 @@
 
 namespace relucent {
 
-/// One of Qt's media back ends, FFmpeg, wherever nobody chose another: it needs no further packages and is
-/// the same on all releases. To be called before anything of Qt Multimedia is used.
+/// Selects Qt's FFmpeg media back end, unless the user chose another: it needs no further packages and is the
+/// same on all releases. Call before any other use of Qt Multimedia.
 inline void chooseMediaBackend() {
   if (!qEnvironmentVariableIsSet("QT_MEDIA_BACKEND")) qputenv("QT_MEDIA_BACKEND", "ffmpeg");
 }
 
-/// A thread with an event loop, for objects of Qt Multimedia that live longer than the call that makes them
-/// and shall not depend on anybody's. One Media is made, used and deleted there.
+/// A thread with an event loop, for objects of Qt Multimedia that outlive the call that makes them and must
+/// not depend on another thread's event loop. One Media is made, used and deleted there.
 template <typename Media>
 class OnMediaThread {
  public:
@@ -33,7 +33,7 @@ class OnMediaThread {
   OnMediaThread(const OnMediaThread&) = delete;
   OnMediaThread& operator=(const OnMediaThread&) = delete;
 
-  /// Runs action(Media&) there and waits for it. Throws nothing.
+  /// Runs action(Media&) on that thread and waits for it. Throws nothing.
   template <typename Action>
   void with(Action action) {
     call([&] { action(*media_); });

@@ -11,12 +11,12 @@
 
 namespace relucent {
 
-/// What work on another thread ended in: a value, or the failure that kept it from one. A QFuture would make
-/// any exception one of its own and throw it at whoever waits, destructors too.
+/// The result of work on another thread: a value or a failure. A QFuture would wrap any exception in its own
+/// type and throw it in whatever waits, including destructors.
 template <typename Value>
 using Outcome = std::variant<Value, Error>;
 
-/// Starts work() on one of the desktop library's threads.
+/// Starts work() on a thread of Qt's pool.
 template <typename Work>
 auto startedElsewhere(Work work) {
   using Value = decltype(work());
@@ -32,7 +32,7 @@ auto startedElsewhere(Work work) {
   });
 }
 
-/// Waits if it must. Throws: the Error that the work ended in.
+/// Waits if necessary. Throws: the Error of the work.
 template <typename Value>
 Value resultOf(const QFuture<Outcome<Value>>& future) {
   Outcome<Value> outcome = future.result();

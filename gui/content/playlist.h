@@ -15,10 +15,10 @@
 
 namespace relucent {
 
-/// One thing to play.
+/// One item of a playlist.
 struct PlaylistItem {
   QString path;           // a picture, a film, a folder of numbered pictures, or a chart, see ContentAddress
-  double seconds = 10.0;  // how long a still picture stands
+  double seconds = 10.0;  // duration of a still picture
   double picturesPerSecond = 25.0;  // of a folder
 
   bool operator==(const PlaylistItem&) const = default;
@@ -31,43 +31,43 @@ struct PlaylistSettings {
 
   bool operator==(const PlaylistSettings&) const = default;
 };
-/// Sentences about what cannot be.
+/// What is wrong with the settings.
 QStringList problems(const PlaylistSettings& settings);
 
 /// A playlist's file, JSON; paths in it are relative to its folder.
-/// Throws: Error{disk}; Error{format} naming what is wrong in it, or that a newer version wrote it.
+/// Throws: Error{disk}; Error{format} if it is invalid, or written by a newer version.
 PlaylistSettings readPlaylist(const QString& file);
 /// Atomic. Throws: Error{disk}.
 void savePlaylist(const QString& file, const PlaylistSettings& settings);
 
-/// Opens what an item names. Throws: Error as the sources do.
+/// Opens an item's source. Throws: as the sources.
 std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas);
 
-/// Items one after the other, with cross-fades, round and round. The next one is opened on another thread as
-/// soon as one begins; if it is not ready in time, the present one stands a little longer. What cannot be
-/// read is named, skipped, and tried again in the next round.
+/// Plays items one after the other, with cross-fades, in a loop. The next item is opened on another thread as
+/// soon as one begins; if it is not ready in time, the present one stays longer. Unreadable items are
+/// reported, skipped, and tried again in the next round.
 class Playlist : public ContentSource {
  public:
   /// Throws: Error{input} for wrong settings.
   Playlist(PlaylistSettings settings, Canvas canvas);
   ~Playlist() override;
 
-  /// An empty image while nothing of the list can be read.
+  /// An empty image while no item can be read.
   ContentPicture at(ContentTime time) override;
   std::optional<ContentTime> length() const override { return std::nullopt; }
 
   struct Status {
     qsizetype playing = -1;  // which item; -1 before the first
-    QStringList skipped;     // what could not be read so far, one sentence each, the newest last
+    QStringList skipped;     // the items that could not be read so far, one sentence each, the newest last
   };
-  /// As the last frame left it. May be asked from any thread.
+  /// State after the last frame. May be called from any thread.
   Status status() const;
 
  private:
   struct Playing {
     qsizetype index = -1;
     std::shared_ptr<ContentSource> source;
-    ContentTime begin{0};  // of the next one: not before it was ready
+    ContentTime begin{0};  // of the next one, once it is ready
   };
 
   ContentPicture pictureAt(ContentTime time);

@@ -11,11 +11,11 @@
 
 namespace relucent {
 
-/// Pictures of files on the canvas, read on other threads before they are asked for. Bounded: the one that is
-/// shown and the few that come next.
+/// Picture files on the canvas, read on other threads before they are needed. Bounded: the present one and
+/// the next few.
 class ReadAhead {
  public:
-  /// `ahead`: how many beyond the one asked for last; `loop`: after the last comes the first.
+  /// `ahead`: number of pictures beyond the last requested one; `loop`: the first follows the last.
   ReadAhead(QStringList files, Canvas canvas, qsizetype ahead, bool loop);
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;
@@ -25,7 +25,7 @@ class ReadAhead {
   /// Waits only if it was not read in time.
   /// Throws: as readContent(), once for each time that the file is asked for.
   QImage picture(qsizetype index);
-  /// Whether picture(index) would not wait.
+  /// Whether picture(index) returns without waiting.
   bool isReady(qsizetype index) const;
   /// Starts reading it.
   void prepare(qsizetype index);

@@ -6,12 +6,12 @@
 
 namespace relucent {
 
-/// A picture that stands still.
+/// A still picture.
 class StillImage : public ContentSource {
  public:
   /// Throws: as readContent().
   StillImage(const QString& file, const Canvas& canvas);
-  /// A picture that is there already.
+  /// From a picture in memory.
   StillImage(const QImage& picture, const Canvas& canvas);
 
   ContentPicture at(ContentTime) override { return frame_; }
@@ -21,7 +21,7 @@ class StillImage : public ContentSource {
   ContentPicture frame_;
 };
 
-/// A number that no other frame of this run has.
+/// A number that is unique within this process.
 std::uint64_t nextFrameNumber();
 
 }  // namespace relucent

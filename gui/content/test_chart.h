@@ -9,11 +9,11 @@
 
 namespace relucent {
 
-/// Pictures that show what a projection does, drawn for the canvas pixel by pixel, never scaled.
+/// Test charts, drawn for the canvas pixel by pixel, never scaled.
 enum class TestChart {
   grid,        // white lines of a pixel on black, squares; the border, a circle, both diagonals
   ramps,       // grey, red, green and blue from black to full, and sixteen steps of grey
-  resolution,  // upright and lying lines of 1, 2, 4 and 8 pixels
+  resolution,  // vertical and horizontal lines of 1, 2, 4 and 8 pixels
   patches,     // six colours full, half as bright, pale; six greys
   checker,     // squares as large as those of the grid
   white,
@@ -28,7 +28,7 @@ std::optional<TestChart> testChartFromName(const QString& name);
 /// Contract: the size is not empty.  Format_RGBX8888.
 QImage drawn(TestChart chart, QSize size);
 
-/// A test chart that stands. Drawn when it is first asked for.
+/// A test chart as a still picture. Drawn at the first request.
 class TestChartContent : public ContentSource {
  public:
   TestChartContent(TestChart chart, const Canvas& canvas) : chart_(chart), size_(canvas.size) {}

@@ -9,14 +9,14 @@
 
 namespace relucent {
 
-/// A film with its sound. It follows the time that it is asked for: picture and sound stand still while that
-/// does, jump when it jumps, and stop when nobody asks. While it plays, both run with the sound's clock, and
-/// are brought back when that has gone astray by more than a seventh of a second.
+/// A film with its sound. It follows the requested time: picture and sound pause while that stands still,
+/// seek when it jumps, and stop when there are no requests. While it plays, both run with the sound's clock,
+/// and are corrected when that is off by more than a seventh of a second.
 class Video : public ContentSource {
  public:
-  /// Waits until the first picture is there.
-  /// Throws: Error{disk} if the file is unreadable; Error{format} if it holds no film that can be decoded;
-  /// as pictureOf().
+  /// Waits for the first picture.
+  /// Throws: Error{disk} if the file is unreadable; Error{format} if it holds no decodable film; as
+  /// pictureOf().
   Video(const QString& file, const Canvas& canvas);
   ~Video() override;
 
@@ -33,7 +33,7 @@ class Video : public ContentSource {
   ContentPicture picture_;  // of the frame of the same number
 };
 
-/// Whether a file's name is that of a film.
+/// Whether a file's name has the extension of a film.
 bool isVideo(const QString& file);
 
 }  // namespace relucent

@@ -16,7 +16,7 @@
 
 namespace relucent {
 
-/// What a film's source and its player share, over threads.
+/// State shared by a film's source and its player across threads.
 class VideoTime {
  public:
   using Clock = std::chrono::steady_clock;
@@ -32,35 +32,37 @@ class VideoTime {
   Asked asked_;
 };
 
-/// What the player is to do, so that it follows the time that is asked for.
+/// The next action of the player, to follow the requested time.
 struct VideoStep {
   bool play = false;
   std::optional<ContentTime> seek;
 };
 
-/// Decides it. Told every few milliseconds where things stand; no clock, no player of its own.
+/// Decides on it. Called every few milliseconds with the present state; has no clock and no player of its
+/// own.
 class VideoPursuit {
  public:
   using Clock = VideoTime::Clock;
   explicit VideoPursuit(ContentTime length) : length_(length) {}
-  /// `position`: where the player says that it is. `shown`: of the newest picture, where that is known; while
-  /// the time stands it is what counts.
+  /// `position`: as reported by the player. `shown`: that of the newest picture, if known; it is used while
+  /// the time stands still.
   VideoStep next(const VideoTime::Asked& asked, ContentTime position, std::optional<ContentTime> shown,
                  Clock::time_point now);
 
  private:
   ContentTime length_;
   ContentTime last_{-1};
-  Clock::time_point moved_{}, sought_{};  // when the time asked for last moved on; when the last jump was
-  int again_ = 0;                         // jumps that were told once more
+  Clock::time_point moved_{},
+      sought_{};   // time of the last progress of the requested time; time of the last seek
+  int again_ = 0;  // repeated seeks
 };
 
-/// Qt's player, following. Lives on a thread with an event loop.
+/// Qt's player, controlled to follow the time. Lives on a thread with an event loop.
 class VideoFollower : public QObject {
   Q_OBJECT
 
  public:
-  /// `frames` and `time` must outlive it. Failures end up in `frames`.
+  /// `frames` and `time` must outlive it. Failures are reported through `frames`.
   VideoFollower(const QString& file, FrameSlot& frames, VideoTime& time);
   ContentTime length() const { return std::chrono::milliseconds(player_.duration()); }
 

@@ -9,7 +9,7 @@ namespace relucent {
 struct FreeAnswer {
   void operator()(void* answer) const { std::free(answer); }
 };
-/// What the X server answered; ours to free. nullptr: nothing.
+/// A reply of the X server, owned by the caller. nullptr: none.
 template <typename Reply>
 using Answer = std::unique_ptr<Reply, FreeAnswer>;
 template <typename Reply>

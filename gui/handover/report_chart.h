@@ -6,9 +6,9 @@
 
 namespace relucent {
 
-/// The chart at whose <svg> the reader stands, drawn for paper, dots a unit of the chart's own. Knows the
-/// elements that core/pipeline/report_charts.h writes: line, rect, circle, path of straight lines, text.
-/// The reader stands at </svg> afterwards.
+/// Draws the chart at whose <svg> the reader is positioned, `dots` per unit of the chart, for paper. Supports
+/// the elements that core/pipeline/report_charts.h writes: line, rect, circle, path of straight lines, text.
+/// The reader is at </svg> afterwards.
 QImage chartOf(QXmlStreamReader& xml, double dots);
 
 }  // namespace relucent

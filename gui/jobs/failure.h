@@ -8,17 +8,17 @@
 
 namespace relucent {
 
-/// A failure for people: what happened and what to do. `details` is for whoever is asked for help.
+/// A failure as shown to the user: what happened and what to do. `details` are for support.
 struct Failure {
   ErrorKind kind = ErrorKind::input;
   QString what;
   QString advice;
   QString details;
-  /// A title, where the kind alone would say something else; empty: the kind's.
+  /// A title that replaces the kind's; empty: the kind's.
   QString heading{};
 };
 
-/// Of whatever was thrown.
+/// The failure that an exception describes.
 Failure failureOf(std::exception_ptr thrown);
 
 }  // namespace relucent

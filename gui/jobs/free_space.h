@@ -6,8 +6,7 @@
 
 namespace relucent {
 
-/// What the user may still write where a folder is, or where it would be made: the nearest one above it that
-/// exists counts.
+/// Free space for the user in a folder, or in its nearest existing ancestor.
 std::uint64_t freeBytesAt(const QString& folder);
 
 }  // namespace relucent

@@ -13,9 +13,8 @@
 
 namespace relucent {
 
-/// Long work of core on a thread of its own, and core's Progress as Qt's signals. Signals come on the thread
-/// that this object lives on, and only as often as that thread can take them: of many reports the last
-/// counts.
+/// Runs long work of core on its own thread, and turns core's Progress into Qt signals. Signals arrive on
+/// this object's thread, only as often as it can handle them: of several reports the last one counts.
 class Job : public QObject {
   Q_OBJECT
 
@@ -31,9 +30,9 @@ class Job : public QObject {
   void start(Work work);
   /// The work ends early with a valid, coarser result.
   void stopAndKeep();
-  /// The work ends without a result; what it saved stays.
+  /// The work ends without a result; saved files remain.
   void cancel();
-  /// Waits for the end; signals come later, from the event loop.
+  /// Waits for the end; signals follow later, from the event loop.
   void wait();
 
   State state() const { return state_; }
@@ -48,7 +47,7 @@ class Job : public QObject {
  Q_SIGNALS:
   void progressed(double fraction, const QString& stage);
   void expected(const relucent::WorkLeft& left);
-  /// In any way, see state().
+  /// Emitted in all cases, see state().
   void ended();
 
  private:

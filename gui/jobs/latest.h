@@ -11,7 +11,7 @@
 
 namespace relucent {
 
-/// Work for sliders: while one request is computed on another thread, of those that come only the newest is
+/// Work for sliders: while one request is computed on another thread, only the newest of further requests is
 /// kept. `Result` is copied or moved to the thread of this object.
 template <typename Result>
 class Latest {
@@ -23,7 +23,7 @@ class Latest {
   Latest(Done done, Failed failed) : done_(std::move(done)), failed_(std::move(failed)) {
     QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] { finished(); });
   }
-  /// Waits for the request under way; its result is dropped.
+  /// Waits for the current request; its result is dropped.
   ~Latest() {
     watcher_.disconnect();
     watcher_.waitForFinished();

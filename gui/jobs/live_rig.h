@@ -18,11 +18,11 @@ struct LivePictures {
   Image pattern;  // encoded drive
   RawFrame frame;
   CaptureRequest request;
-  int photographs = 0;  // by all cameras, since this began
+  int photographs = 0;  // by all cameras, since the start
 };
 
-/// Looks on while devices measure, and holds them up while paused. The measuring thread writes, the interface
-/// reads; seen() comes at most twice a second, so that the laptop's own light stays even.
+/// Observes devices while they measure, and blocks them while paused. The measuring thread writes, the
+/// interface reads; seen() is emitted at most twice a second, so that the laptop's light stays constant.
 class LiveRig : public QObject, public RigWatcher {
   Q_OBJECT
 
@@ -34,23 +34,23 @@ class LiveRig : public QObject, public RigWatcher {
   void shown(std::size_t index, const Image& encodedDrive) override;
   void photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) override;
 
-  /// Between two patterns, milliseconds: people may be looking. 0: none.
+  /// Least time between two patterns, milliseconds, while people may be looking. 0: none.
   void setLeastInterval(int milliseconds);
 
-  /// Of devices that there are not, empty pictures.
+  /// Empty pictures for devices that do not exist.
   LivePictures pictures(std::size_t projector = 0, std::size_t camera = 0) const;
-  /// The last photograph of a camera, not overexposed, of projectors fully white, some perhaps dark; and its
-  /// number, 0: there was none.
+  /// The last photograph of a camera, not overexposed, of fully white projectors, some of which may be dark;
+  /// and its number, 0: none.
   struct Floodlight {
     Image signal;
     int number = 0;
   };
   Floodlight floodlight(std::size_t camera = 0) const;
   int floodlightNumber(std::size_t camera = 0) const;
-  /// Of a projector that shines alone, in the first camera's photographs.
+  /// Of a projector that is lit alone, in the first camera's photographs.
   std::array<std::map<double, double>, 3> ramps(std::size_t projector = 0) const;
 
-  /// Before the next pattern; the projectors are black meanwhile.
+  /// Pauses before the next pattern; the projectors show black meanwhile.
   void pause();
   void resume();
   bool isPaused() const;

@@ -12,22 +12,22 @@
 
 namespace relucent {
 
-/// Work for sliders that answers twice or more: soon, then exactly. Of many requests the newest is answered
-/// exactly; it cancels the one under way. But never two in a row that had not answered yet: a slider that
-/// moves on and on would be followed by nothing. `Result` is copied or moved to the thread of this object.
+/// Work for sliders that answers twice or more: soon, then exactly. Only the newest request is answered
+/// exactly; it cancels the current one, but never two in a row without any answer: otherwise a slider that
+/// keeps moving would get none. `Result` is copied or moved to the thread of this object.
 template <typename Result>
 class Refining {
  public:
   using Tell = std::function<void(Result)>;
-  /// Tells what it knows soon, any number of times, and returns the exact answer. Called on another thread,
-  /// one at a time; ends with Cancelled when its progress says so.
+  /// Reports preliminary answers any number of times, and returns the exact one. Called on another thread,
+  /// one at a time; ends with Cancelled when its progress throws it.
   using Work = std::function<Result(Progress& progress, const Tell& tellSoon)>;
   using Failed = std::function<void(const Failure&)>;
 
   Refining(Tell told, Failed failed) : told_(std::move(told)), failed_(std::move(failed)) {
     QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] { finished(); });
   }
-  /// Cancels the request under way and waits for its end.
+  /// Cancels the current request and waits for its end.
   ~Refining() {
     watcher_.disconnect();
     drop();
@@ -41,7 +41,7 @@ class Refining {
     else if (round_->answered || !starved_)
       round_->cancel();
   }
-  /// Nothing that was asked for is to be answered any more.
+  /// Discards all pending requests.
   void drop() {
     waiting_ = nullptr;
     if (!round_) return;
@@ -54,13 +54,13 @@ class Refining {
   struct NoNews : ProgressSink {
     void progressed(double, std::string_view) override {}
   };
-  /// One request under way.
+  /// A request being computed.
   struct Round {
     NoNews sink;
     StopRequest stop;
     std::optional<Result> result;
     std::optional<Failure> failure;
-    bool answered = false, cancelled = false, dropped = false;  // touched by this object's thread alone
+    bool answered = false, cancelled = false, dropped = false;  // used by this object's thread only
     void cancel() {
       cancelled = true;
       stop.ask(StopRequest::Kind::cancel);
@@ -76,7 +76,7 @@ class Refining {
           auto told = [this, round, soon = std::move(soon)] { answeredSoon(*round, soon); };
           QMetaObject::invokeMethod(&watcher_, std::move(told), Qt::QueuedConnection);
         }));
-      } catch (const Cancelled&) {  // NOLINT(bugprone-empty-catch): a newer request is what is wanted
+      } catch (const Cancelled&) {  // NOLINT(bugprone-empty-catch): a newer request replaces it
       } catch (...) {
         round->failure = failureOf(std::current_exception());
       }

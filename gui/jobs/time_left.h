@@ -9,8 +9,7 @@
 
 namespace relucent {
 
-/// How long a measurement still takes, out of what core expects from time to time: between two of its
-/// forecasts the clock counts down.
+/// Remaining time of a measurement: core's latest forecast, counted down by the clock until the next one.
 class TimeLeft {
  public:
   using Moment = std::chrono::steady_clock::time_point;
@@ -18,7 +17,7 @@ class TimeLeft {
   void expect(const WorkLeft& left, Moment now);
   void pause(Moment now);
   void resume(Moment now);
-  /// Nothing before the first forecast.
+  /// None before the first forecast.
   std::optional<double> seconds(Moment now) const;
 
  private:

@@ -9,25 +9,25 @@
 
 namespace relucent {
 
-/// As long as it lives the computer does not go to sleep, and neither desktop nor X server put a display to
-/// sleep or show a screen saver on their own account.
+/// During its lifetime the computer does not suspend, and neither desktop nor X server put a display to sleep
+/// or start a screen saver by themselves.
 class Awake {
  public:
-  /// `why`: what the desktop tells a user who asks what keeps it awake.
+  /// `why`: the reason that the desktop shows to the user.
   explicit Awake(const QString& why);
   ~Awake();
   Awake(const Awake&) = delete;
   Awake& operator=(const Awake&) = delete;
 
-  /// Wakes displays that sleep nevertheless, or have slept since this was asked last: whether there were any.
-  /// They slept already, somebody wished it, or the desktop could not be asked.
+  /// Wakes displays that are asleep nevertheless, or have been since the last call; returns whether there
+  /// were any. They may have slept before, on a user's request, or because the desktop offers no inhibition.
   bool wakeDisplays();
-  /// What could not be kept awake, one sentence each; empty: everything.
+  /// Failures to keep something awake, one sentence each; empty: none.
   const QStringList& problems() const { return problems_; }
 
  private:
   DisplayPower displays_;
-  QDBusUnixFileDescriptor sleep_;  // the system stays awake until it is closed
+  QDBusUnixFileDescriptor sleep_;  // keeps the system awake until it is closed
   quint32 screenSaver_ = 0;
   bool screenSaverInhibited_ = false;
   QStringList problems_;

@@ -8,7 +8,7 @@
 
 namespace relucent {
 
-/// Content time, one for all projectors: runs with the computer's steady clock and stands still while paused.
+/// Content time, one for all projectors: runs with the steady clock and stops while paused.
 class ContentClock {
  public:
   using Now = std::function<std::chrono::steady_clock::time_point()>;
@@ -22,7 +22,7 @@ class ContentClock {
  private:
   Now now_;
   std::chrono::steady_clock::time_point since_;
-  ContentTime before_{0};  // that had passed then
+  ContentTime before_{0};  // content time at that moment
   bool paused_ = false;
 };
 

@@ -6,15 +6,15 @@
 
 namespace relucent {
 
-/// The hours of a day in which a show plays, by the clock on the wall. They may reach over midnight.
+/// The daily hours of a show, in local time. They may extend past midnight.
 struct DailyHours {
-  QTime from, to;  // `to` itself no more
+  QTime from, to;  // excluding `to`
 
   bool contain(QTime time) const;
   bool operator==(const DailyHours&) const = default;
 };
 
-/// Of "HH:MM-HH:MM"; none if it is not that, or if both ends are the same.
+/// Of "HH:MM-HH:MM"; none if invalid, or if both ends are equal.
 std::optional<DailyHours> dailyHoursFrom(const QString& text);
 
 }  // namespace relucent

@@ -6,12 +6,11 @@
 
 namespace relucent {
 
-/// Whether the desktop's displays are awake. A display that was put to sleep is still a screen of the
-/// desktop, and whatever is shown on it is told to have been shown. The X server puts all of them to sleep
-/// together: by DPMS, which takes their signal away, or behind its screen saver, a black picture. Either
-/// tells of itself, so that a sleep between two questions is noticed too. Elsewhere (Wayland, no desktop)
-/// nobody can be asked. Source: X Display Power Management Signaling (DPMS) Extension, X Screen Saver
-/// Extension 1.1.
+/// Whether the desktop's displays are awake. A sleeping display is still a screen of the desktop, and showing
+/// pictures on it appears to succeed. The X server puts all displays to sleep together: by DPMS, which
+/// switches off their signal, or by its screen saver, a black picture. Both send events, so that a sleep
+/// between two calls is noticed too. Other systems (Wayland, no desktop) offer no query. Source: X Display
+/// Power Management Signaling (DPMS) Extension, X Screen Saver Extension 1.1.
 class DisplayPower {
  public:
   enum class State { awake, asleep, unknown };
@@ -24,17 +23,17 @@ class DisplayPower {
   State state() const;
   /// Why the state is unknown, a sentence; empty: it is known.
   QString problem() const;
-  /// Whether the displays are asleep, or have been since this was asked last.
+  /// Whether the displays are asleep, or have been since the last call.
   bool hasSlept();
-  /// Asks for light. Projectors need some seconds more until they have found the signal again.
+  /// Wakes the displays. Projectors need some more seconds to find the signal again.
   void wake();
-  /// As long as this lives the X server puts no display to sleep on its own account; whoever wants to still
-  /// can. It forgets that by itself if the program dies.
+  /// During its lifetime the X server puts no display to sleep by itself; users still can. The X server
+  /// releases this if the program dies.
   void keepAwake();
 
  private:
   struct Server;
-  std::unique_ptr<Server> server_;  // nullptr: nobody to ask
+  std::unique_ptr<Server> server_;  // nullptr: no X server
 };
 
 }  // namespace relucent

@@ -22,10 +22,10 @@ namespace relucent {
 class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
-  /// offset follow the content, see AdaptiveRange. Place, brightness and black are those that the calibration
-  /// keeps for its content; its method is that of pictures that stand, see StillSolver. `told` hears once, on
-  /// the thread that renders, when a graphics card is lost or of no use and the processor goes on. Throws: as
-  /// loadCalibration(), prepareVenue() and prepareContent().
+  /// offset follow the content, see AdaptiveRange. Placement, brightness and black level are those stored for
+  /// the calibration's content; its method applies to still pictures, see StillSolver. `told` is called once,
+  /// on the rendering thread, when a graphics card is lost or unusable and the processor takes over. Throws:
+  /// as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
                  Progress& progress, const FallbackBackend::Told& told = {},
                  BackendChoice choice = BackendChoice::automatic);
@@ -40,7 +40,7 @@ class EngineRenderer : public FrameRenderer {
  private:
   RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
   RenderedFrame encoded(const Compensation& solved, double seconds);
-  /// What `words_` hold, one a projector.
+  /// Views of `words_`, one per projector.
   std::vector<QImage> drives() const;
   int stepsFor(const RenderRequest& request);
 
@@ -51,10 +51,10 @@ class EngineRenderer : public FrameRenderer {
   std::unique_ptr<EngineBackend> backend_;
   std::optional<AdaptiveRange> range_;
   std::chrono::steady_clock::time_point rangeAsked_{};
-  std::unique_ptr<StillSolver> still_;  // none: pictures that stand are the engine's own steps
+  std::unique_ptr<StillSolver> still_;  // none: still pictures use the engine's steps
   std::vector<std::uint32_t> words_;
   std::optional<StepBudget> budget_;
-  double budgetSeconds_ = 0.0;  // that the budget is for
+  double budgetSeconds_ = 0.0;  // refresh time of the budget
 };
 
 }  // namespace relucent

@@ -12,42 +12,42 @@
 
 namespace relucent {
 
-/// What is asked of a frame beside its content.
+/// Options of a frame besides its content.
 struct RenderRequest {
-  bool compensated = true;      // false: the content in its place, nothing corrected
-  bool thorough = false;        // as well as can be, whatever it takes: for a picture that stands
+  bool compensated = true;      // false: only placed, not corrected
+  bool thorough = false;        // as well as possible, without a time limit: for still pictures
   double seconds = 1.0 / 60.0;  // that there are for it otherwise
 
   bool operator==(const RenderRequest&) const = default;
 };
 
-/// Asked now and then while a picture is made that stands: true once it stands no longer.
+/// Called repeatedly while a still picture is computed; true once it is no longer needed.
 using Outdated = std::function<bool()>;
 
-/// What all projectors show, and what came of it.
+/// The pictures of all projectors, with statistics.
 struct RenderedFrame {
   std::vector<QImage> drives;  // one a projector, of its size
-  double clipped = 0.0;        // share of drive values that the projectors' limits cut off
+  double clipped = 0.0;        // share of drive values that were clipped
   int steps = 0;               // of refinement
   double seconds = 0.0;
-  bool settled = true;  // false: the same content would look a little different the next time
+  bool settled = true;  // false: rendering the same content again would differ slightly
 };
 
-/// Turns content into what projectors show. Used by one thread at a time.
+/// Computes the projectors' pictures from content. Used by one thread at a time.
 class FrameRenderer {
  public:
   virtual ~FrameRenderer() = default;
   /// The projectors' sizes in pixels.
   virtual std::vector<QSize> projectors() const = 0;
-  /// The size that content must have.
+  /// The required size of content.
   virtual Canvas canvas() const = 0;
-  /// What it runs on, for people.
+  /// Name of the device, for display.
   virtual QString name() const = 0;
-  /// What is rendered thoroughly and is `outdated` may end soon, no better than in haste.
-  /// Throws: Error{device} if there is nothing left that could render.
+  /// A thorough rendering that becomes `outdated` may end early with the result of a fast one.
+  /// Throws: Error{device} if no device is left.
   virtual RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                                const Outdated& outdated) = 0;
-  /// From another thread: as if what is being rendered thoroughly were outdated.
+  /// From another thread: makes the present thorough rendering outdated.
   virtual void interrupt() {}
 };
 

@@ -7,11 +7,11 @@
 
 namespace relucent {
 
-/// What a show knows of the machine's time, to be replaced by tests.
+/// The system's clocks as a show uses them, replaceable in tests.
 struct MachineClock {
-  /// On the wall: may be set, and jumps over what the machine slept.
+  /// Wall-clock time: may be set, and jumps over a suspend.
   std::function<QDateTime()> wall = [] { return QDateTime::currentDateTime(); };
-  /// How long the machine has slept in all since it was started.
+  /// Total time that the machine has been suspended since it was started.
   std::function<std::chrono::nanoseconds()> slept = sleptSinceBoot;
 
   static std::chrono::nanoseconds sleptSinceBoot();

@@ -10,7 +10,7 @@
 
 namespace relucent {
 
-/// Pictures as textures, swapped when the display begins anew.
+/// Draws pictures as textures, swapped at the display's refresh.
 class OpenGlSurface : public WindowSurface {
  public:
   explicit OpenGlSurface(QWindow& window);

@@ -10,7 +10,7 @@
 
 namespace relucent {
 
-/// What the overlay tells.
+/// Contents of the overlay.
 struct OverlayState {
   PlayerStatistics statistics;
   bool compensated = true;
@@ -19,10 +19,10 @@ struct OverlayState {
 };
 
 /// Its lines: frame rate, frame time and late frames; clipped share, steps and whether it is compensated;
-/// what else was switched.
+/// other modes.
 QStringList overlayLines(const OverlayState& state);
 
-/// Writes lines into the upper left corner, grey on black, as large as the picture allows them to be read.
+/// Writes lines into the upper left corner, grey on black, in a legible size.
 void drawOverlay(QImage& picture, const QStringList& lines);
 
 }  // namespace relucent

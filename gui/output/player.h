@@ -18,9 +18,8 @@
 
 namespace relucent {
 
-/// Plays content on all projectors under one clock. A frame is computed on another thread while the one
-/// before it is shown. A picture that stands still is computed once in time, once more as well as can be, and
-/// then no more.
+/// Plays content on all projectors under one clock. A frame is computed on another thread while the previous
+/// one is shown. A still picture is computed once in time, once more as well as possible, and then not again.
 class Player : public QObject {
   Q_OBJECT
 
@@ -32,23 +31,23 @@ class Player : public QObject {
   ~Player() override;
 
   void start();
-  /// Black, and nothing is computed any more.
+  /// Shows black and computes nothing.
   void stop();
 
   bool isPlaying() const { return playing_; }
   const ContentClock& clock() const { return clock_; }
   PlayerStatistics statistics() const;
 
-  /// The picture stands, the clock too.
+  /// Freezes picture and clock.
   void setFrozen(bool frozen);
-  /// Black; the clock goes on.
+  /// Shows black; the clock continues.
   void setBlack(bool black);
   void setCompensated(bool compensated);
-  /// Figures over the picture, renewed twice a second.
+  /// Shows figures over the picture, updated twice a second.
   void setOverlay(bool shown);
   /// Other content from the next frame on, of the renderer's canvas.
   void setContent(std::shared_ptr<ContentSource> content);
-  /// A test chart in place of the content; none: the content, which has gone on.
+  /// A test chart instead of the content; none: the content, which has continued meanwhile.
   void setChart(std::optional<TestChart> chart);
   bool isFrozen() const { return clock_.isPaused(); }
   bool isBlack() const { return black_; }
@@ -56,15 +55,15 @@ class Player : public QObject {
   bool hasOverlay() const { return overlayed_.isActive(); }
   std::optional<TestChart> chart() const { return chart_; }
 
-  /// What a key at a projector's window or the operator's view does: C compensation on and off, space freeze,
-  /// B black, T the next test chart and behind the last one the content, O overlay. Returns whether it means
-  /// anything.
+  /// Handles a key pressed at a projector's window or the operator's view: C compensation on and off, space
+  /// freeze, B black, T the next test chart and after the last one the content, O overlay. Returns whether
+  /// the key is used.
   bool handleKey(int key);
 
  Q_SIGNALS:
-  /// A new picture went to the windows.
+  /// A new picture was passed to the windows.
   void shown();
-  /// Rendering or reading ended for good; the windows are black. `sentence` is for people.
+  /// Rendering or reading failed permanently; the windows are black. `sentence` is for display.
   void failed(const QString& sentence);
 
  private:
@@ -74,9 +73,9 @@ class Player : public QObject {
     RenderRequest request;
     RenderedFrame rendered;
   };
-  /// A frame that went to the windows.
+  /// A frame passed to the windows.
   struct Shown {
-    ContentTime when{0};  // on a clock that never rests
+    ContentTime when{0};  // on a clock that never pauses
     double seconds = 0.0;
     std::uint64_t content = 0;
   };

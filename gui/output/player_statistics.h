@@ -5,14 +5,14 @@
 
 namespace relucent {
 
-/// How playing goes, over the last seconds.
+/// Statistics of the last seconds of playing.
 struct PlayerStatistics {
-  double framesPerSecond = 0.0;  // that reached the windows; 0 while a still picture stands
-  double frameSeconds = 0.0;     // one frame's computation, the mean
+  double framesPerSecond = 0.0;  // that reached the windows; 0 for a still picture
+  double frameSeconds = 0.0;     // mean computation of one frame
   double clipped = 0.0;          // of the last frame
   int steps = 0;                 // of refinement, of the last frame
   std::uint64_t frames = 0;      // since it began
-  std::uint64_t late = 0;  // of these, ready later than one refresh of the display after they were begun
+  std::uint64_t late = 0;        // of these, finished more than one refresh of the display after their start
 };
 
 }  // namespace relucent

@@ -11,10 +11,10 @@
 
 namespace relucent {
 
-/// What one projector shows: full screen on its display, pixel for pixel, black until it is given a picture.
-/// When its display goes, the window hides, as the desktop would else move it to the operator's screen; when
-/// the display comes back it shines again. Drawn by OpenGL in step with the display; without it where there
-/// is none, and then no more often than the display shows pictures.
+/// The window of one projector: full screen on its display, pixel for pixel, black until it gets a picture.
+/// When its display disappears the window hides, since the desktop would otherwise move it to the operator's
+/// screen; when the display returns it is shown again. Drawn by OpenGL in sync with the display, or without
+/// it, then at most at the display's rate.
 class ProjectorWindow : public QWindow {
   Q_OBJECT
 
@@ -23,35 +23,35 @@ class ProjectorWindow : public QWindow {
   ~ProjectorWindow() override;
 
   const ScreenIdentity& display() const { return display_; }
-  /// What it is drawn with.
+  /// How it is drawn.
   const WindowSurface& surface() const { return *surface_; }
-  /// Goes full screen on its display; waits for it if it is not there.
+  /// Shows itself full screen on its display, and waits for it if it is absent.
   void shine();
-  /// Hides, and stays hidden when the display comes back.
+  /// Hides, and stays hidden when the display returns.
   void stop();
   /// Whether it is on its display now.
   bool isShining() const;
-  /// Its display's size in pixels; empty while it is not there.
+  /// Its display's size in pixels; empty while it is absent.
   QSize displaySize() const;
 
-  /// Shows drive values from the next swap on. Of another size than the display they stay as they are, in the
-  /// middle: never scaled.  Shape: the display's, 8 bits a channel.
+  /// Shows drive values from the next swap on. If their size differs from the display's they are centred,
+  /// never scaled.  Shape: the display's, 8 bits a channel.
   void present(const QImage& drive);
   /// Black, until the next picture.
   void blacken();
-  /// Draws once more what stands, soon.
+  /// Schedules a repaint of the present picture.
   void update();
 
  Q_SIGNALS:
-  /// What was presented last is out: swapped, or so long with the display server that the display has it.
+  /// The last picture is displayed: swapped, or with the display server long enough.
   void frameSwapped();
-  /// The display was unplugged or switched off: nothing of this window is visible anywhere.
+  /// The display was unplugged or switched off: this window is not visible anywhere.
   void displayLost();
-  /// The display is back and the window on it.
+  /// The display is back with the window on it.
   void displayFound();
-  /// The display has another place or resolution; the window has followed.
+  /// The display's position or resolution has changed; the window has followed.
   void displayChanged();
-  /// A key that somebody pressed at the projector's own window.
+  /// A key was pressed at the projector's window.
   void keyPressed(int key, Qt::KeyboardModifiers modifiers);
 
  protected:
@@ -69,11 +69,11 @@ class ProjectorWindow : public QWindow {
 
   ScreenIdentity display_;
   bool wanted_ = false;
-  QScreen* on_ = nullptr;  // where it shines; nullptr while it does not
+  QScreen* on_ = nullptr;  // where it is shown; nullptr while hidden
   QImage picture_;
   bool fresh_ = false;  // not drawn yet
   std::unique_ptr<WindowSurface> surface_;
-  QTimer refreshing_;  // of the display, where drawing does not wait for it
+  QTimer refreshing_;  // refresh time, where drawing does not wait for the display
 };
 
 }  // namespace relucent

@@ -7,7 +7,7 @@
 
 namespace relucent {
 
-/// Pictures in memory, handed to the display server: for computers that have no OpenGL.
+/// Draws pictures in memory for the display server: for computers without OpenGL.
 class RasterSurface : public WindowSurface {
  public:
   explicit RasterSurface(QWindow& window);

@@ -10,10 +10,10 @@
 
 namespace relucent {
 
-/// What a display is known by after it was unplugged, or the computer was started again: never its place in a
-/// list, which changes.
+/// Identifies a display after it was unplugged or the computer was restarted: never by its place in a list,
+/// which changes.
 struct ScreenIdentity {
-  QString connector;  // the output that it hangs on: HDMI-1
+  QString connector;  // the output that it is connected to: HDMI-1
   QString manufacturer;
   QString model;
   QString serialNumber;
@@ -23,23 +23,23 @@ struct ScreenIdentity {
 
 ScreenIdentity identityOf(const QScreen& screen);
 
-/// Which of the displays that are there is the wanted one:
+/// Finds a display among those present:
 ///  1. the one of that maker, model and serial number, wherever it is plugged in now;
-///  2. where the display tells no serial number, or two tell the same, of those the one on the same
+///  2. if it has no serial number, or two have the same one, the one of those on the same
 ///  connector.
-/// None of them is better than the wrong one: it may be the operator's.
+/// None is better than the wrong one, which may be the operator's.
 std::optional<qsizetype> findScreen(const ScreenIdentity& wanted, const QList<ScreenIdentity>& present);
 
-/// The same among the desktop's screens; nullptr if it is not there.
+/// The same among the desktop's screens; nullptr if it is absent.
 QScreen* findScreen(const ScreenIdentity& wanted);
 
-/// The length in a display's own pixels of what the desktop scales by `ratio` and rounds to `scaled`. Of the
-/// lengths that give the same, the one that more powers of two divide: displays are 1024 pixels wide, not
+/// The length in a display's physical pixels that the desktop scales by `ratio` and rounds to `scaled`. Of
+/// several such lengths the one divisible by the largest power of two: displays are 1024 pixels wide, not
 /// 1025.
 int nativeLength(int scaled, double ratio);
-/// A size on a desktop that scales by `ratio`, in its display's own pixels.
+/// A size on a desktop that scales by `ratio`, in the display's physical pixels.
 QSize nativeSize(QSize scaled, double ratio);
-/// The screen's size in its own pixels, whatever the desktop's scaling.
+/// The screen's size in physical pixels, independent of the desktop's scaling.
 QSize nativeSize(const QScreen& screen);
 
 QJsonObject toJson(const ScreenIdentity& identity);

@@ -16,24 +16,24 @@
 
 namespace relucent {
 
-/// A show that runs by itself: opens the displays, plays at its hours and is black between them, writes a log
-/// and a health file, and begins again after a failure. Content goes on where it was when the machine slept.
+/// An unattended show: opens the displays, plays during its hours and shows black outside them, writes a log
+/// and a health file, and starts again after a failure. After a suspend content continues where it was.
 class Show : public QObject {
   Q_OBJECT
 
  public:
-  /// `warn` takes sentences for the log, on whatever thread, as long as the renderer lives.
+  /// `warn` accepts sentences for the log, on any thread, during the renderer's lifetime.
   using MakeRenderer =
       std::function<std::unique_ptr<FrameRenderer>(const std::function<void(const QString&)>& warn)>;
-  /// `make` is called again after a failure. Throws: Error as `make` and displaysFor() do, the first time.
+  /// `make` is called again after a failure. Throws: as `make` and displaysFor(), the first time.
   Show(ShowSettings settings, MakeRenderer make, MachineClock clock = {}, QObject* parent = nullptr);
   ~Show() override;
 
   void start();
-  /// Black, windows gone, the last word in log and health file.
+  /// Shows black, closes the windows, and completes log and health file.
   void stop();
   Player& player() { return *player_; }
-  /// Looks at the clock and at the displays, and writes the health file. Done by itself every ten seconds.
+  /// Checks the clock and the displays, and writes the health file. Called automatically every ten seconds.
   void look();
 
  private:

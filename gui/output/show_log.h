@@ -10,8 +10,8 @@ class logger;
 
 namespace relucent {
 
-/// What a show tells of itself, for whoever looks after it: `show.log` in a folder, at most five files of a
-/// megabyte, the oldest dropped; and the same on standard error.
+/// The log of a show: `show.log` in a folder, at most five files of a megabyte, the oldest dropped; and the
+/// same on standard error.
 class ShowLog {
  public:
   /// Creates the folder. Throws: Error{disk}.

@@ -13,7 +13,7 @@
 
 namespace relucent {
 
-/// What an unattended show plays, and where.
+/// Settings of an unattended show.
 struct ShowSettings {
   std::filesystem::path calibration;
   PlaylistSettings content;
@@ -21,16 +21,16 @@ struct ShowSettings {
   Canvas canvas;
   bool adaptiveRange = false;  // brightness and offset follow the content
   BackendChoice backend = BackendChoice::automatic;
-  std::optional<DailyHours> hours;  // of the day in which it plays; none: all
-  QString folder;                   // of the log and the health file
+  std::optional<DailyHours> hours;  // daily hours of play; none: always
+  QString folder;                   // folder of the log and the health file
 };
 
-/// The displays that the projectors hang on. A named one may be absent: the show waits for it. With none
-/// named, for each projector a display of exactly its size that is not the operator's, in the order of their
-/// places. Throws: Error{input} naming the displays that are there if that does not settle it.
+/// The displays of the projectors. A named one may be absent: the show waits for it. If none is named, for
+/// each projector a display of exactly its size that is not the operator's, in the order of their positions.
+/// Throws: Error{input} with the present displays if that is ambiguous.
 std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, const QStringList& named);
 
-/// What content a path names: a playlist's file, or what an item of a playlist may name.
+/// The content at a path: a playlist's file, or anything that a playlist item may name.
 /// Throws: as readPlaylist().
 PlaylistSettings contentOf(const QString& path);
 

@@ -10,18 +10,18 @@
 
 namespace relucent {
 
-/// Pictures that stand, by any method and all of T: what is quick enough for films keeps one colour mixing
-/// for each camera pixel, see PackedTransport. Each picture is solved once.
+/// Computes still pictures by any method with all of T: the operators for films keep only one colour mixing
+/// per camera pixel, see PackedTransport. Each picture is solved once.
 class StillSolver {
  public:
-  /// `calibration` outlives it.
+  /// `calibration` must outlive it.
   StillSolver(const MeasuredCalibration& calibration, const TargetSettings& target,
               const ClusteringSettings& clustering, Method method);
 
-  /// Null if it is outdated or somebody interrupted it; valid until the next call.
+  /// Null if it is outdated or was interrupted; valid until the next call.
   /// Throws: as Compensator::solve().
   const Compensation* solve(const ContentPicture& content, const Outdated& outdated = {});
-  /// From another thread: the picture under way is given up.
+  /// From another thread: abandons the current picture.
   void interrupt();
 
  private:
@@ -29,10 +29,10 @@ class StillSolver {
   TargetSettings target_;
   Method method_;
   Compensator compensator_;
-  std::uint64_t number_ = 0;  // of the picture that was solved last
+  std::uint64_t number_ = 0;  // of the last solved picture
   Compensation last_;
   std::mutex guard_;
-  std::shared_ptr<StopRequest> stop_;  // of the picture under way
+  std::shared_ptr<StopRequest> stop_;  // of the current picture
 };
 
 }  // namespace relucent

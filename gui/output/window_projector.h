@@ -19,14 +19,14 @@ ScreenRigSettings::Display displayOf(const QScreen& screen);
 /// Why a screen cannot show pictures pixel for pixel; empty: it can.
 QString whyNoProjector(const QScreen& screen);
 
-/// A screen of the desktop as a projector for measuring. Used from a worker's thread; its window lives on the
-/// interface's. show() returns once the picture has been swapped onto the screen and the display server has
-/// it, waits while the screen is unplugged, wakes displays that sleep and waits until their light is back,
-/// and throws Cancelled when the thread is asked to end (QThread::requestInterruption), so that nobody waits
-/// for anybody. Black before the first picture, hidden after rest().
+/// A screen of the desktop as a projector for measuring. Used from a worker thread; its window lives on the
+/// interface's thread. show() returns once the picture has been swapped onto the screen and the display
+/// server has it, waits while the screen is unplugged, wakes sleeping displays and waits until they are lit,
+/// and throws Cancelled when the thread is asked to end (QThread::requestInterruption), which avoids a
+/// deadlock. Black before the first picture, hidden after rest().
 class WindowProjector : public ScreenProjector {
  public:
-  /// From its signal coming back until a projector shows it.
+  /// Time from the return of the signal until a projector shows it.
   static constexpr std::chrono::milliseconds usualWaking{8000};
 
   /// `waiting`: told on the interface's thread that the screen is gone (true) or back (false).
@@ -40,7 +40,7 @@ class WindowProjector : public ScreenProjector {
   std::string name() const override { return name_; }
   Size size() const override { return size_; }
   int bits() const override { return 8; }
-  /// Throws: Error{device} if the screen has another size than the projector, or does not wake; Cancelled.
+  /// Throws: Error{device} if the screen's size differs from the projector's, or it does not wake; Cancelled.
   void show(const Image& encodedDrive) override;
   bool hasStood() override;
   void rest() override;

@@ -8,25 +8,26 @@
 
 namespace relucent {
 
-/// What a projector's window is drawn with. Made before the window is shown and gone before it is.
+/// Draws a projector's window. Created before the window is shown and destroyed before the window.
 class WindowSurface {
  public:
   virtual ~WindowSurface() = default;
   /// For log and health file.
   virtual QString name() const = 0;
-  /// Whether draw() waits for the display, as far as the driver lets it; else it returns while the display
-  /// still sends what was there before.
+  /// Whether draw() waits for the display, as far as the driver permits; otherwise it returns while the
+  /// display still shows the previous picture.
   virtual bool keepsStep() const = 0;
-  /// Draws the whole window: the picture pixel for pixel in its middle, black around it; a null one is black.
+  /// Draws the whole window: the picture centred pixel for pixel, black around it; a null picture is black.
   virtual void draw(const QImage& picture) = 0;
 };
 
-/// By OpenGL; in memory where that cannot be had.
+/// By OpenGL, or in memory if that is not available.
 std::unique_ptr<WindowSurface> surfaceFor(QWindow& window);
 
-/// A window's size in its display's own pixels.
+/// A window's size in its display's physical pixels.
 QSize nativeSize(const QWindow& window);
-/// Where a picture lies in a window: on whole pixels of the display, the odd one to the right and below.
+/// Position of a picture in a window: aligned to the display's pixels, an odd remainder at the right and
+/// bottom.
 QRect middleOf(QSize window, QSize picture);
 
 }  // namespace relucent

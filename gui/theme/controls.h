@@ -13,7 +13,7 @@
 
 namespace relucent {
 
-/// An icon that follows the theme. Decoration: what it says is said by words beside it.
+/// An icon that follows the theme. Decoration only: text beside it says the same.
 class IconLabel : public QWidget {
   Q_OBJECT
 
@@ -39,7 +39,7 @@ const QColor& accentColour();
 
 /// A label with a role of the style sheet; wraps.
 QLabel* labelOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
-/// One line; what has no room for it ends in an ellipsis and is read whole where the pointer rests.
+/// A single line; text that does not fit ends in an ellipsis and is shown in full as a tooltip.
 class ElidedLabel : public QLabel {
   Q_OBJECT
 
@@ -55,7 +55,7 @@ class ElidedLabel : public QLabel {
   void elide();
   QString whole_;
 };
-/// Takes what room there is.
+/// A label that takes the available width.
 ElidedLabel* elidedLabel(const char* role);
 
 /// A thin line between groups.
@@ -91,7 +91,7 @@ class ValueRow : public QWidget {
   QLabel* value_;
 };
 
-/// Something that was found: a tick, a warning or a failure, with a sentence and what it means.
+/// A finding: a tick, a warning or a failure, with a sentence and its meaning.
 class Remark : public QWidget {
   Q_OBJECT
 
@@ -105,7 +105,7 @@ class Remark : public QWidget {
   QLabel *sentence_, *meaning_;
 };
 
-/// A coloured box with a sentence and what follows from it.
+/// A coloured box with a sentence and its consequence.
 class Note : public QFrame {
   Q_OBJECT
 
@@ -118,14 +118,14 @@ class Note : public QFrame {
   QLabel *sentence_, *more_;
 };
 
-/// One of a few, side by side; below each other where that has no room.
+/// A choice of one of a few, side by side, or stacked if there is no room.
 class Segmented : public QWidget {
   Q_OBJECT
 
  public:
   explicit Segmented(const QStringList& texts, QWidget* parent = nullptr);
   int current() const { return group_.checkedId(); }
-  /// Silent.
+  /// Emits no signal.
   void setCurrent(int index);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -142,7 +142,7 @@ class Segmented : public QWidget {
   QButtonGroup group_;
 };
 
-/// One of a few, below each other: a name, a sentence, and at the right what it costs.
+/// A choice of one of a few, stacked: a name, a sentence, and the cost at the right.
 class Choice : public QPushButton {
   Q_OBJECT
 
@@ -154,7 +154,7 @@ class Choice : public QPushButton {
   QLabel* remark_;
 };
 
-/// A small button of an icon that follows the theme; `name` is said and shown when the pointer rests on it.
+/// A small button with an icon that follows the theme; `name` is its accessible name and its tooltip.
 QToolButton* toolOf(Icon icon, const QString& name, QWidget* parent = nullptr);
 
 /// A button with a role of the style sheet.

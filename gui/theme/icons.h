@@ -51,10 +51,10 @@ enum class Icon {
 
 /// Draws it into a square. The colour is that of the text beside it.
 void drawIcon(QPainter& painter, Icon icon, const QRectF& square, const QColor& colour);
-/// Of a button: what points back or on does so in the direction that the program is read in. Sharp at any
-/// scale of the screen.
+/// The icon of a button: those that point back or forward are mirrored in right-to-left languages. Sharp at
+/// any scale.
 QIcon iconOf(Icon icon, const QColor& colour);
-/// A picture file of it, as style sheets want one; kept as long as the program runs.
+/// A picture file of the icon, for style sheets; it exists as long as the program runs.
 QString iconFile(Icon icon, const QColor& colour, int side);
 QPixmap pixmapOf(Icon icon, const QColor& colour, int side, double devicePixelRatio);
 

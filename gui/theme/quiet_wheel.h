@@ -5,9 +5,8 @@
 
 namespace relucent {
 
-/// The wheel scrolls what a slider, a list or a number stands on, and never turns them in passing: they
-/// listen to it only while they have the focus, and it does not give them that. For all widgets of the
-/// program.
+/// Keeps the wheel from changing sliders, lists and numbers while a page is scrolled: they react to it only
+/// while they have the focus, and it does not give it to them. Installed for all widgets of the program.
 class QuietWheel : public QObject {
  public:
   explicit QuietWheel(QObject* parent);

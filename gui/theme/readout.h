@@ -5,8 +5,7 @@
 
 namespace relucent {
 
-/// A large figure with what it is below. Digits stand in cells of one width, so that nothing jumps while they
-/// change.
+/// A large figure with its caption below. Digits have a fixed width, so that nothing moves while they change.
 class Readout : public QWidget {
   Q_OBJECT
 

@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// The look of the program: one at a time for all windows.
+/// The look of the program, one for all windows.
 class Theme : public QObject {
   Q_OBJECT
 
@@ -21,12 +21,12 @@ class Theme : public QObject {
   /// Style sheet, palette and font of the application. Contract: there is a QApplication.
   void apply(Look look);
   bool isDimmed() const { return dimmed_; }
-  /// Pictures at half the brightness.
+  /// Shows pictures at half the brightness.
   void setDimmed(bool dimmed);
   double pictureBrightness() const { return dimmed_ ? dimmedPicture : brightestPicture; }
 
  Q_SIGNALS:
-  /// Whatever paints by itself paints again.
+  /// Widgets that paint themselves must repaint.
   void changed();
 
  private:
@@ -39,13 +39,13 @@ inline const Colours& colours() {
   return Theme::instance().colours();
 }
 
-/// The program's type at a size in pixels; weights 400, 500, 600.
+/// The program's font at a size in pixels; weights 400, 500, 600.
 QFont typeOf(int pixels, int weight = QFont::Normal);
 
-/// The style sheet of a theme: everything that widgets look like, made from the tokens.
+/// The style sheet of a theme: the appearance of all widgets, made from the tokens.
 QString styleSheetOf(const Colours& colours);
 
-/// What a widget is, for the style sheet: "title", "section", "note", "card", "primary", ...
+/// Sets the role of a widget in the style sheet: "title", "section", "note", "card", "primary", ...
 void setRole(QWidget* widget, const char* role);
 
 }  // namespace relucent

@@ -5,7 +5,7 @@
 
 namespace relucent {
 
-/// A check box whose words go on in another line where there is no room for them.
+/// A check box whose text wraps.
 class Tick : public QCheckBox {
   Q_OBJECT
 

@@ -8,10 +8,10 @@ namespace relucent {
 
 enum class Look { dark, light };
 
-/// Colours by what they mean. Text on any of its grounds has a contrast of at least 4.5 : 1.
+/// Colours by meaning. Text has a contrast of at least 4.5 : 1 on every background.
 struct Colours {
-  QColor window, rail, card, raised, input;  // grounds, from the back to the front
-  QColor line, border;                       // between things; round what can be operated
+  QColor window, rail, card, raised, input;  // backgrounds, from back to front
+  QColor line, border;                       // separators; outlines of controls
   QColor text, secondary, disabled;
   QColor accent, accentGround, onAccent;
   QColor good;
@@ -23,11 +23,11 @@ struct Colours {
 };
 const Colours& colours(Look look);
 
-/// Tells clusters apart and means nothing else.
+/// Distinguishes clusters, without further meaning.
 inline const std::array<QColor, 8> clusterPalette{
     QColor(0x5B, 0x9B, 0xC8), QColor(0xD9, 0x8E, 0x4A), QColor(0x6F, 0xB0, 0x8C), QColor(0xC9, 0x78, 0xA0),
     QColor(0xC7, 0xB4, 0x55), QColor(0x7C, 0x86, 0xC9), QColor(0xB8, 0x6B, 0x5A), QColor(0x8F, 0xB7, 0xB9)};
-/// In maps, where there is no value.
+/// In maps, for pixels without a value.
 inline const QColor invalidColour(0x16, 0x18, 0x1E);
 
 /// Logical pixels.
@@ -39,12 +39,13 @@ inline constexpr int control = 36, primary = 40, smallControl = 32;
 inline constexpr int cardRadius = 8, controlRadius = 6;
 }  // namespace space
 
-/// Pixels of type.
+/// Font sizes in pixels.
 namespace type {
 inline constexpr int axis = 11, note = 12, body = 13, section = 15, title = 20, readout = 24;
 }  // namespace type
 
-/// Pictures are shown no brighter than this share of white: the laptop is room light. Dimmed, half of it.
+/// Pictures are shown no brighter than this share of white, since the laptop lights the room. Dimmed: half of
+/// it.
 inline constexpr double brightestPicture = 0.86, dimmedPicture = 0.43;
 
 }  // namespace relucent

@@ -6,13 +6,13 @@
 
 namespace relucent {
 
-/// One axis of a chart: values to places.
+/// One axis of a chart: maps values to positions.
 struct Axis {
   double low = 0.0, high = 1.0;
   bool logarithmic = false;
   QString title;
 
-  /// 0 at `low`, 1 at `high`; beyond both, further.
+  /// 0 at `low`, 1 at `high`, continued beyond both.
   double place(double value) const;
   double value(double place) const;
 

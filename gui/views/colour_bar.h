@@ -7,10 +7,10 @@
 
 namespace relucent {
 
-/// Where a map's colours stand, upright, within an area at the side of a view; empty where that is too low.
+/// The rectangle of a vertical colour bar within an area at the side of a view; empty if that is too low.
 QRectF colourBarIn(const QRectF& area);
 void drawColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale);
-/// Its unit above it, its values beside it.
+/// Draws the unit above it and the values beside it.
 void drawColourBarWords(QPainter& painter, const QRectF& area, const ColourScale& scale, const QString& unit,
                         bool percent);
 

@@ -8,8 +8,9 @@
 
 namespace relucent {
 
-/// Bars over a logarithmic axis with a cut between what is left out and what stays. The cut is dragged, or
-/// moved by the arrow keys: 1 % of it a step, with Shift 10 %. Without a cut it is a plain bar chart.
+/// Bars over a logarithmic axis with a cut between values that are dropped and values that are kept. The cut
+/// is dragged, or moved by the arrow keys: 1 % of it a step, with Shift 10 %. Without a cut it is a plain bar
+/// chart.
 class CutHistogram : public QWidget {
   Q_OBJECT
 
@@ -25,12 +26,12 @@ class CutHistogram : public QWidget {
   void setMovable(bool movable) { movable_ = movable; }
   void setCutText(const QString& text);
   double cut() const { return cut_; }
-  /// Silent. NaN: none.
+  /// Emits no signal. NaN: none.
   void setCut(double cut);
   QSize minimumSizeHint() const override;
 
  Q_SIGNALS:
-  /// Moved by hand, while it moves.
+  /// Emitted while the user moves the cut.
   void cutMoved(double cut);
 
  protected:

@@ -8,7 +8,7 @@
 
 namespace relucent {
 
-/// A picture or map to look at closely. Pixels are never smoothed beyond 100 %.
+/// A view of a picture or map. Pixels are never smoothed beyond 100 %.
 class ImageView : public PlaneView {
   Q_OBJECT
 
@@ -17,15 +17,15 @@ class ImageView : public PlaneView {
 
   void setPicture(const QImage& picture);
   const QImage& picture() const { return picture_; }
-  /// Drawn over it, of its size, with transparency.
+  /// A transparent overlay of the same size.
   void setOverlay(const QImage& overlay);
-  /// With a bar at the right; `percent`: its values are shares.
+  /// A colour bar at the right; `percent`: its values are shares.
   void setScale(const ColourScale& scale, const QString& unit, bool percent);
-  /// The picture that is drawn to the right of a divider; the other way to compare two.
+  /// The picture to the right of a divider, for comparison.
   void setCompared(const QImage& right, const QString& leftText, const QString& rightText);
   double divider() const { return divider_; }
   void setDivider(double share);
-  /// Where the words at the left or right of the divider stand.
+  /// Position of the labels at the left or right of the divider.
   QRectF dividerTag(bool right) const;
 
  protected:
@@ -40,7 +40,7 @@ class ImageView : public PlaneView {
   const QImage& overlay() const { return overlay_; }
   const std::optional<ColourScale>& scale() const { return scale_; }
   QRectF barArea() const;
-  /// Pixels are larger than the screen's: they are shown as squares.
+  /// Whether pixels are larger than the screen's and are shown as squares.
   bool isEnlarged() const { return fit().width() * link().zoom() >= 1.0; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace relucent {
 
-/// What a curve's points look like, so that colour is never alone.
+/// Markers of a curve's points, so that curves differ not only in colour.
 enum class Marker { none, circle, square, triangle };
 
 struct Curve {
@@ -19,13 +19,13 @@ struct Curve {
   std::vector<QPointF> points;  // marked
 };
 
-/// The plot's rectangle within a widget, with axes, grid and titles round it.
+/// The plot area within a widget, with axes, grid and titles around it.
 QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis& y);
 
-/// Room for the titles and a small plot.
+/// Minimum size for the titles and a small plot.
 QSize leastSizeOf(const Axis& x, const Axis& y);
 
-/// Curves over two axes. What they say in short is the accessible description.
+/// Curves over two axes. The accessible description summarises them.
 class LineChart : public QWidget {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ class LineChart : public QWidget {
   LineChart(Axis x, Axis y, QWidget* parent = nullptr);
   void setAxes(const Axis& x, const Axis& y);
   void setCurves(std::vector<Curve> curves);
-  /// A dashed vertical at a value; none: NaN.
+  /// A dashed vertical line at a value; NaN: none.
   void setMark(double x);
   QSize minimumSizeHint() const override { return leastSizeOf(x_, y_); }
 

@@ -21,7 +21,7 @@ class MapView : public ImageView {
   explicit MapView(QWidget* parent = nullptr);
   ~MapView() override;
 
-  /// The numbers behind the picture, by which the relief rises. None: an empty image.
+  /// The values of the map, used as heights of the relief. None: an empty image.
   /// Contract: one channel, of the picture's size.
   void setValues(Image values);
   const Image& values() const { return values_; }

@@ -14,11 +14,11 @@ namespace relucent {
 
 class PlaneScene;
 
-/// T from all of it to single entries: rows are camera pixels, columns projector pixels, colours the mean
-/// light of the entries in a screen's pixel on a logarithmic scale. Whatever is moved is seen at once, in the
-/// picture that is there; a sharper one of what is looked at is made on another thread and takes its place:
-/// while the view moves, and first, an estimate from some of the rows, then the exact one. The pick is
-/// (column, row); a lens in a corner shows what is round it. Where there is no OpenGL a sentence says so.
+/// A view of T, from the whole matrix to single entries: rows are camera pixels, columns projector pixels,
+/// colours the mean light of the entries in a screen's pixel on a logarithmic scale. The view moves at once
+/// with the present picture; a sharper one of the visible part is computed on another thread and replaces it:
+/// first, and while the view moves, an estimate from some of the rows, then the exact one. The pick is
+/// (column, row); a lens in a corner shows its surroundings. Without OpenGL a sentence is shown instead.
 class MatrixView : public PlaneView {
   Q_OBJECT
 
@@ -28,15 +28,15 @@ class MatrixView : public PlaneView {
 
   /// None: nullptr.
   void setMatrix(std::shared_ptr<const MatrixPictures> matrix);
-  /// No sharper or exact picture is to come.
+  /// No sharper or exact picture is pending.
   bool isSettled() const { return !asking_.isBusy() && !wanted_; }
 
-  /// The entries that are seen.
+  /// The visible entries.
   MatrixPart seen() const;
-  /// Mean light of the entries in the finest picture's cell over a column and row; none where nothing is
-  /// known yet.
+  /// Mean light of the entries in the finest picture's cell over a column and row; none where it is not known
+  /// yet.
   std::optional<float> valueAt(QPoint entry) const;
-  /// That picture's numbers, of what is seen. One channel; empty until they are exact.
+  /// The values of the visible part of that picture. One channel; empty until they are exact.
   Image values() const;
   const ColourScale& scale() const { return scale_; }
 
@@ -61,12 +61,12 @@ class MatrixView : public PlaneView {
     ColourScale scale;
     bool exact = false, exactWhole = false;
   };
-  /// Entries of the plane that are seen, in shares of pixels.
+  /// The visible part of the plane in entries, with fractions.
   QRectF looked() const;
   QRectF barArea() const;
   MatrixPart partFor(const QRectF& looked, Size& cells) const;
   bool isSharp() const;
-  /// What the lens shows, and where it lies; none without a pick in sight or among single entries.
+  /// Contents and position of the lens; none without a visible pick, or when single entries are visible.
   std::optional<MatrixPart> lensPart() const;
   QRectF lensFrame() const;
   bool hasLens() const;

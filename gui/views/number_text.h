@@ -6,12 +6,12 @@
 
 namespace relucent {
 
-/// What is read from the left, as numbers with units and pairs are, within a sentence that may be read from
-/// the right; nothing is added where the program is read from the left.
+/// Isolates left-to-right text, such as numbers with units and pairs, for use in a right-to-left sentence;
+/// adds nothing in left-to-right languages.
 QString isolated(const QString& text);
 /// Three significant digits by the locale; very large and small ones as 7.9 x 10^-4.
 QString numberText(double value);
-/// As many decimals as are asked for, by the locale.
+/// With a given number of decimals, by the locale.
 QString decimalText(double value, int decimals);
 /// "98.6 %" of a share, with a narrow no-break space.
 QString percentText(double share);
@@ -23,9 +23,9 @@ QString bytesText(std::uint64_t bytes);
 QString exposureText(double seconds);
 /// "1024 x 768": of a screen or a picture.
 QString sizeText(int width, int height);
-/// "12, 34": where a pixel is.
+/// "12, 34": position of a pixel.
 QString placeText(int x, int y);
-/// A sentence of tr(..., count), with the thousands of its count apart as countText() has them.
+/// A sentence of tr(..., count), with its count grouped as by countText().
 QString groupedText(QString sentence, int count);
 
 }  // namespace relucent

@@ -12,22 +12,22 @@ namespace relucent {
 
 class VtkView;
 
-/// Pictures that lie flat in a VTK scene, one over the other, placed in the view's own pixels: what is panned
-/// and zoomed are their corners, so that nothing is lost in single floats however large the plane is.
+/// Flat pictures in a VTK scene, one above the other, in the view's pixels: pan and zoom change their
+/// corners, so that single precision suffices however large the plane is.
 class PlaneScene {
  public:
   explicit PlaneScene(VtkView& view);
   ~PlaneScene();
 
-  /// Another layer over those before it. Gives its number.
+  /// Adds a layer above the others. Returns its number.
   int addLayer();
   void setPicture(int layer, const QImage& picture);
   const QImage& picture(int layer) const;
-  /// Where the picture lies and what of that may be seen, in logical pixels of the view from top left.
-  /// `brightness`: 0 to 1. `smooth`: between its pixels.
+  /// Position and clipping of the picture, in logical pixels of the view from top left. `brightness`: 0 to 1.
+  /// `smooth`: interpolate between pixels.
   void place(int layer, const QRectF& target, const QRectF& frame, double brightness, bool smooth);
   void setShown(bool shown);
-  /// VTK's colour bar; an empty place: none.
+  /// VTK's colour bar; an empty rectangle: none.
   void placeBar(const QRectF& bar, const ColourScale& scale);
   /// Follows the view's size.
   void fill(QSize view);

@@ -13,16 +13,15 @@ namespace relucent {
 
 class VtkView;
 
-/// A plane of pixels to look at closely: what pictures, maps and T have in common. The wheel zooms at the
-/// pointer, drag pans, a click picks; double-click or 0 resets, 1 shows pixel for pixel, + and - zoom, arrows
-/// move the pick, with Shift ten pixels; F11 shows it on the whole screen and Esc in its page again. Several
-/// views of one raster share a ViewLink. A subclass paints the plane, or has a VTK scene drawn below
-/// everything else.
+/// A zoomable plane of pixels, the base of the views of pictures, maps and T. The wheel zooms at the pointer,
+/// drag pans, a click picks; double-click or 0 resets, 1 shows pixel for pixel, + and - zoom, arrows move the
+/// pick, with Shift ten pixels; F11 switches to full screen and Esc back. Several views of one raster share a
+/// ViewLink. A subclass paints the plane, or has a VTK scene drawn below everything else.
 class PlaneView : public QWidget {
   Q_OBJECT
 
  public:
-  /// What stands beside the pick, and in the corner for the pixel under the pointer.
+  /// The text beside the pick, and in the corner for the pixel under the pointer.
   using Readout = std::function<QString(QPoint pixel)>;
 
   explicit PlaneView(QWidget* parent = nullptr);
@@ -32,24 +31,24 @@ class PlaneView : public QWidget {
   ViewLink& link() const { return *link_; }
 
   void setReadout(Readout readout);
-  /// Words while there is no plane.
+  /// The text shown while there is no plane.
   void setEmptyText(const QString& text);
-  /// A word in the corner: "Out of date".
+  /// A label in the corner: "Out of date".
   void setBadge(const QString& text);
-  /// Words in the lower left corner: how it goes with what is seen.
+  /// A text in the lower left corner: the state of the displayed picture.
   void setCaption(const QString& text);
   void setScaleBar(bool shown);
 
-  /// On the whole screen, or back in its page. Contract: it lies in a layout.
+  /// Full screen, or back in its page. Contract: it is in a layout.
   void setWholeScreen(bool whole);
   bool isWholeScreen() const { return whole_ != nullptr; }
 
-  /// Where a place of the plane (in its pixels) is in the widget, and back.
+  /// Converts positions on the plane (in its pixels) to the widget and back.
   QPointF widgetFromPicture(QPointF place) const;
   QPointF pictureFromWidget(QPointF place) const;
   std::optional<QPoint> pixelAt(QPointF widgetPlace) const;
 
-  /// What is seen, with everything that stands over it, in device pixels.
+  /// The visible picture with everything drawn over it, in device pixels.
   QImage asSeen();
 
  protected:
@@ -57,28 +56,28 @@ class PlaneView : public QWidget {
   virtual QSize planeSize() const = 0;
   /// Pixels are square; else the plane is stretched to its frame.
   virtual bool keepsAspect() const { return true; }
-  /// What the plane may fill.
+  /// The area available to the plane.
   virtual QRectF frame() const { return rect(); }
-  /// Where words must not stand.
+  /// Areas to keep free of text.
   virtual std::vector<QRectF> keptFree() const { return {}; }
-  /// False: something else is seen than the plane, and nothing is picked in it.
+  /// False: something other than the plane is shown, which has no pick.
   virtual bool isFlat() const { return true; }
   virtual void paintPlane(QPainter&) {}
-  /// Beside pick, scale bar and badge.
+  /// Besides pick, scale bar and badge.
   virtual void paintOver(QPainter&) {}
-  /// Moves what VTK draws to where it belongs.
+  /// Updates the positions of the VTK scene.
   virtual void arrange() {}
 
-  /// Has a scene drawn in place of paintPlane(). Contract: once, in a constructor.
+  /// Draws a scene instead of paintPlane(). Contract: called once, in a constructor.
   void useVtk();
   VtkView* vtk() const { return vtk_; }
   /// Back to paintPlane().
   void dropVtk();
-  /// Paints and draws again, soon.
+  /// Schedules a repaint.
   void refresh();
 
-  QSizeF fit() const;     // widget pixels a plane's pixel where the plane just fits, across and down
-  QRectF target() const;  // where the whole plane lies
+  QSizeF fit() const;     // widget pixels per pixel of the plane where it just fits, horizontal and vertical
+  QRectF target() const;  // rectangle of the whole plane
   void zoomAt(QPointF widgetPlace, double factor);
   std::optional<QPoint> hovered() const { return hovered_; }
 
@@ -97,7 +96,7 @@ class PlaneView : public QWidget {
   class Glass;
   void look(double zoom, QPointF centre) { link_->look(zoom, centre); }
   void movePick(int dx, int dy);
-  /// Only what stands over the plane has changed.
+  /// Only what is drawn over the plane has changed.
   void refreshWords();
   void paintWords(QPainter& painter);
   void paintMarks(QPainter& painter);
@@ -111,7 +110,7 @@ class PlaneView : public QWidget {
   QPointer<QWidget> whole_;
   QString emptyText_, badge_, caption_;
   bool scaleBar_ = false, dragging_ = false;
-  bool saving_ = false;  // what belongs to the program, corners and focus, is left out
+  bool saving_ = false;  // without decoration, that is corners and focus
   Readout readout_;
   QPointF pressed_, lastDrag_;
   std::optional<QPoint> hovered_;

@@ -11,8 +11,8 @@ namespace relucent {
 
 class VtkView;
 
-/// A map as a landscape: its values are heights, its picture lies on it. Dragging turns it, the wheel comes
-/// nearer. Where there is no value there is no ground.
+/// A map as a relief: its values are heights, textured with its picture. Dragging rotates it, the wheel
+/// zooms. Pixels without a value are left out.
 class Relief {
  public:
   explicit Relief(VtkView& view);
@@ -20,12 +20,12 @@ class Relief {
 
   /// Contract: the map has one channel, and the picture covers it.
   void set(const Image& map, const ColourScale& scale, const QImage& picture);
-  /// `beside`: share of the view's width at its right that something else takes.
+  /// `beside`: share of the view's width that is occupied at its right.
   void setShown(bool shown, double beside = 0.0);
-  /// By degrees.
+  /// Rotates by degrees.
   void turn(double right, double up);
   void approach(double factor);
-  /// As one looks at it first.
+  /// Resets the viewpoint.
   void reset();
 
  private:

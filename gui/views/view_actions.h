@@ -11,14 +11,14 @@ namespace relucent {
 class Card;
 class PlaneView;
 
-/// What a view can save beside its picture.
+/// What a view can save besides its picture.
 struct ViewValues {
   std::function<Image()> values;  // empty: there are none now
   std::string units;
 };
 
-/// Buttons in a card's head: show everything, show it on the whole screen, save what is seen as PNG or its
-/// numbers as OpenEXR. `failed` is told what could not be saved.
+/// Adds buttons to a card's header: fit to view, full screen, save the visible picture as PNG or its values
+/// as OpenEXR. `failed` is called when saving fails.
 void addViewActions(Card& card, PlaneView& view, ViewValues values,
                     std::function<void(const Failure&)> failed);
 

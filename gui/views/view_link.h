@@ -7,8 +7,7 @@
 
 namespace relucent {
 
-/// Where linked views look: one place and one magnification for all of them, and one pick in pixels of the
-/// plane.
+/// State shared by linked views: centre, magnification, and pick in pixels of the plane.
 class ViewLink : public QObject {
   Q_OBJECT
 
@@ -16,7 +15,7 @@ class ViewLink : public QObject {
   using QObject::QObject;
   /// 1: the plane just fits.
   double zoom() const { return zoom_; }
-  QPointF centre() const { return centre_; }  // in shares of the plane
+  QPointF centre() const { return centre_; }  // relative to the plane
   std::optional<QPoint> pick() const { return pick_; }
   void look(double zoom, QPointF centre);
   void setPick(std::optional<QPoint> pick);

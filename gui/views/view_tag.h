@@ -12,12 +12,12 @@ class QPainter;
 
 namespace relucent {
 
-/// Room that drawTag() takes for a text of one or more lines.
+/// Size of a tag with a text of one or more lines, see drawTag().
 QSizeF tagSize(const QString& text);
-/// A tag's box at the first of `places`, its upper left corners, that leaves free what is to be kept free; at
-/// the first of all if none does. Contract: there is a place.
+/// A tag's box at the first of `places`, its upper left corners, that does not overlap the areas to keep
+/// free; else at the first of all. Contract: `places` is not empty.
 QRectF tagBox(QSizeF size, const std::vector<QPointF>& places, const std::vector<QRectF>& kept);
-/// A small dark box with words, as it stands over pictures.
+/// Draws a small dark box with text over a picture.
 void drawTag(QPainter& painter, QPointF topLeft, const QString& text, const QColor& colour,
              bool rightAligned = false);
 

@@ -12,25 +12,25 @@
 
 namespace relucent {
 
-/// What is drawn, and who is told of mouse and keys. Outlives every context that it is drawn in.
+/// The scene, with its mouse and key handlers. Outlives every context in which it is drawn.
 struct VtkScene {
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
 };
 
-/// The picture that VTK draws into. It has a context of its own, which Qt replaces with the window's; what
-/// VTK keeps in a context is let go of while that is still current.
+/// The widget into which VTK draws. Qt replaces its context with the window's; VTK's resources are released
+/// while the old one is still current.
 class VtkCanvas : public QOpenGLWidget {
  public:
-  /// Whether a context can be had in which VTK draws.
+  /// Whether a context for VTK can be created.
   static bool isPossible();
 
-  /// `refused`: told once, where the context turned out to be too old. `scene` outlives the canvas.
+  /// `refused`: called once if the context is too old. `scene` must outlive the canvas.
   VtkCanvas(VtkScene& scene, std::function<void()> refused, QWidget* parent);
   ~VtkCanvas() override;
 
-  /// Scenes drawn so far.
+  /// Number of scenes drawn so far.
   int frames() const { return frames_; }
 
  protected:
@@ -49,7 +49,7 @@ class VtkCanvas : public QOpenGLWidget {
   std::function<void()> refused_;
   std::vector<unsigned long> observers_;
   QMetaObject::Connection losing_;
-  bool ready_ = false;  // VTK has something in the context
+  bool ready_ = false;  // VTK has resources in the context
   int frames_ = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace relucent {
 
-/// A picture as VTK takes it, with opacity, its last line first.
+/// A picture in VTK's format, with opacity, last line first.
 inline vtkSmartPointer<vtkImageData> vtkImageOf(const QImage& picture) {
   QImage bytes = picture.convertToFormat(QImage::Format_RGBA8888);
   auto image = vtkSmartPointer<vtkImageData>::New();

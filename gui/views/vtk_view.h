@@ -14,10 +14,10 @@ namespace relucent {
 class VtkCanvas;
 struct VtkScene;
 
-/// A place for a VTK scene. VTK draws into the picture of a QOpenGLWidget, in device pixels, whenever Qt
-/// wants it drawn; mouse, wheel and keys go to VTK's interactor. The context may come and go, as it does when
-/// the widget moves to another window: the scene stays. Where there is no OpenGL it shows a sentence instead,
-/// and the scene is never drawn.
+/// A widget for a VTK scene. VTK draws into the framebuffer of a QOpenGLWidget, in device pixels, when Qt
+/// repaints it; mouse, wheel and keys go to VTK's interactor. The context may be replaced, for example when
+/// the widget moves to another window; the scene is kept. Without OpenGL a sentence is shown instead, and the
+/// scene is never drawn.
 class VtkView : public QWidget {
   Q_OBJECT
 
@@ -25,25 +25,25 @@ class VtkView : public QWidget {
   explicit VtkView(QWidget* parent = nullptr);
   ~VtkView() override;
 
-  /// Whether this computer can draw a scene at all; found out once, which takes a tenth of a second.
+  /// Whether this computer can draw a scene; checked once, which takes a tenth of a second.
   static bool isPossible();
-  /// Whether this view draws. False as well where its context turned out to be too old.
+  /// Whether this view draws. Also false if its context is too old.
   bool works() const { return canvas_ != nullptr; }
-  /// The sentence where it does not.
+  /// The sentence shown if it does not.
   QString refusal() const;
 
   vtkRenderer& renderer();
   vtkRenderWindow& renderWindow();
   vtkRenderWindowInteractor& interactor();
-  /// The scene has changed: draws it soon, once for many calls.
+  /// Schedules a repaint of the scene, once for several calls.
   void redraw();
-  /// Draws now and gives what was drawn, in device pixels; null where there is no OpenGL.
+  /// Draws now and returns the result, in device pixels; null without OpenGL.
   QImage drawn();
-  /// Scenes drawn so far.
+  /// Number of scenes drawn so far.
   int frames() const;
 
  Q_SIGNALS:
-  /// It no longer draws: the context is too old.
+  /// The view no longer draws: the context is too old.
   void refused();
 
  protected:

@@ -6,13 +6,13 @@
 
 namespace relucent {
 
-/// A view on the whole of its screen, in a window of its own, until that is closed: by the view, by Esc or
-/// F11. Its place in the page is kept and it goes back there.
+/// Shows a view full screen, in a window of its own, until that is closed by the view, Esc or F11. Then the
+/// view returns to its place in the page.
 class WholeScreen : public QWidget {
   Q_OBJECT
 
  public:
-  /// `view` lies in a layout of a window, which owns this and ends it.
+  /// `view` is in a layout of a window, which owns this object.
   explicit WholeScreen(QWidget& view);
   ~WholeScreen() override;
 

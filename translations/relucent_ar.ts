@@ -1179,6 +1179,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>دون تصحيح</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>سطوع كل بكسل</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>كل بكسل على حدة</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>كل بكسل، بحدّة أعلى</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>التجمّعات</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>النوافذ</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>النوافذ والخطوات</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>الأفضل الممكن، صور ثابتة</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3586,6 +3621,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>صورة توضيحية</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3636,38 +3678,6 @@ projector %2</source>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>دون تصحيح</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>سطوع كل بكسل</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>كل بكسل على حدة</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>كل بكسل، بحدّة أعلى</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>التجمّعات</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>النوافذ</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>النوافذ والخطوات</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>الأفضل الممكن، صور ثابتة</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>صورة توضيحية</translation>

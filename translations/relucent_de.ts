@@ -1171,6 +1171,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>Keine Korrektur</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>Helligkeit je Pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Jedes Pixel für sich</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Jedes Pixel, geschärft</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Fenster</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Fenster und Schritte</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Bestmöglich, Standbilder</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3486,6 +3521,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Demobild</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3536,38 +3578,6 @@ Projektor %2</translation>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>Keine Korrektur</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>Helligkeit je Pixel</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>Jedes Pixel für sich</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>Jedes Pixel, geschärft</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>Cluster</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Fenster</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>Fenster und Schritte</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>Bestmöglich, Standbilder</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>Demobild</translation>

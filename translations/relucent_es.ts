@@ -1171,6 +1171,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>Sin corrección</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>El brillo de cada píxel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Cada píxel por separado</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Cada píxel, con nitidez</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Clústeres</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Ventanas</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Ventanas y pasos</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Lo mejor posible, imágenes fijas</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3486,6 +3521,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Imagen de demostración</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3536,38 +3578,6 @@ proyector %2</translation>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>Sin corrección</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>El brillo de cada píxel</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>Cada píxel por separado</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>Cada píxel, con nitidez</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>Clústeres</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Ventanas</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>Ventanas y pasos</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>Lo mejor posible, imágenes fijas</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>Imagen de demostración</translation>

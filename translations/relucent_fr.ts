@@ -1171,6 +1171,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>Sans correction</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>Luminosité par pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Pixel par pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Pixel par pixel, accentué</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Groupes</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Fenêtres</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Fenêtres et itérations</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Optimum, images fixes</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3486,6 +3521,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Image de démonstration</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3536,38 +3578,6 @@ projecteur %2</translation>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>Sans correction</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>Luminosité par pixel</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>Pixel par pixel</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>Pixel par pixel, accentué</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>Groupes</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Fenêtres</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>Fenêtres et itérations</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>Optimum, images fixes</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>Image de démonstration</translation>

@@ -1171,6 +1171,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>Nessuna correzione</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>Luminosità di ogni pixel</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>Ogni pixel da solo</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>Ogni pixel, più nitido</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>Cluster</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>Finestre</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>Finestre e passi</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>Ottimale, immagini fisse</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3486,6 +3521,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>Immagine dimostrativa</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3536,38 +3578,6 @@ proiettore %2</translation>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>Nessuna correzione</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>Luminosità di ogni pixel</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>Ogni pixel da solo</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>Ogni pixel, più nitido</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>Cluster</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Finestre</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>Finestre e passi</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>Ottimale, immagini fisse</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>Immagine dimostrativa</translation>

@@ -1169,6 +1169,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>補正なし</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>画素ごとの明るさ</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>画素ごとに独立</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>画素ごと＋鮮鋭化</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>クラスター</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>局所窓</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>局所窓＋反復</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>最高画質、静止画</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3461,6 +3496,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>デモ画像</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3511,38 +3553,6 @@ projector %2</source>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>補正なし</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>画素ごとの明るさ</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>画素ごとに独立</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>画素ごと＋鮮鋭化</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>クラスター</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>局所窓</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>局所窓＋反復</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>最高画質、静止画</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>デモ画像</translation>

@@ -1169,6 +1169,41 @@
     </message>
 </context>
 <context>
+    <name>Method</name>
+    <message>
+        <source>No correction</source>
+        <translation>不补偿</translation>
+    </message>
+    <message>
+        <source>Each pixel&apos;s brightness</source>
+        <translation>逐像素亮度</translation>
+    </message>
+    <message>
+        <source>Each pixel on its own</source>
+        <translation>逐像素独立</translation>
+    </message>
+    <message>
+        <source>Each pixel, sharpened</source>
+        <translation>逐像素锐化</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>簇</translation>
+    </message>
+    <message>
+        <source>Windows</source>
+        <translation>窗口</translation>
+    </message>
+    <message>
+        <source>Windows and steps</source>
+        <translation>窗口与迭代</translation>
+    </message>
+    <message>
+        <source>Best possible, still pictures</source>
+        <translation>最佳效果，静态图片</translation>
+    </message>
+</context>
+<context>
     <name>MissingScreen</name>
     <message>
         <source>The projector&apos;s screen is unplugged</source>
@@ -3461,6 +3496,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::OutputPlaylist</name>
+    <message>
+        <source>Demonstration picture</source>
+        <translation>演示图片</translation>
+    </message>
+</context>
+<context>
     <name>relucent::OutputProjection</name>
     <message>
         <source>Preparing the engine</source>
@@ -3511,38 +3553,6 @@ projector %2</source>
 </context>
 <context>
     <name>relucent::PreviewPage</name>
-    <message>
-        <source>No correction</source>
-        <translation>不补偿</translation>
-    </message>
-    <message>
-        <source>Each pixel&apos;s brightness</source>
-        <translation>逐像素亮度</translation>
-    </message>
-    <message>
-        <source>Each pixel on its own</source>
-        <translation>逐像素独立</translation>
-    </message>
-    <message>
-        <source>Each pixel, sharpened</source>
-        <translation>逐像素锐化</translation>
-    </message>
-    <message>
-        <source>Clusters</source>
-        <translation>簇</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>窗口</translation>
-    </message>
-    <message>
-        <source>Windows and steps</source>
-        <translation>窗口与迭代</translation>
-    </message>
-    <message>
-        <source>Best possible, still pictures</source>
-        <translation>最佳效果，静态图片</translation>
-    </message>
     <message>
         <source>Demonstration picture</source>
         <translation>演示图片</translation>

@@ -9,12 +9,12 @@
 #include <QScrollArea>
 #include <QShortcut>
 
-#include "app/failure_dialog.h"
 #include "app/help_window.h"
 #include "app/settings_dialog.h"
 #include "calibration/calibration_folder.h"
 #include "theme/quiet_wheel.h"
 #include "theme/theme.h"
+#include "wizard/frame/failure_dialog.h"
 
 namespace relucent {
 namespace {

@@ -6,13 +6,13 @@
 #include <QStackedWidget>
 #include <vector>
 
-#include "app/action_bar.h"
-#include "app/banner_bar.h"
 #include "app/language.h"
-#include "app/status_strip.h"
-#include "app/step_rail.h"
-#include "wizard/page_view.h"
-#include "wizard/preferences.h"
+#include "wizard/frame/action_bar.h"
+#include "wizard/frame/banner_bar.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/frame/preferences.h"
+#include "wizard/frame/status_strip.h"
+#include "wizard/frame/step_rail.h"
 
 namespace relucent {
 

@@ -3,7 +3,7 @@
 
 #include <QDialog>
 
-#include "wizard/preferences.h"
+#include "wizard/frame/preferences.h"
 
 namespace relucent {
 

@@ -7,14 +7,14 @@
 
 #include "app/language.h"
 #include "app/main_window.h"
-#include "wizard/acquire_page.h"
-#include "wizard/camera_page.h"
-#include "wizard/cluster_page.h"
-#include "wizard/linearize_page.h"
-#include "wizard/output_page.h"
-#include "wizard/preview_page.h"
-#include "wizard/threshold_page.h"
-#include "wizard/venue_page.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/cluster/cluster_page.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/output/output_page.h"
+#include "wizard/preview/preview_page.h"
+#include "wizard/threshold/threshold_page.h"
+#include "wizard/venue/venue_page.h"
 
 namespace relucent {
 

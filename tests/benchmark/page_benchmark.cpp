@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "wizard/cluster_page.h"
-#include "wizard/threshold_page.h"
+#include "wizard/cluster/cluster_page.h"
+#include "wizard/threshold/threshold_page.h"
 
 using namespace relucent;
 

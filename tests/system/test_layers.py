@@ -4,9 +4,9 @@
 
     test_layers.py SOURCE_DIR
 
-The layers are read from where they are decided: the order from core/CMakeLists.txt, the permissions from the
-USES of each folder's relucent_core_library(). The linker cannot see a wrong include of a header that needs no
-symbols; this can.
+The layers are read from where they are decided: the order from core/CMakeLists.txt and gui/CMakeLists.txt, the
+permissions from the USES of each folder's relucent_core_library() or relucent_wizard_library(). The linker cannot
+see a wrong include of a header that needs no symbols; this can.
 """
 import os
 import re
@@ -21,17 +21,17 @@ OWN_FOLDERS = ["core", "gui", "tests", "packaging", ".ci", "resources", "transla
 SOURCE_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".cmake", ".comp", ".vert", ".frag"}
 
 
-def order_of_layers(source):
-    """The core folders in the order of core/CMakeLists.txt."""
-    text = (source / "core/CMakeLists.txt").read_text()
+def order_of_layers(source, part="core"):
+    """The folders of core or gui in the order of its CMakeLists.txt."""
+    text = (source / part / "CMakeLists.txt").read_text()
     return re.search(r"foreach\(folder\s+([^)]*)\)", text).group(1).split()
 
 
-def declared_uses(source):
-    """Per core folder that is built: the folders that its library USES, as written."""
+def declared_uses(source, part="core", function="relucent_core_library"):
+    """Per folder that is built: the folders that its library USES, as written."""
     uses = {}
-    for lists in sorted(source.glob("core/*/CMakeLists.txt")):
-        call = re.search(r"relucent_core_library\((.*?)\)", lists.read_text(), re.S)
+    for lists in sorted((source / part).glob("*/CMakeLists.txt")):
+        call = re.search(function + r"\((.*?)\)", lists.read_text(), re.S)
         if call:
             words = call.group(1).split()
             begin = words.index("USES") + 1 if "USES" in words else len(words)
@@ -84,6 +84,25 @@ def layer_breaches(source):
     return found
 
 
+def gui_breaches(source):
+    """A sentence for each include of gui that goes up, and for each of the wizard that its folder does not USE."""
+    order, found = order_of_layers(source, "gui"), []
+    uses = declared_uses(source, "gui/wizard", "relucent_wizard_library")
+    for path in sorted((source / "gui").rglob("*.[ch]*")):
+        if path.suffix not in {".h", ".cpp"}:
+            continue
+        where = path.relative_to(source)
+        folder, inner = where.parts[1], where.parts[2]
+        for number, name in includes(path):
+            target = name.split("/")
+            if len(target) > 1 and target[0] in order and order.index(target[0]) > order.index(folder):
+                found.append(f"{where}:{number}: includes {name}, but {target[0]} is below {folder} in gui/CMakeLists.txt")
+            if folder == "wizard" and inner in uses and target[0] == "wizard" and (
+                    len(target) < 3 or target[1] not in closure(uses, inner)):
+                found.append(f"{where}:{number}: includes {name}, but wizard/{inner} does not use it")
+    return found
+
+
 def own_sources(source):
     for folder in OWN_FOLDERS:
         for directory, folders, names in os.walk(source / folder):
@@ -110,6 +129,7 @@ class ThisRepository(unittest.TestCase):
 
     def test_includes_follow_the_layers(self):
         self.assertEqual(layer_breaches(SOURCE), [])
+        self.assertEqual(gui_breaches(SOURCE), [])
 
     def test_every_source_names_its_licence(self):
         self.assertEqual(files_without_licence(SOURCE), [])
@@ -157,6 +177,27 @@ class TheCheckItself(unittest.TestCase):
     def test_qt_in_core_is_found(self):
         self.include("core/image/a.cpp", "#include <QImage>")
         self.assertEqual(len(layer_breaches(self.source)), 1)
+
+    def wizard(self):
+        self.write("gui/CMakeLists.txt", "# SPDX-License-Identifier: MIT\nforeach(folder theme wizard app)\n")
+        for folder, uses in {"frame": "", "venue": "USES frame", "camera": "USES frame"}.items():
+            self.write(f"gui/wizard/{folder}/CMakeLists.txt",
+                       f"# SPDX-License-Identifier: MIT\nrelucent_wizard_library({folder} SOURCES a.cpp {uses})\n")
+
+    def test_includes_of_a_page_that_it_uses_are_fine(self):
+        self.wizard()
+        self.include("gui/wizard/venue/a.cpp", '#include "wizard/venue/a.h"\n#include "wizard/frame/a.h"\n#include "theme/a.h"')
+        self.assertEqual(gui_breaches(self.source), [])
+
+    def test_a_page_that_includes_another_is_found(self):
+        self.wizard()
+        self.include("gui/wizard/venue/a.cpp", '#include "wizard/camera/a.h"')
+        self.assertEqual(len(gui_breaches(self.source)), 1)
+
+    def test_gui_that_includes_from_below_is_found(self):
+        self.wizard()
+        self.include("gui/theme/a.cpp", '#include "wizard/frame/a.h"')
+        self.assertEqual(len(gui_breaches(self.source)), 1)
 
     def test_a_missing_licence_is_found(self):
         self.write("core/image/a.cpp", "int a;\n")

@@ -12,11 +12,11 @@
 #include <QTableWidget>
 #include <QToolButton>
 
-#include "app/step_rail.h"
 #include "theme/readout.h"
 #include "views/cut_histogram.h"
 #include "views/line_chart.h"
-#include "wizard/tile.h"
+#include "wizard/frame/step_rail.h"
+#include "wizard/venue/tile.h"
 
 namespace relucent {
 

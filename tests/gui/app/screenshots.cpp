@@ -14,7 +14,7 @@
 #include "app/wizard_window.h"
 #include "theme/theme.h"
 #include "views/map_view.h"
-#include "wizard/identify_overlay.h"
+#include "wizard/devices/identify_overlay.h"
 
 using namespace relucent;
 

@@ -5,10 +5,10 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "app/failure_dialog.h"
 #include "app/help_window.h"
 #include "app/wizard_window.h"
 #include "gui/app/layout_faults.h"
+#include "wizard/frame/failure_dialog.h"
 
 using namespace relucent;
 

@@ -21,9 +21,9 @@
 #include "views/image_view.h"
 #include "views/matrix_view.h"
 #include "views/vtk_view.h"
-#include "wizard/corner_view.h"
-#include "wizard/playlist_view.h"
-#include "wizard/tile.h"
+#include "wizard/output/playlist_view.h"
+#include "wizard/preview/corner_view.h"
+#include "wizard/venue/tile.h"
 
 using namespace relucent;
 

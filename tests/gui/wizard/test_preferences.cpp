@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the user prefers, and what follows from it for real devices.
-#include "wizard/preferences.h"
+#include "wizard/frame/preferences.h"
 
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "wizard/acquire_page.h"
-#include "wizard/linearize_page.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/linearize/linearize_page.h"
 
 using namespace relucent;
 

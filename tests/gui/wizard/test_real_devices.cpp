@@ -22,11 +22,11 @@
 #include "support/fake_gige_camera.h"
 #include "support/own_network.h"
 #include "support/screen_light.h"
-#include "wizard/acquire_page.h"
-#include "wizard/camera_page.h"
-#include "wizard/linearize_page.h"
-#include "wizard/other_screens.h"
-#include "wizard/venue_page.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/session/other_screens.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 using namespace relucent::test;

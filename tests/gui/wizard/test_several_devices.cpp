@@ -5,11 +5,11 @@
 #include <QtTest>
 
 #include "calibration/results.h"
-#include "wizard/acquire_page.h"
-#include "wizard/cluster_page.h"
-#include "wizard/linearize_page.h"
-#include "wizard/threshold_page.h"
-#include "wizard/venue_page.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/cluster/cluster_page.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/threshold/threshold_page.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A calibration whose projector hangs on another output than when it was measured. Runs on two screens and
 // plugs in a third, see tests/support/with-two-screens.
-#include "wizard/venue_screen.h"
+#include "wizard/venue/venue_screen.h"
 
 #include <QSettings>
 #include <QTemporaryDir>
@@ -10,8 +10,8 @@
 #include "gui/output/two_screens.h"
 #include "output/window_projector.h"
 #include "pipeline/stages.h"
-#include "wizard/output_page.h"
-#include "wizard/venue_page.h"
+#include "wizard/output/output_page.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Steps and pages without any widget.
-#include "wizard/wizard.h"
+#include "wizard/frame/wizard.h"
 
 #include <QDir>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "wizard/acquire_page.h"
-#include "wizard/threshold_page.h"
-#include "wizard/venue_page.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/threshold/threshold_page.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 

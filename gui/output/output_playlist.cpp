@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "output/output_playlist.h"
+
+#include <QFile>
+#include <QFileInfo>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "content/content_address.h"
+#include "content/video.h"
+#include "output/own_picture.h"
+
+namespace relucent {
+namespace {
+
+QString picturePath(const QString& picture) {
+  return picture.isEmpty() ? ownPicture() : picture;
+}
+
+}  // namespace
+
+void OutputPlaylist::open(const QString& folder, const QString& picture) {
+  folder_ = folder;
+  settings_ = {};
+  settings_.items = {{picturePath(picture)}};
+  edited_ = false;
+  if (!folder.isEmpty() && QFileInfo::exists(file())) {
+    try {
+      settings_ = readPlaylist(file());
+      edited_ = true;
+    } catch (const Error& error) {
+      Q_EMIT unreadable(QString::fromUtf8(error.what()));
+    }
+  }
+  Q_EMIT changed();
+}
+
+void OutputPlaylist::prefer(const QString& picture) {
+  QString path = picturePath(picture);
+  auto plays = [&](const PlaylistItem& item) { return item.path == path; };
+  if (std::any_of(settings_.items.begin(), settings_.items.end(), plays)) return;
+  if (!edited_) settings_.items.clear();
+  settings_.items.prepend({path});
+  Q_EMIT changed();
+}
+
+PlaylistSettings OutputPlaylist::withAdded(const QStringList& files) const {
+  PlaylistSettings result = settings_;
+  for (const QString& path : files)
+    if (!path.isEmpty()) result.items.append({path});
+  return result;
+}
+
+PlaylistSettings OutputPlaylist::without(qsizetype index) const {
+  PlaylistSettings result = settings_;
+  if (index >= 0 && index < result.items.size()) result.items.removeAt(index);
+  return result;
+}
+
+PlaylistSettings OutputPlaylist::withMoved(qsizetype index, qsizetype by) const {
+  PlaylistSettings result = settings_;
+  qsizetype to = index + by;
+  if (index >= 0 && index < result.items.size() && to >= 0 && to < result.items.size())
+    result.items.move(index, to);
+  return result;
+}
+
+void OutputPlaylist::set(const PlaylistSettings& settings) {
+  settings_ = settings;
+  edited_ = true;
+  Q_EMIT changed();
+  if (!isEmpty()) save();
+}
+
+void OutputPlaylist::save() const {
+  PlaylistSettings kept = settings_;
+  for (PlaylistItem& item : kept.items) {
+    if (item.path != ownPicture()) continue;
+    QString copy = folder_ + "/demonstration.png";
+    if (!QFileInfo::exists(copy)) {
+      QFile own(ownPicture());
+      require(own.open(QIODevice::ReadOnly), "the program's own picture is missing");
+      writeFileAtomically(copy.toStdString(), own.readAll().toStdString());
+    }
+    item.path = copy;
+  }
+  savePlaylist(file(), kept);
+}
+
+QString OutputPlaylist::nameOf(const PlaylistItem& item) {
+  if (item.path == ownPicture()) return tr("Demonstration picture");
+  if (addressOf(item.path).kind != ContentAddress::Kind::file) return item.path;
+  return QFileInfo(item.path).fileName();
+}
+
+bool OutputPlaylist::isStill(const PlaylistItem& item) {
+  return addressOf(item.path).kind == ContentAddress::Kind::file && !isVideo(item.path) &&
+         !QFileInfo(item.path).isDir();
+}
+
+}  // namespace relucent

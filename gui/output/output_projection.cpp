@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "output/output_projection.h"
+
+#include <QGuiApplication>
+#include <QImageReader>
+#include <QScreen>
+#include <algorithm>
+
+#include "base/error.h"
+#include "jobs/core_sentences.h"
+#include "output/output_playlist.h"
+#include "output/output_tap.h"
+
+namespace relucent {
+namespace {
+
+/// Larger than this a canvas would only be slower.
+constexpr QSize largestCanvas(1920, 1080);
+constexpr int sampleInterval = 500;  // milliseconds
+constexpr std::size_t frameTimesKept = 120;
+constexpr int mirrorInterval = 67;  // milliseconds: 15 pictures a second show what moves
+
+/// Windows that are operated stand on that screen: keys have to be taken where they are hidden, and must be
+/// left to them where they are not.
+bool hidesWindows(const QScreen* screen) {
+  const QWindowList windows = QGuiApplication::topLevelWindows();
+  return std::any_of(windows.begin(), windows.end(), [screen](const QWindow* window) {
+    return window->isVisible() && window->screen() == screen &&
+           qobject_cast<const ProjectorWindow*>(window) == nullptr;
+  });
+}
+
+}  // namespace
+
+/// What a player needs, made on another thread.
+struct OutputProjection::Made {
+  std::unique_ptr<FrameRenderer> renderer;
+  std::shared_ptr<Playlist> content;
+};
+
+OutputProjection::OutputProjection(QObject* parent)
+    : QObject(parent),
+      tap_(std::make_shared<OutputTap>()),
+      scaling_(
+          [this](QImage scaled) {
+            if (!isOpen()) return;
+            mirror_ = std::move(scaled);
+            Q_EMIT mirrored();
+          },
+          [this](const Failure& failure) { Q_EMIT failed(failure); }) {
+  connect(&job_, &Job::progressed, this, &OutputProjection::changed);
+  connect(&job_, &Job::ended, this, &OutputProjection::opened);
+  sampling_.setInterval(sampleInterval);
+  connect(&sampling_, &QTimer::timeout, this, &OutputProjection::sample);
+  reflecting_.setInterval(mirrorInterval);
+  connect(&reflecting_, &QTimer::timeout, this, &OutputProjection::reflect);
+}
+
+OutputProjection::~OutputProjection() {
+  disconnect();
+  close();
+}
+
+Canvas OutputProjection::canvasFor(const PlaylistSettings& list, Fit fit) {
+  QSize size = OutputPlaylist::isStill(list.items.front()) ? QImageReader(list.items.front().path).size()
+                                                           : largestCanvas;
+  if (!size.isValid()) size = largestCanvas;  // core's own formats
+  if (size.width() > largestCanvas.width() || size.height() > largestCanvas.height())
+    size.scale(largestCanvas, Qt::KeepAspectRatio);
+  return {size.expandedTo({8, 8}), fit};
+}
+
+void OutputProjection::open(const Wanted& wanted) {
+  require(!isOpen() && !isOpening() && !wanted.list.items.isEmpty(), "there is nothing to open");
+  wanted_ = true;
+  screens_ = wanted.screens;
+  made_ = std::make_shared<Made>();
+  job_.start([made = made_, tap = tap_, wanted](Progress& progress) {
+    Progress preparing = progress.part(1.0, tr("Preparing the engine").toStdString());
+    Canvas canvas = canvasFor(wanted.list, wanted.fit);
+    made->content = std::make_shared<Playlist>(wanted.list, canvas);
+    made->renderer = std::make_unique<TappedRenderer>(
+        std::make_unique<EngineRenderer>(wanted.calibration, canvas, false, preparing), tap);
+  });
+  Q_EMIT changed();
+}
+
+void OutputProjection::opened() {
+  if (job_.state() == Job::State::failed) Q_EMIT failed(job_.failure());
+  if (job_.state() == Job::State::done && wanted_) {
+    try {
+      play();
+    } catch (...) {
+      close();
+      Q_EMIT failed(failureOf(std::current_exception()));
+    }
+  }
+  made_ = nullptr;
+  Q_EMIT changed();
+}
+
+void OutputProjection::play() {
+  engine_ = made_->renderer->name();
+  canvas_ = made_->renderer->canvas();
+  content_ = std::exchange(made_->content, nullptr);
+  std::vector<ProjectorWindow*> windows;
+  for (const ScreenIdentity& screen : screens_)
+    windows.push_back(windows_.emplace_back(std::make_unique<ProjectorWindow>(screen)).get());
+  for (ProjectorWindow* window : windows)
+    window->setFlag(Qt::WindowDoesNotAcceptFocus, !hidesWindows(findScreen(window->display())));
+  bool keepStep = std::all_of(windows.begin(), windows.end(),
+                              [](const ProjectorWindow* window) { return window->surface().keepsStep(); });
+  if (!keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);
+  player_ = std::make_unique<Player>(std::move(made_->renderer), content_, windows);
+  // What these lead to ends the objects that tell it: later, when they are done telling.
+  auto closeLater = [this] {
+    QMetaObject::invokeMethod(
+        this, [this] { close(); }, Qt::QueuedConnection);
+  };
+  // The player itself looks at the projectors' other keys.
+  for (const auto& window : windows_)
+    connect(window.get(), &ProjectorWindow::keyPressed, this, [this, closeLater](int key) {
+      if (key == Qt::Key_Escape) closeLater();
+      Q_EMIT changed();
+    });
+  connect(player_.get(), &Player::failed, this, [this, closeLater](const QString& sentence) {
+    closeLater();
+    Q_EMIT failed(
+        {ErrorKind::device, fullSentence(sentence.toStdString()), tr("Open the output again."), sentence});
+  });
+  awake_.emplace(tr("Relucent is projecting"));
+  awake_->wakeDisplays();
+  frameTimes_.clear();
+  for (const auto& window : windows_) window->shine();
+  player_->start();
+  sampling_.start();
+  if (!within_.isEmpty()) reflecting_.start();
+}
+
+void OutputProjection::sample() {
+  PlayerStatistics now = statistics();
+  frameTimes_.push_back(now.frames > 0 ? 1000.0 * now.frameSeconds : 0.0);
+  if (frameTimes_.size() > frameTimesKept) frameTimes_.pop_front();
+  Q_EMIT changed();
+}
+
+void OutputProjection::close() {
+  wanted_ = false;
+  sampling_.stop();
+  reflecting_.stop();
+  job_.cancel();
+  if (player_) player_->stop();
+  for (const auto& window : windows_) window->stop();
+  player_ = nullptr;
+  windows_.clear();
+  content_ = nullptr;
+  awake_.reset();
+  tap_->put({});
+  mirror_ = {};
+  reflected_ = 0;
+  Q_EMIT mirrored();
+  Q_EMIT changed();
+}
+
+void OutputProjection::setList(const PlaylistSettings& list) {
+  if (!isOpen()) return;
+  content_ = std::make_shared<Playlist>(list, canvas_);
+  player_->setContent(content_);
+}
+
+void OutputProjection::setBlack(bool black) {
+  if (player_) player_->setBlack(black);
+  Q_EMIT changed();
+}
+
+void OutputProjection::setFrozen(bool frozen) {
+  if (player_) player_->setFrozen(frozen);
+  Q_EMIT changed();
+}
+
+void OutputProjection::setCompensated(bool compensated) {
+  if (player_) player_->setCompensated(compensated);
+  Q_EMIT changed();
+}
+
+qsizetype OutputProjection::playing() const {
+  return isOpen() && content_ ? content_->status().playing : -1;
+}
+
+QStringList OutputProjection::skipped() const {
+  return isOpen() && content_ ? content_->status().skipped : QStringList();
+}
+
+QImage OutputProjection::onProjector(std::size_t projector) const {
+  if (!player_) return {};
+  QImage drive = tap_->get(projector);
+  if (isBlack() && !drive.isNull()) drive.fill(Qt::black);
+  return drive;
+}
+
+void OutputProjection::mirrorProjector(std::size_t projector) {
+  if (std::exchange(mirrored_, projector) == projector) return;
+  mirror_ = {};
+  reflected_ = 0;
+  Q_EMIT mirrored();
+}
+
+void OutputProjection::watch(QSize within) {
+  within_ = within;
+  reflected_ = 0;
+  if (isOpen() && !within_.isEmpty())
+    reflecting_.start();
+  else
+    reflecting_.stop();
+}
+
+void OutputProjection::reflect() {
+  if (scaling_.isBusy()) return;
+  QImage drive = tap_->get(mirrored_);
+  if (drive.isNull()) return;
+  bool black = isBlack();
+  // A picture that stands is scaled once. Keys of pictures are positive.
+  qint64 picture = black ? -drive.cacheKey() : drive.cacheKey();
+  if (std::exchange(reflected_, picture) == picture) return;
+  scaling_.ask([drive = std::move(drive), black, within = within_] {
+    QSize size = drive.size();
+    if (size.width() > within.width() || size.height() > within.height())
+      size.scale(within, Qt::KeepAspectRatio);
+    if (!black) return drive.scaled(size.expandedTo({1, 1}), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    QImage dark(size.expandedTo({1, 1}), QImage::Format_RGB32);
+    dark.fill(Qt::black);
+    return dark;
+  });
+}
+
+}  // namespace relucent

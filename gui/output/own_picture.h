@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QString>
+
+#include "image/image.h"
+
+namespace relucent {
+
+/// The product's own picture, a resource, where the user has chosen none.
+QString ownPicture();
+/// A picture as linear content; a resource too. Throws: as readLinearContent().
+Image linearContentOf(const QString& file);
+
+}  // namespace relucent

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QTimer>
+#include <memory>
+
+#include "acquisition/forecast.h"
+#include "jobs/job.h"
+#include "jobs/time_left.h"
+#include "linearization/linearization.h"
+#include "wizard/acquire/acquisition_trace.h"
+#include "wizard/acquire/asking.h"
+#include "wizard/devices/device_page.h"
+
+namespace relucent {
+
+/// How finely the light transport is measured.
+enum class Fineness { fast, usual, fine };
+
+/// Patterns whose blocks have one size: a level of the quadtree.
+struct BlockLevel {
+  int block = 1;          // projector pixels along a side
+  PatternRange patterns;  // of a level that has begun they are known
+  int through = 0;
+  bool isKnown = false;
+  bool isThrough() const { return isKnown && through >= patterns.likely; }
+};
+
+/// Step 4: the light transport, photograph by photograph.
+class AcquirePage : public DevicePage {
+  Q_OBJECT
+
+ public:
+  explicit AcquirePage(Session& session, QObject* parent = nullptr);
+  ~AcquirePage() override;
+
+  QString name() const override { return tr("Acquire"); }
+  QString subtitle() const override {
+    return tr("Measure how every projector pixel lights every camera pixel. Leave the room dark and still.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  QString cause() const override { return session_.mayMeasure() ? QString() : "room-is-clear"; }
+  Command primary() const override;
+  std::vector<Command> secondary() const override;
+  std::optional<double> progress() const override;
+  std::optional<Banner> banner() const override;
+  void finish() override;
+
+  void enter() override;
+
+  bool isMeasuring() const { return job_.isRunning(); }
+  /// What was measured is what the settings want.
+  bool isDone() const;
+  bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
+  bool isStopping() const { return isMeasuring() && job_.isStopping(); }
+  QString stage() const { return job_.stage(); }
+  /// Of the shown projector and camera.
+  LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
+  /// Photographs of earlier runs that are in the journal, and all that there are by now.
+  int keptBefore() const { return kept_; }
+  int photographs() const;
+  /// Seconds that it still takes; none before enough is known.
+  std::optional<double> secondsLeft() const;
+  const std::optional<WorkLeft>& forecast() const { return forecast_; }
+  /// Photographs a second, over the last ones.
+  double rate() const { return rate_; }
+
+  Fineness fineness() const;
+  void setFineness(Fineness fineness);
+  bool isWhite() const { return session_.settings().acquisition.colours == LitColours::white; }
+  void setWhite(bool white);
+  /// What the checks of this measurement said, or of the last one.
+  const AcquisitionTrace& trace() const { return trace_; }
+  /// How often light and view are compared, and what follows.
+  QString watching() const;
+  /// What it cost, as far as the folder tells: "patterns", "seconds", ...
+  std::optional<double> figure(const char* name) const;
+  /// Error of patterns that were only predicted, relative; none before it was measured.
+  std::optional<double> verificationError() const;
+  /// What is worth knowing of the measurement, in sentences.
+  QStringList findings() const;
+  /// What measuring with these settings will about take, by what the response took; none before that.
+  std::optional<WorkLeft> expected() const { return expected(session_.settings().acquisition); }
+  /// The same at another fineness.
+  std::optional<WorkLeft> expected(Fineness fineness) const { return expected(settingsOf(fineness)); }
+  /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
+  std::vector<BlockLevel> levels() const;
+  std::uint64_t freeBytes() const;
+  /// Linear, of the shown camera: as last photographed or as measured. Empty: not yet.
+  Image floodlight() const;
+  /// Another number, another picture; 0: none.
+  int floodlightNumber() const;
+
+  /// Before real devices measure, seconds; the first pattern waits for them.
+  int secondsToLeave() const { return secondsToLeave_; }
+  void setSecondsToLeave(int seconds);
+  bool hasSound() const { return sound_; }
+  void setSound(bool sound);
+  /// The time to leave the room runs.
+  bool isLeaving() const { return leaving_.isActive(); }
+
+  void pause();
+  void resume();
+  void stopAndKeep();
+
+ Q_SIGNALS:
+  /// It has ended, in any way.
+  void measured();
+  /// Somebody has to decide what is done about an alarm.
+  void asks();
+  void secondsToLeaveChosen(int seconds);
+  void soundChosen(bool sound);
+
+ private:
+  void start();
+  void begin();
+  void stay();
+  std::optional<WorkLeft> expected(const AcquisitionSettings& settings) const;
+  AcquisitionSettings settingsOf(Fineness fineness) const;
+  Rasters projectorRasters() const;
+  void change(const QString& what, const AcquisitionSettings& settings);
+  void keep(const AcquisitionSettings& settings);
+  void askAbout(const Alarm& alarm);
+  void answer(Answer answer);
+  void ended();
+  void tick();
+  void lookAtResponse();
+
+  std::shared_ptr<Asking> asking_;
+  AcquisitionTrace trace_;
+  TimeLeft left_;
+  std::optional<WorkLeft> forecast_;
+  std::optional<Linearization> response_;
+  std::string responseStored_;  // when that was
+  int kept_ = 0;
+  QTimer second_;
+  double rate_ = 0.0;
+  int lastCount_ = 0;
+  QTimer leaving_;  // a second each
+  int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
+  bool sound_ = true;
+  Job job_;  // the last: it ends before what its work uses
+};
+
+}  // namespace relucent

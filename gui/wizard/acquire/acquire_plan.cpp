@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What the page of acquisition knows before it measures: what it will take, and what it will look at.
+#include <numeric>
+#include <utility>
+
+#include "jobs/free_space.h"
+#include "wizard/acquire/acquire_page.h"
+
+namespace relucent {
+
+Rasters AcquirePage::projectorRasters() const {
+  std::vector<Size> sizes;
+  for (std::size_t i = 0; i < session_.projectors(); ++i) sizes.push_back(session_.projectorSize(i));
+  return Rasters(std::move(sizes));
+}
+
+std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& settings) const {
+  if (!response_ || response_->exposures.empty()) return std::nullopt;
+  const std::vector<double>& exposures = response_->exposures;
+  const double mean =
+      std::accumulate(exposures.begin(), exposures.end(), 0.0) / static_cast<double>(exposures.size());
+  const Rasters projectors = projectorRasters();
+  if (projectors.count() == 0) return std::nullopt;
+  // Photographs are counted, not their pixels.
+  const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
+  return relucent::forecast(cameras, projectors, exposures.size(), mean, settings, response_->times, {});
+}
+
+std::vector<BlockLevel> AcquirePage::levels() const {
+  const Rasters projectors = projectorRasters();
+  if (projectors.count() == 0) return {};
+  const AcquisitionTrace::Growth growth = trace_.growth();
+  // Of an earlier session only the sum is on record.
+  if (isDone() && growth.levels.empty()) return {};
+  std::vector<PatternRange> patterns =
+      levelPatterns(projectors, session_.settings().acquisition, growth.levels);
+  std::vector<BlockLevel> levels;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    BlockLevel level{1 << (patterns.size() - 1 - i), patterns[i]};
+    level.isKnown = i < growth.levels.size();
+    if (i + 1 < growth.levels.size()) level.through = growth.levels[i];
+    if (i + 1 == growth.levels.size()) level.through = growth.through;
+    levels.push_back(level);
+  }
+  // What it ended before needed none.
+  while (isDone() && !levels.empty() && !levels.back().isKnown) levels.pop_back();
+  return levels;
+}
+
+std::uint64_t AcquirePage::freeBytes() const {
+  return freeBytesAt(QString::fromStdString(session_.path().string()));
+}
+
+bool AcquirePage::isDone() const {
+  return !isMeasuring() && session_.progress(Step::acquisition) == StepProgress::done;
+}
+
+void AcquirePage::enter() {
+  if (isDone() && floodlightNumber() == 0) session_.wantAcquisition();
+}
+
+int AcquirePage::floodlightNumber() const {
+  if (!session_.isOpen()) return 0;
+  if (int number = session_.live().floodlightNumber(camera())) return number;
+  return session_.acquisition() ? -1 : 0;
+}
+
+Image AcquirePage::floodlight() const {
+  if (floodlightNumber() > 0) return session_.live().floodlight(camera()).signal;
+  auto measured = session_.acquisition();
+  if (!measured || camera() >= measured->transport.cameras().devices()) return {};
+  return imageFromStack(measured->flood, measured->transport.cameras(), camera());
+}
+
+void AcquirePage::setSecondsToLeave(int seconds) {
+  if (std::exchange(secondsToLeave_, seconds) == seconds) return;
+  Q_EMIT secondsToLeaveChosen(seconds);
+  Q_EMIT changed();
+}
+
+void AcquirePage::setSound(bool sound) {
+  if (std::exchange(sound_, sound) == sound) return;
+  Q_EMIT soundChosen(sound);
+  Q_EMIT changed();
+}
+
+}  // namespace relucent

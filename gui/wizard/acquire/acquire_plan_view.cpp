@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/acquire/acquire_plan_view.h"
+
+#include <QComboBox>
+#include <vector>
+
+#include "jobs/time_left.h"
+#include "pipeline/pictures.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "theme/tick.h"
+#include "views/colour_map.h"
+#include "views/image_view.h"
+#include "views/number_text.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/devices/device_selector.h"
+
+namespace relucent {
+namespace {
+
+constexpr double brightRoom = 0.02;  // of full light: beyond it photon noise of the room costs precision
+
+/// How to begin: with time to leave, and a sound at the end.
+QWidget* startPart(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* rows = new QVBoxLayout(part);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->addWidget(lineOf());
+  rows->addWidget(labelOf(AcquirePage::tr("Start"), "section"));
+  auto* leaving = new QWidget;
+  auto* row = new QHBoxLayout(leaving);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(labelOf(AcquirePage::tr("Leave the room first")), 1);
+  auto* seconds = new QComboBox;
+  seconds->setObjectName("seconds-to-leave");
+  seconds->setAccessibleName(AcquirePage::tr("Time to leave the room before measuring begins"));
+  for (int choice : {0, 10, 30, 60, 120}) seconds->addItem(AcquirePage::tr("%1 s").arg(choice), choice);
+  row->addWidget(seconds);
+  rows->addWidget(leaving);
+  auto* sound = new Tick(AcquirePage::tr("A sound when it ends or needs me"));
+  sound->setObjectName("measuring-sound");
+  rows->addWidget(sound);
+  QObject::connect(seconds, &QComboBox::activated, &model,
+                   [&model, seconds] { model.setSecondsToLeave(seconds->currentData().toInt()); });
+  QObject::connect(sound, &Tick::toggled, &model, &AcquirePage::setSound);
+  auto refresh = [&model, leaving, seconds, sound] {
+    leaving->setVisible(model.session().hasLight());
+    if (int index = seconds->findData(model.secondsToLeave()); index >= 0) seconds->setCurrentIndex(index);
+    const QSignalBlocker quiet(sound);
+    sound->setChecked(model.hasSound());
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+/// What would spoil a measurement that begins now.
+QWidget* readyPart(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* rows = new QVBoxLayout(part);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->addWidget(lineOf());
+  rows->addWidget(labelOf(AcquirePage::tr("Ready"), "section"));
+  auto* dark = new Remark;
+  auto* disk = new Remark;
+  rows->addWidget(dark);
+  rows->addWidget(disk);
+  auto refresh = [&model, part, dark, disk] {
+    if (model.isMeasuring()) return;
+    const std::optional<RoomLight>& light = model.session().roomLight();
+    const std::optional<WorkLeft> work = model.expected();
+    part->setVisible(!model.isDone() && (light || work));
+    dark->setVisible(light.has_value());
+    if (light && light->share <= brightRoom)
+      dark->show(Remark::Kind::good, AcquirePage::tr("Dark enough"),
+                 AcquirePage::tr("Room light is %1 of full light, limit %2.")
+                     .arg(percentText(light->share), percentText(brightRoom)));
+    else if (light)
+      dark->show(
+          Remark::Kind::warning, AcquirePage::tr("It is too bright here"),
+          AcquirePage::tr("Room light is %1 of full light. Cover windows and lamps: less light, less noise.")
+              .arg(percentText(light->share)));
+    disk->setVisible(work.has_value());
+    if (!work) return;
+    const std::uint64_t free = model.freeBytes();
+    const QString needs = AcquirePage::tr("Needs %1 of %2.").arg(bytesText(work->diskBytes), bytesText(free));
+    if (work->diskBytes <= free)
+      disk->show(Remark::Kind::good, AcquirePage::tr("Room on the disk"), needs);
+    else
+      disk->show(Remark::Kind::failed, AcquirePage::tr("The disk is too full"), needs);
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+/// What it came to.
+QWidget* resultPart(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* rows = new QVBoxLayout(part);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->addWidget(lineOf());
+  rows->addWidget(labelOf(AcquirePage::tr("What was measured"), "section"));
+  auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
+  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
+  auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
+  for (ValueRow* row : {patterns, photographs, error}) rows->addWidget(row);
+  rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
+                                          "photographed: this is how far the two differ."),
+                          "note"));
+  auto* findings = new Note(Note::Kind::amber);
+  findings->setObjectName("findings");
+  rows->addWidget(findings);
+  auto refresh = [&model, part, patterns, photographs, error, findings] {
+    auto count = [&model](const char* name) {
+      return countText(static_cast<std::uint64_t>(model.figure(name).value_or(0.0)));
+    };
+    part->setVisible(model.verificationError().has_value());
+    patterns->setValue(count("patterns"));
+    photographs->setValue(count("exposures"));
+    error->setValue(percentText(model.verificationError().value_or(0.0)));
+    const QStringList found = model.findings();
+    findings->setVisible(!found.isEmpty());
+    findings->setText(AcquirePage::tr("Found while measuring"), found.join("\n\n"));
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+}  // namespace
+
+QWidget* floodlightCard(AcquirePage& model) {
+  auto* card = new Card(AcquirePage::tr("Floodlight image"));
+  card->setSubtitle(AcquirePage::tr("the projector fully white"));
+  auto* view = new ImageView;
+  view->setObjectName("floodlight-view");
+  view->setAccessibleName(AcquirePage::tr("The surface in the projector's full light"));
+  view->setEmptyText(
+      AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
+  card->body()->addWidget(view, 1);
+  card->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, card));
+  auto refresh = [&model, card, view, shown = std::pair(0, std::size_t{0})]() mutable {
+    card->setVisible(!model.isMeasuring());
+    const auto wanted = std::pair(model.floodlightNumber(), model.camera());
+    if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
+    const Image flood = wanted.first == 0 ? Image() : model.floodlight();
+    view->setPicture(flood.empty() ? QImage() : pictureOf(flood, displayWhite(flood)));
+  };
+  QObject::connect(&model, &AcquirePage::changed, card, refresh);
+  refresh();
+  return card;
+}
+
+QWidget* planOf(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(labelOf(AcquirePage::tr("How finely"), "section"));
+  auto* group = new QButtonGroup(part);
+  std::vector<Choice*> choices;
+  for (auto [name, sentence] :
+       {std::pair(AcquirePage::tr("Fast"), AcquirePage::tr("a first look; misses weak bounces")),
+        std::pair(AcquirePage::tr("Usual"), AcquirePage::tr("suits most surfaces")),
+        std::pair(AcquirePage::tr("Fine"), AcquirePage::tr("glass, gloss, deep corners"))}) {
+    auto* choice = new Choice(name, sentence);
+    group->addButton(choice, static_cast<int>(choices.size()));
+    choices.push_back(choice);
+    column->addWidget(choice);
+  }
+  QObject::connect(group, &QButtonGroup::idClicked, &model,
+                   [&model](int id) { model.setFineness(static_cast<Fineness>(id)); });
+  column->addSpacing(8);
+  column->addWidget(lineOf());
+  column->addWidget(labelOf(AcquirePage::tr("Colours"), "section"));
+  auto* colour = new Segmented({AcquirePage::tr("Red, green, blue"), AcquirePage::tr("White only")});
+  column->addWidget(colour);
+  column->addWidget(
+      labelOf(AcquirePage::tr("White only is three times faster, with colours a few percent off."), "note"));
+  QObject::connect(colour, &Segmented::chosen, &model, [&model](int index) { model.setWhite(index == 1); });
+  QWidget* start = startPart(model);
+  column->addWidget(start);
+  column->addWidget(readyPart(model));
+  column->addWidget(resultPart(model));
+  auto refresh = [&model, group, choices, colour, start] {
+    if (model.isMeasuring()) return;
+    group->button(static_cast<int>(model.fineness()))->setChecked(true);
+    for (Fineness fineness : {Fineness::fast, Fineness::usual, Fineness::fine}) {
+      const std::optional<WorkLeft> work = model.expected(fineness);
+      choices[static_cast<std::size_t>(fineness)]->setRemark(work ? durationText(work->seconds) : QString());
+    }
+    colour->setCurrent(model.isWhite() ? 1 : 0);
+    start->setVisible(!model.isDone());
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+}  // namespace relucent

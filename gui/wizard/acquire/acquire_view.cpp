@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/image_view.h"
+#include "views/number_text.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/acquire/acquire_plan_view.h"
+#include "wizard/acquire/acquire_watch_view.h"
+#include "wizard/acquire/block_sizes_view.h"
+#include "wizard/devices/device_selector.h"
+#include "wizard/devices/flash_consent.h"
+#include "wizard/frame/page_view.h"
+
+namespace relucent {
+namespace {
+
+/// What goes out and what comes back while it measures.
+QWidget* livePart(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* row = new QHBoxLayout(part);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(space::gap);
+  auto* sent = new Card(AcquirePage::tr("Sent to the projector"));
+  auto* seen = new Card(AcquirePage::tr("Seen by the camera"));
+  auto* pattern = new ImageView;
+  auto* photograph = new ImageView;
+  pattern->setObjectName("pattern-view");
+  photograph->setObjectName("photograph-view");
+  pattern->setAccessibleName(AcquirePage::tr("Pattern that the projector shows"));
+  photograph->setAccessibleName(AcquirePage::tr("Last photograph"));
+  sent->body()->addWidget(pattern, 1);
+  seen->body()->addWidget(photograph, 1);
+  sent->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, sent));
+  seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
+  row->addWidget(sent, 1);
+  row->addWidget(seen, 1);
+  auto refresh = [&model, part, pattern, photograph, seen] {
+    part->setVisible(model.isMeasuring());
+    LivePictures live = model.pictures();
+    // The last ones of another step say nothing here.
+    if (!model.isMeasuring() && model.trace().seconds() <= 0.0) {
+      for (ImageView* view : {pattern, photograph}) view->setPicture({});
+      return seen->setSubtitle({});
+    }
+    if (live.photographs == 0 || live.pattern.empty()) return;
+    pattern->setPicture(encodedPictureOf(live.pattern));
+    photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
+    seen->setSubtitle(exposureText(live.frame.seconds));
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+QWidget* stageOf(AcquirePage& model) {
+  auto* stage = new QWidget;
+  auto* column = new QVBoxLayout(stage);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(space::gap);
+  column->addWidget(floodlightCard(model), 1);
+  column->addWidget(livePart(model), 1);
+  column->addWidget(blockSizesCard(model));
+  column->addWidget(traceCard(model));
+  return stage;
+}
+
+/// While it goes on: how long, how fast.
+QWidget* runOf(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  QLabel* left = labelOf({}, "readout");
+  QLabel* counts = labelOf({}, "note");
+  column->addWidget(left);
+  column->addWidget(counts);
+  column->addWidget(lineOf());
+  auto* rate = new ValueRow(AcquirePage::tr("Photographs a second"));
+  auto* taken = new ValueRow(AcquirePage::tr("Taken in this session"));
+  auto* ahead = new ValueRow(AcquirePage::tr("Patterns ahead"));
+  auto* disk = new ValueRow(AcquirePage::tr("Disk still needed"));
+  for (ValueRow* row : {rate, taken, ahead, disk}) column->addWidget(row);
+  column->addWidget(lineOf());
+  column->addWidget(watchPart(model));
+  auto refresh = [&model, left, counts, rate, taken, ahead, disk] {
+    if (!model.isMeasuring()) return;
+    if (model.isPaused())
+      left->setText(AcquirePage::tr("Paused"));
+    else if (auto seconds = model.secondsLeft())
+      left->setText(AcquirePage::tr("About %1 left").arg(durationText(*seconds)));
+    else
+      left->setText(AcquirePage::tr("Measuring"));
+    QString stage = model.stage();
+    if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
+    counts->setText(stage);
+    rate->setValue(numberText(model.rate()));
+    taken->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
+    if (const auto& work = model.forecast()) {
+      ahead->setValue(AcquirePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work->shots))));
+      disk->setValue(bytesText(work->diskBytes));
+    }
+  };
+  QObject::connect(&model, &AcquirePage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+QWidget* inspectorOf(AcquirePage& model) {
+  QVBoxLayout* column = nullptr;
+  QWidget* card = inspectorCard(column);
+  QWidget* plan = planOf(model);
+  QWidget* run = runOf(model);
+  column->addWidget(plan);
+  column->addWidget(run);
+  column->addWidget(consentPart(model.session()));
+  column->addStretch(1);
+  auto refresh = [&model, plan, run] {
+    plan->setVisible(!model.isMeasuring());
+    run->setVisible(model.isMeasuring());
+  };
+  QObject::connect(&model, &AcquirePage::changed, card, refresh);
+  refresh();
+  return card;
+}
+
+}  // namespace
+
+PageView viewOf(AcquirePage& model) {
+  return {stageOf(model), inspectorOf(model)};
+}
+
+}  // namespace relucent

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/acquire/acquisition_trace.h"
+
+#include <cmath>
+
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+/// Hundredths of a percent: limits are tenths.
+QString fineShare(double share) {
+  return isolated(decimalText(100.0 * share, 2) + QString::fromUtf8("\u202f%"));
+}
+
+bool isOf(const Reading& reading, std::initializer_list<AlarmKind> kinds) {
+  return reading.alarm && std::find(kinds.begin(), kinds.end(), *reading.alarm) != kinds.end();
+}
+
+QString reasonOf(AlarmKind kind) {
+  switch (kind) {
+    case AlarmKind::flicker:
+      return AcquisitionTrace::tr("the light flickered");
+    case AlarmKind::ambientChanged:
+      return AcquisitionTrace::tr("the room light changed");
+    case AlarmKind::lampChanged:
+      return AcquisitionTrace::tr("the projector's light changed");
+    case AlarmKind::moved:
+      return AcquisitionTrace::tr("the camera or the projector moved");
+    case AlarmKind::localChange:
+      return AcquisitionTrace::tr("something stood in the view");
+    case AlarmKind::mirroredScreen:
+    case AlarmKind::wrongScreen:
+      return AcquisitionTrace::tr("the picture was not the one sent");
+    case AlarmKind::coveredLens:
+      return AcquisitionTrace::tr("the camera saw nothing");
+    case AlarmKind::projectorAsleep:
+      return AcquisitionTrace::tr("the projector showed nothing");
+  }
+  return {};
+}
+
+QString reasonOf(const Retake& retake) {
+  switch (retake.reason) {
+    case RetakeReason::alarm:
+      return reasonOf(retake.alarm.value_or(AlarmKind::localChange));
+    case RetakeReason::overexposed:
+      return AcquisitionTrace::tr("too bright, shorter exposure");
+    case RetakeReason::contradiction:
+      return AcquisitionTrace::tr("does not fit what was seen before");
+  }
+  return {};
+}
+
+/// People count from one.
+QString patternsOf(const Retake& retake) {
+  auto first = static_cast<std::uint64_t>(retake.shot) + 1;
+  if (retake.patterns < 2 || retake.reason == RetakeReason::overexposed)
+    return AcquisitionTrace::tr("No. %1").arg(countText(first));
+  return AcquisitionTrace::tr("No. %1 to %2")
+      .arg(countText(first), countText(first + static_cast<std::uint64_t>(retake.patterns) - 1));
+}
+
+}  // namespace
+
+QString AcquisitionTrace::headingOf(AlarmKind kind) {
+  switch (kind) {
+    case AlarmKind::flicker:
+      return tr("The light flickers");
+    case AlarmKind::ambientChanged:
+      return tr("Room light changed");
+    case AlarmKind::lampChanged:
+      return tr("The projector's light changed");
+    case AlarmKind::moved:
+      return tr("The camera or the projector moved");
+    case AlarmKind::localChange:
+      return tr("Something stands in the view");
+    case AlarmKind::mirroredScreen:
+    case AlarmKind::wrongScreen:
+      return tr("The picture is not the one sent");
+    case AlarmKind::coveredLens:
+      return tr("The camera sees nothing");
+    case AlarmKind::projectorAsleep:
+      return tr("The projector shows nothing");
+  }
+  return {};
+}
+
+void AcquisitionTrace::clear() {
+  points_.clear();
+  marks_.clear();
+  {
+    QMutexLocker lock(&guard_);
+    growth_ = {};
+  }
+  began_.reset();
+  ended_.reset();
+  Q_EMIT changed();
+}
+
+void AcquisitionTrace::begin() {
+  clear();
+  began_ = Clock::now();
+}
+
+void AcquisitionTrace::end() {
+  if (!ended_) ended_ = Clock::now();
+}
+
+double AcquisitionTrace::seconds() const {
+  if (!began_) return 0.0;
+  return std::chrono::duration<double>(ended_.value_or(Clock::now()) - *began_).count();
+}
+
+void AcquisitionTrace::checked(const Reading& reading) {
+  Clock::time_point now = Clock::now();
+  QMetaObject::invokeMethod(
+      this,
+      [this, reading, now] {
+        if (!began_ || now < *began_) return;  // of the measurement before
+        points_.push_back({std::chrono::duration<double>(now - *began_).count(), reading});
+        Q_EMIT changed();
+      },
+      Qt::QueuedConnection);
+}
+
+void AcquisitionTrace::takenAgain(const Retake& retake) {
+  Clock::time_point now = Clock::now();
+  QMetaObject::invokeMethod(
+      this,
+      [this, retake, now] {
+        if (!began_ || now < *began_) return;
+        marks_.push_back({std::chrono::duration<double>(now - *began_).count(), retake});
+        Q_EMIT changed();
+      },
+      Qt::QueuedConnection);
+}
+
+void AcquisitionTrace::grew(const std::vector<int>& levels, int through) {
+  QMutexLocker lock(&guard_);
+  growth_ = {levels, through};
+}
+
+AcquisitionTrace::Growth AcquisitionTrace::growth() const {
+  QMutexLocker lock(&guard_);
+  return growth_;
+}
+
+std::optional<RoomLight> AcquisitionTrace::roomLight() const {
+  if (points_.empty()) return std::nullopt;
+  const Reading& now = points_.back().reading;
+  return RoomLight{now.roomLight, !isOf(now, {AlarmKind::ambientChanged})};
+}
+
+std::array<WatchState, 4> AcquisitionTrace::states() const {
+  if (points_.empty())
+    return {{{false, true, tr("Room light"), {}},
+             {false, true, tr("Camera and view"), {}},
+             {false, true, tr("Projector"), {}},
+             {false, true, tr("Flicker"), {}}}};
+  const Reading& now = points_.back().reading;
+  bool room = !isOf(now, {AlarmKind::ambientChanged});
+  bool view = !isOf(now, {AlarmKind::moved, AlarmKind::localChange, AlarmKind::mirroredScreen,
+                          AlarmKind::wrongScreen, AlarmKind::coveredLens});
+  bool lamp = !isOf(now, {AlarmKind::lampChanged, AlarmKind::projectorAsleep});
+  bool even = now.flicker < reading_limit::flicker;
+  return {{{true, room, room ? tr("Room light steady") : tr("Room light changed"),
+            tr("%1 of full light, changed by %2 since the start.")
+                .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
+           {true, view, view ? tr("Camera still") : tr("The view changed"),
+            tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
+           {true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
+            tr("Its light drifted by %1 and is corrected.").arg(fineShare(std::abs(now.lamp - 1.0)))},
+           {true, even, even ? tr("No flicker") : tr("The light flickers"),
+            // One exposure alone has nothing to differ from.
+            now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
+                              : tr("No difference between photographs of one pattern was found.")}}};
+}
+
+std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {
+  std::vector<TakenAgain> lines;
+  for (auto mark = marks_.rbegin(); mark != marks_.rend() && lines.size() < most; ++mark)
+    lines.push_back({patternsOf(mark->retake), reasonOf(mark->retake)});
+  return lines;
+}
+
+}  // namespace relucent

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QMutex>
+#include <QObject>
+#include <QString>
+#include <array>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "acquisition/observer.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+/// What one of the watches says, in words.
+struct WatchState {
+  bool isKnown = false;
+  bool isSteady = true;
+  QString sentence, figure;
+};
+
+/// What was photographed again, in words.
+struct TakenAgain {
+  QString patterns, reason;
+};
+
+/// What the checks of a measurement said and what was taken again, in order. Told on the measuring thread, it
+/// speaks on its own.
+class AcquisitionTrace : public QObject, public AcquisitionObserver {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  struct Point {
+    double seconds = 0.0;  // since begin()
+    Reading reading;
+  };
+  struct Mark {
+    double seconds = 0.0;
+    Retake retake;
+  };
+
+  /// What such an alarm is called, a title.
+  static QString headingOf(AlarmKind kind);
+
+  /// What was told is forgotten, and nothing is listened to until begin().
+  void clear();
+  /// Anew. To be called before the measuring thread begins.
+  void begin();
+  void end();
+  /// Since begin(), until end().
+  double seconds() const;
+
+  const std::vector<Point>& points() const { return points_; }
+  const std::vector<Mark>& marks() const { return marks_; }
+  /// Room light, the view, the projector, flicker.
+  std::array<WatchState, 4> states() const;
+  /// Patterns of the levels that have begun, coarsest first, and how many of the last one's are through. Not
+  /// told by changed(): it changes with every photograph.
+  struct Growth {
+    std::vector<int> levels;
+    int through = 0;
+  };
+  Growth growth() const;
+  /// As it was seen last; none before it was.
+  std::optional<RoomLight> roomLight() const;
+  /// The last ones, newest first.
+  std::vector<TakenAgain> takenAgain(std::size_t most) const;
+
+  void checked(const Reading& reading) override;
+  void takenAgain(const Retake& retake) override;
+  void grew(const std::vector<int>& levels, int through) override;
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::vector<Point> points_;
+  std::vector<Mark> marks_;
+  std::optional<Clock::time_point> began_, ended_;
+  mutable QMutex guard_;
+  Growth growth_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "acquisition/observer.h"
+#include "wizard/acquire/asking.h"
+
+namespace relucent {
+
+/// Looks on for another, and tries again by itself what may have passed when it is photographed next: a door
+/// stood open, somebody went through the light. Three times at one place, then somebody has to be asked; and
+/// only about what was photographed now: what is read from a log may have been put up with, and trying again
+/// would throw away all that followed. On the measuring thread.
+class Retrying : public AcquisitionObserver {
+ public:
+  /// `rest`: before each try.
+  Retrying(AcquisitionObserver& other, std::shared_ptr<Asking> asking, std::chrono::milliseconds rest)
+      : other_(other), asking_(std::move(asking)), rest_(rest) {}
+
+  void checked(const Reading& reading) override {
+    isNew_ = reading.alarm.has_value();
+    if (!isNew_) tries_ = 0;
+    other_.checked(reading);
+  }
+  void takenAgain(const Retake& retake) override { other_.takenAgain(retake); }
+  void grew(const std::vector<int>& levels, int through) override { other_.grew(levels, through); }
+
+  /// After the rest; false: it is for somebody to decide.
+  bool triesAgain(AlarmKind kind) {
+    constexpr int most = 3;
+    const bool mayPass = kind == AlarmKind::ambientChanged || kind == AlarmKind::localChange;
+    if (!mayPass || !std::exchange(isNew_, false) || tries_ == most) {
+      tries_ = 0;
+      return false;
+    }
+    ++tries_;
+    return asking_->rest(rest_);
+  }
+
+ private:
+  AcquisitionObserver& other_;
+  std::shared_ptr<Asking> asking_;
+  std::chrono::milliseconds rest_;
+  int tries_ = 0;
+  bool isNew_ = false;  // the last check that was told had an alarm
+};
+
+}  // namespace relucent

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/camera/camera_page.h"
+
+#include <QDateTime>
+#include <QElapsedTimer>
+#include <QLocale>
+#include <QThread>
+#include <algorithm>
+#include <utility>
+
+#include "linearization/test_light.h"
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+constexpr double saturation = 0.97, dark = 0.01;
+constexpr unsigned long restMilliseconds = 20;  // between two checks of an answer that is waited for
+
+Region centre(Size camera) {
+  return {camera.width * 3 / 8, camera.height * 3 / 8, std::max(2, camera.width / 4),
+          std::max(2, camera.height / 4)};
+}
+
+}  // namespace
+
+/// What the looking thread and the interface tell each other.
+struct CameraPage::Shared {
+  QMutex guard;
+  std::optional<RigCheck> check;
+  std::optional<ExposureChoice> choice;
+  std::optional<CameraLook> look;
+  std::optional<double> tooBright, tooDark;
+  std::size_t exposure = 0;
+  Region area;
+  bool posted = false;
+};
+
+CameraPage::CameraPage(Session& session, QObject* parent)
+    : PageModel(parent),
+      session_(session),
+      listing_(
+          [this](DeviceList found) {
+            cameras_ = std::move(found);
+            Q_EMIT camerasListed();
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("Nothing was changed."), {}, {}});
+            Q_EMIT changed();
+          }) {
+  connect(&session_, &Session::opened, this, [this] {
+    finish();
+    check_.reset();
+    look_.reset();
+    exposures_ = {};
+    tooBright_.reset();
+    tooDark_.reset();
+    best_ = 0.0;
+    area_ = {};
+  });
+  connect(&session_, &Session::changed, this, &CameraPage::changed);
+  connect(&job_, &Job::progressed, this, &CameraPage::changed);
+  connect(&job_, &Job::ended, this, &CameraPage::ended);
+}
+
+CameraPage::~CameraPage() {
+  finish();
+}
+
+StepStatus CameraPage::status() const {
+  if (isLooking()) {
+    bool done = session_.progress(Step::camera) == StepProgress::done;
+    return {done ? StepState::done : StepState::open, tr("Checking")};
+  }
+  if (const auto& result = session_.result(Step::camera)) {
+    QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
+    return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
+  }
+  return {};
+}
+
+bool CameraPage::needsCamera() const {
+  const ScreenRigSettings* screen = session_.screenRig();
+  return screen != nullptr && screen->cameraAddress.empty();
+}
+
+/// What was measured belongs to its camera.
+bool CameraPage::mayChooseCamera() const {
+  return session_.screenRig() != nullptr && session_.progress(Step::linearization) == StepProgress::open;
+}
+
+void CameraPage::listCameras() {
+  if (isListing()) return;
+  listing_.ask(lister_);
+  Q_EMIT camerasListed();
+  Q_EMIT changed();
+}
+
+void CameraPage::chooseCamera(const std::string& address, std::optional<Size> size) {
+  exchangeCamera(address, size);
+  if (!needsCamera()) start();
+}
+
+void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> size) {
+  if (!mayChooseCamera() || isLooking() || !session_.busy().isEmpty()) return;
+  try {
+    ScreenRigSettings rig = *session_.screenRig();
+    rig.cameraAddress = address;
+    rig.camera = size;
+    session_.changeRig(rig);
+    look_.reset();
+    check_.reset();
+    exposures_ = {};
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+  }
+  Q_EMIT changed();
+}
+
+QString CameraPage::hint() const {
+  if (needsCamera())
+    return isListing() ? tr("Looking for cameras") : tr("Choose the camera that looks at the surface.");
+  if (!session_.busy().isEmpty() && !isLooking())
+    return tr("The camera is in use at %1.").arg(session_.busy());
+  if (isLooking() && exposures_.seconds.empty())
+    return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
+  if (tooBright_ && *tooBright_ > 0.05)
+    return tr("%1 is too bright in every exposure.").arg(percentText(*tooBright_));
+  if (!look_) return tr("Look through the camera first.");
+  return tr("Next: test patterns for the projector's response");
+}
+
+Command CameraPage::primary() const {
+  auto* self = const_cast<CameraPage*>(this);
+  bool seen = look_.has_value() || session_.progress(Step::camera) == StepProgress::done;
+  bool free = session_.busy().isEmpty() || isLooking();
+  return {tr("Keep exposures"), Icon::next, seen && free, {}, [self] {
+            if (self->look_) {
+              self->goOn_ = true;
+              if (self->isLooking())
+                self->job_.cancel();
+              else
+                self->ended();
+              return;
+            }
+            Q_EMIT self->nextWanted();
+          }};
+}
+
+std::vector<Command> CameraPage::secondary() const {
+  auto* self = const_cast<CameraPage*>(this);
+  if (isLooking()) return {{tr("Pause"), Icon::pause, true, {}, [self] { self->finish(); }}};
+  if (needsCamera()) return {};
+  std::vector<Command> commands{
+      {tr("Check again"), Icon::retry, session_.busy().isEmpty() && session_.isOpen(), {}, [self] {
+         self->best_ = 0.0;
+         self->start();
+       }}};
+  if (mayChooseCamera())
+    commands.push_back({tr("Choose another camera"), Icon::camera, session_.busy().isEmpty(), {}, [self] {
+                          self->exchangeCamera({}, std::nullopt);
+                          self->listCameras();
+                        }});
+  return commands;
+}
+
+void CameraPage::enter() {
+  if (needsCamera()) return listCameras();
+  bool wanted = session_.progress(Step::camera) != StepProgress::done;
+  if (wanted && session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty()) start();
+}
+
+void CameraPage::finish() {
+  if (!job_.isRunning()) return;
+  job_.cancel();
+}
+
+void CameraPage::setFocusArea(const Region& area) {
+  if (area == area_) return;
+  changeUndoably(tr("Focus area"), area_, area, [this](const Region& wanted) { watch(wanted); });
+}
+
+void CameraPage::watch(const Region& area) {
+  area_ = area;
+  best_ = 0.0;
+  if (shared_) {
+    QMutexLocker lock(&shared_->guard);
+    shared_->area = area;
+  }
+  Q_EMIT changed();
+}
+
+bool CameraPage::isFocusJudged() const {
+  if (!look_) return false;
+  const Size size = look_->frame.signal.size();
+  int bright = 0, all = 0;
+  for (int y = std::max(0, area_.y); y < std::min(size.height, area_.y + area_.height); ++y)
+    for (int x = std::max(0, area_.x); x < std::min(size.width, area_.x + area_.width); ++x, ++all)
+      if (look_->check.exposed[indexOf(size, {x, y})] == Exposed::tooBright) ++bright;
+  return 2 * bright <= all;
+}
+
+void CameraPage::chooseExposure(std::size_t index) {
+  exposure_ = index;
+  if (shared_) {
+    QMutexLocker lock(&shared_->guard);
+    shared_->exposure = index;
+  }
+  Q_EMIT changed();
+}
+
+void CameraPage::start() {
+  if (needsCamera()) return;
+  goOn_ = false;
+  shared_ = std::make_shared<Shared>();
+  shared_->area = area_;
+  session_.setBusy(name());
+  job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
+    Progress opening = progress.part(0.4, tr("Opening the devices").toStdString());
+    Rig& rig = work.devices->open(opening);
+    if (work.devices->hasScreen()) {
+      Progress checking = progress.part(0.3, tr("Checking projector and camera").toStdString());
+      RigCheck check = work.devices->check(checking);
+      QMutexLocker lock(&shared->guard);
+      shared->check = std::move(check);
+    }
+    NoShotLog nothing;
+    ShotTaker shots(rig, nothing, "camera");
+    Progress exposing = progress.part(0.3, tr("Finding the exposures").toStdString());
+    ExposureChoice choice = chooseExposures(shots, exposing);
+    {
+      QMutexLocker lock(&shared->guard);
+      shared->choice = choice;
+      // The one between bright parts and shadows.
+      shared->exposure = choice.seconds.size() / 2;
+      if (shared->area == Region{}) shared->area = centre(rig.cameras[0]->size());
+    }
+    Progress looking = progress.part(0.0, tr("Looking through the camera").toStdString());
+    for (std::size_t i = 0; i < rig.projectors.size(); ++i)
+      rig.projectors[i]->show(evenPatterns(rig, {1, 1, 1})[i]);
+    for (int number = shots.shots();; ++number) {
+      looking.checkpoint();
+      QElapsedTimer since;
+      since.start();
+      std::size_t exposure = 0;
+      Region area;
+      {
+        QMutexLocker lock(&shared->guard);
+        exposure = std::min(shared->exposure, choice.seconds.size() - 1);
+        area = shared->area;
+        // The ends are looked at first: they tell what no exposure covers.
+        if (!shared->tooBright)
+          exposure = choice.seconds.size() - 1;
+        else if (!shared->tooDark)
+          exposure = 0;
+      }
+      CameraLook look;
+      look.frame = rig.cameras[0]->capture({{"camera", number}, 0, choice.seconds[exposure]});
+      look.check = checkPhotograph(look.frame.signal, saturation, dark);
+      look.sharpness = sharpness(look.frame.signal, area);
+      QMutexLocker lock(&shared->guard);
+      if (exposure + 1 == choice.seconds.size()) shared->tooBright = look.check.tooBright;
+      if (exposure == 0) shared->tooDark = look.check.tooDark;
+      shared->look = std::move(look);
+      if (!std::exchange(shared->posted, true))
+        QMetaObject::invokeMethod(
+            this, [this] { takeNews(); }, Qt::QueuedConnection);
+      lock.unlock();
+      // Twice a second: the screen's own light falls into the room.
+      while (since.elapsed() < 500) {
+        looking.checkpoint();
+        QThread::msleep(restMilliseconds);
+      }
+    }
+  });
+  Q_EMIT changed();
+}
+
+void CameraPage::takeNews() {
+  if (!shared_) return;
+  {
+    QMutexLocker lock(&shared_->guard);
+    shared_->posted = false;
+    if (shared_->choice) {
+      exposures_ = *std::exchange(shared_->choice, std::nullopt);
+      exposure_ = shared_->exposure;
+    }
+    if (shared_->check) check_ = std::exchange(shared_->check, std::nullopt);
+    tooBright_ = shared_->tooBright;
+    tooDark_ = shared_->tooDark;
+    area_ = shared_->area;
+    look_ = shared_->look;
+  }
+  if (look_) best_ = std::max(best_, look_->sharpness);
+  Q_EMIT changed();
+}
+
+void CameraPage::ended() {
+  takeNews();
+  if (session_.busy() == name()) session_.setBusy({});
+  if (job_.state() == Job::State::failed)
+    Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost."), {}, {}});
+  if (std::exchange(goOn_, false)) keepLook();
+  Q_EMIT changed();
+}
+
+void CameraPage::keepLook() {
+  Json seconds = Json::array();
+  for (double exposure : exposures_.seconds) seconds.push_back(exposure);
+  Json kept{{"exposures", seconds}};
+  if (check_) {
+    kept["latency_seconds"] = check_->latency.seconds;
+    kept["verdicts"] = Json::array();
+    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept["verdicts"].push_back(sentence(verdict));
+  }
+  try {
+    session_.decide(Step::camera, std::move(kept));
+    Q_EMIT nextWanted();
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+  }
+}
+
+}  // namespace relucent

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QMutex>
+
+#include "devices/device_list.h"
+#include "image/photograph_check.h"
+#include "jobs/job.h"
+#include "jobs/latest.h"
+#include "linearization/exposure_choice.h"
+#include "wizard/frame/page_model.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+/// One look through the camera.
+struct CameraLook {
+  RawFrame frame;
+  PhotographCheck check;
+  double sharpness = 0.0;
+};
+
+/// Step 2: framing, focus, and exposures that cover what is bright and what is dark. The projectors show
+/// white while the camera is watched; rigs that this program opens have one camera.
+class CameraPage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit CameraPage(Session& session, QObject* parent = nullptr);
+  ~CameraPage() override;
+
+  QString name() const override { return tr("Camera"); }
+  QString subtitle() const override {
+    return tr("Frame the surface, focus, and let the exposures cover its brightest and darkest parts.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::vector<Command> secondary() const override;
+  void enter() override;
+  void leave() override { finish(); }
+  void finish() override;
+
+  /// A screen of the desktop is the projector, and no camera is chosen for it yet.
+  bool needsCamera() const;
+  /// What is there to choose from, as it was when it was looked for.
+  const DeviceList& cameras() const { return cameras_; }
+  bool isListing() const { return listing_.isBusy(); }
+  void listCameras();
+  /// `size`: of the photographs; none: all that the camera has.
+  void chooseCamera(const std::string& address, std::optional<Size> size = std::nullopt);
+  /// Who looks for cameras; for tests.
+  void setLister(std::function<DeviceList()> lister) { lister_ = std::move(lister); }
+  /// How projector and camera work together, where the projector is a screen; none before it was measured.
+  const std::optional<RigCheck>& check() const { return check_; }
+
+  bool isLooking() const { return job_.isRunning(); }
+  QString stage() const { return job_.stage(); }
+  const std::optional<CameraLook>& look() const { return look_; }
+  /// Exposures for this venue, longest first; empty until they are found.
+  const std::vector<double>& exposures() const { return exposures_.seconds; }
+  /// Which of them the camera looks with.
+  std::size_t exposure() const { return exposure_; }
+  void chooseExposure(std::size_t index);
+  /// Of the shortest: too bright in every exposure; of the longest: too dark in every one. None before they
+  /// have been looked at.
+  std::optional<double> tooBrightEverywhere() const { return tooBright_; }
+  std::optional<double> tooDarkEverywhere() const { return tooDark_; }
+  /// The focus area, in pixels of the camera.
+  Region focusArea() const { return area_; }
+  void setFocusArea(const Region& area);
+  /// In the focus area there is something to judge: most of it is not too bright.
+  bool isFocusJudged() const;
+  /// Sharpness relative to the best so far, 0 to 1.
+  double focus() const { return best_ > 0.0 && look_ ? look_->sharpness / best_ : 0.0; }
+
+ Q_SIGNALS:
+  void camerasListed();
+
+ private:
+  struct Shared;
+  bool mayChooseCamera() const;
+  void exchangeCamera(const std::string& address, std::optional<Size> size);
+  void keepLook();
+  void start();
+  void watch(const Region& area);
+  void takeNews();
+  void ended();
+
+  Session& session_;
+  Job job_;
+  std::shared_ptr<Shared> shared_;
+  std::optional<CameraLook> look_;
+  ExposureChoice exposures_;
+  std::size_t exposure_ = 0;
+  std::optional<double> tooBright_, tooDark_;
+  Region area_;
+  double best_ = 0.0;
+  std::function<DeviceList()> lister_ = listDevices;
+  DeviceList cameras_;
+  Latest<DeviceList> listing_;
+  std::optional<RigCheck> check_;
+  bool goOn_ = false;  // the next step was asked for while looking
+};
+
+}  // namespace relucent

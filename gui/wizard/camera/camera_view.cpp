@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include <QPainter>
+#include <QProgressBar>
+#include <QStackedWidget>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/image_view.h"
+#include "views/line_chart.h"
+#include "views/number_text.h"
+#include "wizard/camera/camera_choice_view.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/camera/verdict_text.h"
+#include "wizard/frame/page_view.h"
+
+namespace relucent {
+namespace {
+
+/// Hatches over what is too bright (amber) and too dark (blue, the other slope), the focus area round its
+/// pixels. Drawn finer than the photograph, so that stripes stay stripes.
+QImage overlayOf(const CameraLook& look, const Region& area) {
+  constexpr int fine = 4;
+  Size size = look.frame.signal.size();
+  QImage overlay(size.width * fine, size.height * fine, QImage::Format_ARGB32_Premultiplied);
+  overlay.fill(Qt::transparent);
+  QRgb amber = colours(Look::dark).amber.rgb(), blue = colours(Look::dark).information.rgb();
+  for (int y = 0; y < overlay.height(); ++y) {
+    auto* line = reinterpret_cast<QRgb*>(overlay.scanLine(y));
+    for (int x = 0; x < overlay.width(); ++x) {
+      Exposed exposed = look.check.exposed[indexOf(size, {x / fine, y / fine})];
+      if (exposed == Exposed::tooBright && (x + y) % 8 < 4) line[x] = amber;
+      if (exposed == Exposed::tooDark && (x - y + (1 << 20)) % 8 < 4) line[x] = blue;
+    }
+  }
+  QPainter painter(&overlay);
+  for (auto [colour, width] :
+       {std::pair(colours(Look::dark).picture, 6.0), std::pair(colours(Look::dark).text, 3.0)}) {
+    painter.setPen(QPen(colour, width));
+    painter.drawRect(QRectF(area.x * fine, area.y * fine, area.width * fine, area.height * fine));
+  }
+  return overlay;
+}
+
+std::vector<Curve> histogramOf(const PhotographCheck& check) {
+  std::vector<Curve> curves;
+  const QColor& (*tints[])() = {[]() -> const QColor& { return colours().red; },
+                                []() -> const QColor& { return colours().green; },
+                                []() -> const QColor& { return colours().blue; }};
+  for (std::size_t c = 0; c < 3; ++c) {
+    Curve curve{QString(), tints[c], Marker::none, {}, {}};
+    for (std::size_t i = 0; i < PhotographCheck::bins; ++i)
+      curve.line.emplace_back((static_cast<double>(i) + 0.5) / PhotographCheck::bins,
+                              1.0 + static_cast<double>(check.histogram[c][i]));
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+double tallest(const PhotographCheck& check) {
+  std::uint32_t most = 10;
+  for (const auto& channel : check.histogram)
+    most = std::max(most, *std::max_element(channel.begin(), channel.end()));
+  return static_cast<double>(most) * 2.0;
+}
+
+/// How the devices work together, a line each.
+QString verdictLines(const std::optional<RigCheck>& check) {
+  QStringList lines;
+  if (check)
+    for (const CheckVerdict& verdict : verdictsOf(*check)) lines << verdictText(verdict);
+  return lines.join('\n');
+}
+
+/// Of the best so far: what noise alone takes away is no fault of the lens.
+constexpr double goodFocus = 0.9;
+
+class FocusMeter : public QWidget {
+ public:
+  FocusMeter() { setFixedHeight(24); }
+  void setValue(double value) {
+    value_ = value;
+    setAccessibleName(CameraPage::tr("Focus, %1 of best").arg(percentText(value)));
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    QRectF bar(0, 7, width() - 2.0, 10);
+    painter.setBrush(colours().line);
+    painter.drawRoundedRect(bar, 3, 3);
+    painter.setBrush(value_ > goodFocus ? colours().good : colours().amber);
+    painter.drawRoundedRect(QRectF(bar.left(), bar.top(), bar.width() * value_, bar.height()), 3, 3);
+    painter.setPen(QPen(colours().text, 2.0));
+    painter.drawLine(QPointF(bar.right(), 1), QPointF(bar.right(), 23));
+  }
+
+ private:
+  double value_ = 0.0;
+};
+
+/// Where nothing but full light is seen, nothing can be sharp.
+QString focusText(const CameraPage& model) {
+  return model.isFocusJudged() ? percentText(model.focus()) : CameraPage::tr("too bright to tell");
+}
+
+class CameraStage : public Card {
+ public:
+  explicit CameraStage(CameraPage& model) : Card(CameraPage::tr("Camera view")), model_(model) {
+    view_ = new ImageView;
+    view_->setObjectName("camera-view");
+    view_->setAccessibleName(CameraPage::tr("What the camera sees now"));
+    view_->setScaleBar(true);
+    body()->addWidget(view_, 1);
+    // What the hatches mean.
+    for (auto [label, role, name] :
+         {std::tuple(&bright_, "amber", "too-bright"), std::tuple(&dark_, "information", "too-dark")}) {
+      addAction(*label = labelOf({}, role));
+      (*label)->setObjectName(name);
+      (*label)->setWordWrap(false);
+      (*label)->hide();
+    }
+    connect(&view_->link(), &ViewLink::picked, this, [this] {
+      if (auto pick = view_->link().pick()) moveArea(*pick);
+    });
+    connect(&model_, &CameraPage::changed, this, [this] { refresh(); });
+    refresh();
+  }
+
+ private:
+  void moveArea(QPoint to) {
+    Region area = model_.focusArea();
+    area.x = to.x() - area.width / 2;
+    area.y = to.y() - area.height / 2;
+    model_.setFocusArea(area);
+  }
+  void refresh() {
+    if (!model_.look()) {
+      view_->setPicture({});
+      setSubtitle({});
+      bright_->hide();
+      dark_->hide();
+      view_->setEmptyText(model_.isLooking() ? model_.stage()
+                                             : CameraPage::tr("The camera is not being looked through."));
+      return;
+    }
+    const CameraLook& look = *model_.look();
+    setSubtitle(CameraPage::tr("exposure %1. Click where the focus is to be judged.")
+                    .arg(exposureText(look.frame.seconds)));
+    bright_->setVisible(look.check.tooBright > 0.0);
+    bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look.check.tooBright)));
+    dark_->setVisible(look.check.tooDark > 0.0);
+    dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look.check.tooDark)));
+    view_->setPicture(pictureOf(look.frame.signal, 1.0f));
+    view_->setOverlay(overlayOf(look, model_.focusArea()));
+  }
+  CameraPage& model_;
+  ImageView* view_;
+  QLabel *bright_, *dark_;
+};
+
+class CameraInspector {
+ public:
+  static QWidget* make(CameraPage& model) {
+    QVBoxLayout* column = nullptr;
+    QWidget* card = inspectorCard(column);
+    column->addWidget(labelOf(CameraPage::tr("Light in this exposure: red, green, blue"), "section"));
+    auto* histogram = new LineChart({0.0, 1.0, false, CameraPage::tr("Signal")}, {1.0, 1e4, true, {}});
+    histogram->setFixedHeight(150);
+    histogram->setMark(0.97);
+    column->addWidget(histogram);
+    column->addWidget(lineOf());
+    auto* focus = new ValueRow(CameraPage::tr("Focus"));
+    auto* meter = new FocusMeter;
+    column->addWidget(focus);
+    column->addWidget(meter);
+    QLabel* best =
+        labelOf(CameraPage::tr("Turn the lens until the bar stays at the mark: the best so far."), "note");
+    column->addWidget(best);
+    column->addWidget(lineOf());
+    column->addWidget(labelOf(CameraPage::tr("Exposures"), "section"));
+    auto* buttons = new QHBoxLayout;
+    column->addLayout(buttons);
+    auto* group = new QButtonGroup(card);
+    for (int i = 0; i < 4; ++i) {
+      QPushButton* button = buttonOf({}, "segment");
+      button->setCheckable(true);
+      group->addButton(button, i);
+      buttons->addWidget(button);
+    }
+    QObject::connect(group, &QButtonGroup::idClicked, &model,
+                     [&model](int id) { model.chooseExposure(static_cast<std::size_t>(id)); });
+    column->addWidget(lineOf());
+    column->addWidget(labelOf(CameraPage::tr("Checks"), "section"));
+    auto* sees = new Remark;
+    auto* bright = new Remark;
+    auto* dark = new Remark;
+    for (Remark* verdict : {sees, bright, dark}) column->addWidget(verdict);
+    auto* together = labelOf({}, "note");
+    together->setObjectName("device-verdicts");
+    column->addWidget(together);
+    column->addStretch(1);
+
+    auto refresh = [&model, histogram, focus, meter, group, sees, bright, dark, together] {
+      together->setText(verdictLines(model.check()));
+      bool seen = model.look().has_value();
+      if (seen) {
+        histogram->setAxes({0.0, 1.0, false, CameraPage::tr("Signal, share of full")},
+                           {1.0, tallest(model.look()->check), true, CameraPage::tr("Pixels")});
+        histogram->setCurves(histogramOf(model.look()->check));
+      } else {
+        histogram->setCurves({});  // of another venue
+      }
+      focus->setValue(seen ? focusText(model) : QString::fromUtf8("–"));
+      meter->setValue(model.focus());
+      const std::vector<double>& exposures = model.exposures();
+      for (int i = 0; i < 4; ++i) {
+        bool used = static_cast<std::size_t>(i) < exposures.size();
+        group->button(i)->setVisible(used);
+        if (used) group->button(i)->setText(exposureText(exposures[static_cast<std::size_t>(i)]));
+        if (used) group->button(i)->setChecked(static_cast<std::size_t>(i) == model.exposure());
+      }
+      using Kind = Remark::Kind;
+      if (model.needsCamera())
+        sees->show(Kind::watch, CameraPage::tr("No camera is chosen yet"), {});
+      else if (exposures.empty())
+        sees->show(Kind::watch, CameraPage::tr("Looking for the projector's light"), {});
+      else
+        sees->show(Kind::good, CameraPage::tr("The camera sees the projector"),
+                   CameraPage::tr("White and black differ as they should."));
+      auto judge = [](Remark* verdict, const std::optional<double>& share, const QString& good,
+                      const QString& bad, const QString& advice) {
+        verdict->setVisible(share.has_value());
+        if (!share) return;
+        if (*share > 0.02)
+          verdict->show(Kind::warning, bad.arg(percentText(*share)), advice);
+        else
+          verdict->show(Kind::good, good,
+                        *share < 0.0005 ? CameraPage::tr("All of the view.")
+                                        : CameraPage::tr("All but %1 of the view.").arg(percentText(*share)));
+      };
+      judge(bright, model.tooBrightEverywhere(), CameraPage::tr("Bright parts are covered"),
+            CameraPage::tr("%1 is too bright in every exposure"),
+            CameraPage::tr("Close the lens a little, or shade lamps in the view."));
+      judge(dark, model.tooDarkEverywhere(), CameraPage::tr("Dark parts are covered"),
+            CameraPage::tr("%1 is too dark in every exposure"),
+            CameraPage::tr("The projector may not reach there. Where it should, open the lens."));
+    };
+    QObject::connect(&model, &CameraPage::changed, card, refresh);
+    refresh();
+    return card;
+  }
+};
+
+}  // namespace
+
+PageView viewOf(CameraPage& model) {
+  auto* stages = new QStackedWidget;
+  stages->addWidget(new CameraStage(model));
+  stages->addWidget(cameraChoice(model));
+  auto refresh = [&model, stages] { stages->setCurrentIndex(model.needsCamera() ? 1 : 0); };
+  QObject::connect(&model, &CameraPage::changed, stages, refresh);
+  refresh();
+  return {stages, CameraInspector::make(model)};
+}
+
+}  // namespace relucent

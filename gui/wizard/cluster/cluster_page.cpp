@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/cluster/cluster_page.h"
+
+#include <limits>
+
+#include "clustering/cluster_map.h"
+#include "clustering/grouping.h"
+#include "pipeline/pictures.h"
+#include "views/number_text.h"
+#include "wizard/cluster/cluster_picture.h"
+
+namespace relucent {
+namespace {
+
+constexpr int paletteColours = 8;
+
+/// A camera's share of what there is of all pixels.
+template <typename Value>
+std::vector<Value> ofCamera(const std::vector<Value>& values, const Rasters& cameras, std::size_t camera) {
+  auto begin = values.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera));
+  return {begin, begin + static_cast<std::ptrdiff_t>(cameras.size(camera).count())};
+}
+
+/// The map and its numbers. `surface`: the camera's picture in full light.
+std::shared_ptr<const ClusterResult> mapOf(const Grouping& grouping, const Rasters& cameras,
+                                           std::size_t camera, const QImage& surface) {
+  auto result = std::make_shared<ClusterResult>();
+  result->device = camera;
+  result->camera = cameras.size(camera);
+  result->statistics = grouping.statistics;
+  result->colours = clusterColours(grouping.cameraCluster, cameras, grouping.sizes.size(), paletteColours);
+  result->borders = ofCamera(clusterBorders(grouping.cameraCluster, cameras), cameras, camera);
+  result->map = ofCamera(grouping.cameraCluster, cameras, camera);
+  result->sizes = grouping.sizes;
+  result->picture = clusterPicture(result->map, result->colours, result->borders, surface);
+  return result;
+}
+
+std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, const Rasters& cameras,
+                                                GroupingError error) {
+  auto result = std::make_shared<ClusterResult>(map);
+  result->exact = true;
+  result->statistics = std::move(error.statistics);
+  result->error = ofCamera(error.error, cameras, map.device);
+  for (std::size_t i = 0; i < result->map.size(); ++i)
+    if (result->map[i] == noCluster) result->error[i] = std::numeric_limits<float>::quiet_NaN();
+  double high = std::max(0.1, std::min(1.0, result->statistics.errorP95 * 1.1));
+  result->errorScale = {ColourMap::cividis, 0.0, high, false};
+  result->errorPicture = mapped(result->error, result->camera, result->errorScale);
+  return result;
+}
+
+}  // namespace
+
+/// The graph refers to T.
+struct ClusterPage::Prepared {
+  TransportMatrix transport;
+  std::optional<ConnectionGraph> graph;
+  std::unique_ptr<Grouper> grouper;  // for computing_ alone, which asks it one thing at a time
+  std::vector<QImage> surfaces;      // a camera
+};
+
+ClusterPage::ClusterPage(Session& session, QObject* parent)
+    : DevicePage(session, parent),
+      preparing_(
+          [this](std::shared_ptr<const Prepared> prepared) {
+            prepared_ = std::move(prepared);
+            compute();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+          }),
+      computing_([this](std::shared_ptr<const ClusterResult> result) { show(std::move(result)); },
+                 [this](const Failure& failure) {
+                   Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+                 }) {
+  connect(&session_, &Session::opened, this, [this] {
+    settings_ = session_.settings().clustering;
+    computing_.drop();
+    prepared_ = nullptr;
+    result_ = nullptr;
+    preparedFor_.clear();
+    looked_ = false;
+  });
+  connect(&session_, &Session::changed, this, [this] {
+    if (looked_) prepare();
+    Q_EMIT changed();
+  });
+}
+
+void ClusterPage::enter() {
+  looked_ = true;
+  session_.wantAcquisition();
+  prepare();
+}
+
+/// The graph, once for every threshold.
+void ClusterPage::prepare() {
+  std::shared_ptr<const Acquisition> acquisition = session_.acquisition();
+  if (!acquisition || !session_.isOpen()) return;
+  const ThresholdSettings& cut = session_.settings().threshold;
+  std::string wanted = fmt::format("{} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept);
+  if (wanted == preparedFor_ && acquisition == source_) return;
+  preparedFor_ = wanted;
+  source_ = acquisition;
+  preparing_.ask([acquisition, cut]() -> std::shared_ptr<const Prepared> {
+    auto prepared = std::make_shared<Prepared>();
+    prepared->transport = thresholded(acquisition->transport, cut, acquisition->flood);
+    Progress quiet;
+    prepared->graph.emplace(prepared->transport, usablePixels(*acquisition), ConnectionGraphSettings(),
+                            quiet);
+    prepared->grouper = std::make_unique<Grouper>(*prepared->graph);
+    const Rasters& cameras = acquisition->transport.cameras();
+    for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+      Image flood = imageFromStack(acquisition->flood, cameras, camera);
+      prepared->surfaces.push_back(relucent::pictureOf(flood, displayWhite(flood)));
+    }
+    return prepared;
+  });
+}
+
+void ClusterPage::compute() {
+  if (prepared_)
+    computing_.ask([prepared = prepared_, settings = settings_, camera = camera()](Progress& progress,
+                                                                                   const auto& tellSoon) {
+      Progress grouping = progress.part(0.4, "Joining clusters");
+      const Grouping& groups = prepared->grouper->group(settings, grouping);
+      const Rasters& cameras = prepared->transport.cameras();
+      std::shared_ptr<const ClusterResult> map = mapOf(groups, cameras, camera, prepared->surfaces[camera]);
+      tellSoon(map);
+      Progress scaling = progress.part(0.6, "Scaling to the flood image");
+      return withErrors(*map, cameras, errorOf(*prepared->graph, groups, settings, scaling));
+    });
+  Q_EMIT changed();
+}
+
+/// Until a map's own errors are known, those of the map before stand in for them.
+void ClusterPage::show(std::shared_ptr<const ClusterResult> result) {
+  if (result->device != camera()) return;
+  if (!result->exact && result_) {
+    auto together = std::make_shared<ClusterResult>(*result);
+    together->error = result_->error;
+    together->errorPicture = result_->errorPicture;
+    together->errorScale = result_->errorScale;
+    together->statistics.errorMedian = result_->statistics.errorMedian;
+    together->statistics.errorP95 = result_->statistics.errorP95;
+    result = std::move(together);
+  }
+  result_ = std::move(result);
+  Q_EMIT changed();
+}
+
+/// Nothing of another camera's errors stands in for this one's.
+void ClusterPage::cameraChanged() {
+  result_ = nullptr;
+  compute();
+}
+
+void ClusterPage::setSettings(const ClusteringSettings& settings) {
+  settings_ = settings;
+  compute();
+}
+
+StepStatus ClusterPage::status() const {
+  int clusters = 0;
+  switch (session_.progress(Step::clustering)) {
+    case StepProgress::done:
+      clusters = session_.result(Step::clustering)->values.value("clusters", 0);
+      return {StepState::done, groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
+    case StepProgress::stale:
+      return {StepState::outOfDate, tr("Out of date")};
+    case StepProgress::open:
+      break;
+  }
+  return {};
+}
+
+QString ClusterPage::hint() const {
+  if (isComputing()) return result_ ? tr("Grouping again") : tr("Grouping");
+  if (!result_) return tr("Reading the light transport");
+  return sizesText();
+}
+
+QString ClusterPage::sizesText() const {
+  const auto clusters = static_cast<int>(result_->sizes.size());
+  return groupedText(tr("%n cluster(s), median %1 px", nullptr, clusters), clusters)
+      .arg(result_->statistics.medianUnknowns);
+}
+
+Command ClusterPage::primary() const {
+  auto* self = const_cast<ClusterPage*>(this);
+  return {tr("Preview content"), Icon::next, result_ && result_->exact && !isComputing(), {}, [self] {
+            self->accept();
+          }};
+}
+
+std::optional<Banner> ClusterPage::banner() const {
+  if (session_.progress(Step::clustering) != StepProgress::stale) return std::nullopt;
+  return Banner{Banner::Kind::amber,
+                tr("The clusters that are kept belong to an earlier threshold"),
+                tr("What you see here is grouped anew. Going on keeps it."),
+                {},
+                {}};
+}
+
+void ClusterPage::accept() {
+  try {
+    CalibrateSettings settings = session_.settings();
+    settings.clustering = settings_;
+    session_.changeSettings(settings);
+    session_.decide(Step::clustering, Json{{"clusters", result_->sizes.size()},
+                                           {"largest", result_->statistics.largest},
+                                           {"error_median", result_->statistics.errorMedian}});
+    Q_EMIT nextWanted();
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});
+  }
+}
+
+}  // namespace relucent

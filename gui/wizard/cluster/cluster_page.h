@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "clustering/clustering.h"
+#include "jobs/latest.h"
+#include "jobs/refining.h"
+#include "views/colour_map.h"
+#include "wizard/devices/device_page.h"
+
+namespace relucent {
+
+/// What one set of sliders gives, for the shown camera. Its map is known before its errors.
+struct ClusterResult {
+  bool exact = false;  // errors are this map's; until then those of the map before, or none
+  ClusteringStatistics statistics;
+  std::vector<std::uint32_t> map;     // per camera pixel: cluster or noCluster
+  std::vector<std::uint8_t> colours;  // per cluster
+  std::vector<std::uint8_t> borders;  // per camera pixel
+  std::vector<float> error;           // per camera pixel, or empty; NaN where there was no cluster
+  std::vector<ClusterSize> sizes;
+  std::size_t device = 0;  // the camera's number
+  Size camera;
+  QImage picture, errorPicture;  // the maps to be seen
+  ColourScale errorScale;
+};
+
+/// Step 6: clusters of pixels that can be solved on their own.
+class ClusterPage : public DevicePage {
+  Q_OBJECT
+
+ public:
+  explicit ClusterPage(Session& session, QObject* parent = nullptr);
+
+  QString name() const override { return tr("Cluster"); }
+  QString subtitle() const override {
+    return tr(
+        "Split the venue into small groups of pixels that can be solved on their own, fast enough for "
+        "video.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::optional<Banner> banner() const override;
+  void enter() override;
+
+  const ClusteringSettings& settings() const { return settings_; }
+  void setSettings(const ClusteringSettings& settings);
+  /// What the sliders gave last; they may have moved on. Of each set of sliders the map comes first.
+  const std::shared_ptr<const ClusterResult>& result() const { return result_; }
+  /// "21 480 clusters, median 12 px". Contract: there is a result.
+  QString sizesText() const;
+  /// T is read and its connections are known: sliders are followed.
+  bool isReady() const { return prepared_ != nullptr; }
+  bool isComputing() const { return computing_.isBusy() || preparing_.isBusy(); }
+  /// The venue in full light.
+  std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
+
+ private:
+  struct Prepared;
+  void prepare();
+  void cameraChanged() override;
+  void compute();
+  void show(std::shared_ptr<const ClusterResult> result);
+  void accept();
+
+  ClusteringSettings settings_;
+  std::string preparedFor_;  // fingerprint of the threshold
+  std::shared_ptr<const Acquisition> source_;
+  std::shared_ptr<const Prepared> prepared_;
+  std::shared_ptr<const ClusterResult> result_;
+  Latest<std::shared_ptr<const Prepared>> preparing_;
+  Refining<std::shared_ptr<const ClusterResult>> computing_;
+  bool looked_ = false;
+};
+
+}  // namespace relucent

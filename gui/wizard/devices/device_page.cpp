@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/devices/device_page.h"
+
+namespace relucent {
+
+DevicePage::DevicePage(Session& session, QObject* parent) : PageModel(parent), session_(session) {
+  connect(&session_, &Session::opened, this, [this] { projector_ = camera_ = 0; });
+}
+
+void DevicePage::showProjector(std::size_t projector) {
+  if (projector == projector_ || projector >= projectors()) return;
+  projector_ = projector;
+  projectorChanged();
+  Q_EMIT changed();
+}
+
+void DevicePage::showCamera(std::size_t camera) {
+  if (camera == camera_ || camera >= cameras()) return;
+  camera_ = camera;
+  cameraChanged();
+  Q_EMIT changed();
+}
+
+}  // namespace relucent

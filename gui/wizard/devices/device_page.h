@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/frame/page_model.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+/// A page that shows something of one projector and of one camera: of several, those that are chosen. The
+/// first ones when a calibration is opened.
+class DevicePage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit DevicePage(Session& session, QObject* parent = nullptr);
+
+  Session& session() const { return session_; }
+  std::size_t projectors() const { return session_.projectors(); }
+  std::size_t cameras() const { return session_.cameras(); }
+  /// Which is shown.
+  std::size_t projector() const { return projector_; }
+  std::size_t camera() const { return camera_; }
+  /// Where there is no such device, the one of before stays.
+  void showProjector(std::size_t projector);
+  void showCamera(std::size_t camera);
+
+ protected:
+  /// Another one is shown now; before changed() tells.
+  virtual void projectorChanged() {}
+  virtual void cameraChanged() {}
+
+  Session& session_;
+
+ private:
+  std::size_t projector_ = 0, camera_ = 0;
+};
+
+}  // namespace relucent

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/devices/device_selector.h"
+
+namespace relucent {
+
+DeviceSelector::DeviceSelector(Kind kind, DevicePage& page, QWidget* parent)
+    : QComboBox(parent), kind_(kind), page_(page) {
+  bool projector = kind == Kind::projector;
+  setObjectName(projector ? "shown-projector" : "shown-camera");
+  setAccessibleName(projector ? tr("Projector that is shown") : tr("Camera that is shown"));
+  connect(this, &QComboBox::activated, &page_, [this, projector](int index) {
+    auto device = static_cast<std::size_t>(index);
+    projector ? page_.showProjector(device) : page_.showCamera(device);
+  });
+  connect(&page_, &PageModel::changed, this, &DeviceSelector::refresh);
+  refresh();
+}
+
+void DeviceSelector::refresh() {
+  std::size_t devices = kind_ == Kind::projector ? page_.projectors() : page_.cameras();
+  if (static_cast<std::size_t>(count()) != devices) {
+    clear();
+    for (std::size_t device = 0; device < devices; ++device) addItem(nameOf(device));
+  }
+  setCurrentIndex(static_cast<int>(kind_ == Kind::projector ? page_.projector() : page_.camera()));
+  setVisible(devices > 1);
+}
+
+QString DeviceSelector::nameOf(std::size_t device) const {
+  return (kind_ == Kind::projector ? tr("Projector %1") : tr("Camera %1")).arg(device + 1);
+}
+
+}  // namespace relucent

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/devices/flash_consent.h"
+
+#include <cmath>
+
+#include "theme/controls.h"
+#include "views/number_text.h"
+
+namespace relucent {
+
+namespace {
+
+QString rateSentence(std::optional<double> changes) {
+  return changes ? FlashConsent::tr("The projector shows patterns that change about %n time(s) a second.",
+                                    nullptr, static_cast<int>(std::ceil(*changes)))
+                 : FlashConsent::tr(
+                       "The projector shows patterns that change as quickly as the devices can, "
+                       "perhaps more than 3 times a second.");
+}
+
+}  // namespace
+
+std::optional<double> measuredChanges(const Session& session) {
+  const auto& stored = session.result(Step::linearization);
+  if (!stored || !stored->values.contains("cost")) return std::nullopt;
+  double patterns = stored->values["cost"].value("patterns", 0.0);
+  double seconds = stored->values["cost"].value("seconds", 0.0);
+  return patterns > 0.0 && seconds > 0.0 ? std::optional(patterns / seconds) : std::nullopt;
+}
+
+FlashConsent::FlashConsent(QWidget* parent)
+    : QWidget(parent), note_(new Note(Note::Kind::amber)), tick_(new Tick(tr("The room is clear"))) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(labelOf(tr("Flashing light"), "section"));
+  column->addWidget(note_);
+  tick_->setObjectName("room-is-clear");
+  tick_->setAccessibleName(tr("The room is clear and everyone here knows"));
+  tick_->setToolTip(tick_->accessibleName());
+  column->addWidget(tick_);
+  connect(tick_, &Tick::toggled, this, &FlashConsent::given);
+}
+
+void FlashConsent::show(bool needed, bool given, std::optional<double> changes) {
+  setVisible(needed);
+  QSignalBlocker quiet(tick_);
+  tick_->setChecked(given);
+  note_->setText(rateSentence(changes),
+                 tr("Flashing light can cause seizures. Clear the room and cover the entrance."));
+}
+
+QWidget* consentPart(Session& session) {
+  auto* part = new FlashConsent;
+  QObject::connect(part, &FlashConsent::given, &session, &Session::setRoomClear);
+  auto refresh = [part, &session] {
+    part->show(session.needsConsent(), session.isRoomClear(), measuredChanges(session));
+  };
+  QObject::connect(&session, &Session::changed, part, refresh);
+  QObject::connect(&session, &Session::opened, part, refresh);
+  refresh();
+  return part;
+}
+
+}  // namespace relucent

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "theme/tick.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+class Note;
+
+/// Patterns a second while the response was measured; none before.
+std::optional<double> measuredChanges(const Session& session);
+
+/// The warning with its tick, for a page's inspector; hidden where nobody has to agree.
+class FlashConsent : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit FlashConsent(QWidget* parent = nullptr);
+  /// `changes`: patterns a second, where that is known.
+  void show(bool needed, bool given, std::optional<double> changes);
+
+ Q_SIGNALS:
+  void given(bool clear);
+
+ private:
+  Note* note_;
+  Tick* tick_;
+};
+
+/// That of the open venue.
+QWidget* consentPart(Session& session);
+
+}  // namespace relucent

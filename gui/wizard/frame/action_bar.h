@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include "theme/controls.h"
+#include "wizard/frame/wizard.h"
+
+namespace relucent {
+
+/// Back; the time or a reason; secondary actions; the one primary action, named by its verb.
+class ActionBar : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit ActionBar(Wizard& wizard, QWidget* parent = nullptr);
+  QWidget* firstFocus() const;
+  /// Triggers the primary command if it is enabled.
+  void runPrimary();
+
+ Q_SIGNALS:
+  /// The reason was clicked: show the widget of that name, with which the user can resolve it.
+  void causeWanted(const QString& name);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void refresh();
+  void refreshSecondary(const std::vector<Command>& commands);
+  Wizard& wizard_;
+  QProgressBar* progress_;
+  QPushButton *back_, *primary_;
+  QLabel* hint_;
+  QHBoxLayout* secondary_;
+  std::vector<QPushButton*> buttons_;
+  std::vector<Command> commands_;
+};
+
+}  // namespace relucent

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QDialog>
+
+#include "wizard/frame/page_model.h"
+
+namespace relucent {
+
+/// What happened, what is safe, what to do. Esc and Close leave everything as it is.
+class FailureDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  FailureDialog(const FailureReport& report, const QString& page, QWidget* parent = nullptr);
+};
+
+}  // namespace relucent

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QKeySequence>
+#include <QObject>
+#include <QUndoStack>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "jobs/failure.h"
+#include "theme/icons.h"
+#include "wizard/frame/undoable.h"
+
+namespace relucent {
+
+/// Where a step stands, as the rail shows it. Whether it can be opened at all follows from the steps before.
+enum class StepState { open, busy, outOfDate, done, failed };
+
+struct StepStatus {
+  StepState state = StepState::open;
+  QString result;  // one short line
+};
+
+/// Something that the user can do now. Without `run` there is no such thing.
+struct Command {
+  QString text;
+  Icon icon = Icon::next;
+  bool enabled = true;
+  QKeySequence shortcut{};
+  std::function<void()> run{};
+};
+
+/// What stands above the stage. At most one.
+struct Banner {
+  enum class Kind { information, amber };
+  Kind kind = Kind::information;
+  QString sentence, more;
+  Command primary{}, other{};
+};
+
+/// A failure as the user is told of it: what happened, what is safe, what to do.
+struct FailureReport {
+  Failure failure;
+  QString safe;
+  Command resume{}, keep{}, goOn{};
+};
+
+/// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the
+/// parts below; the page's own view knows the class itself. Everything is told by changed().
+class PageModel : public QObject {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  virtual QString name() const = 0;  // in the rail
+  virtual QString title() const { return name(); }
+  virtual QString subtitle() const = 0;  // what this step is for
+  virtual StepStatus status() const = 0;
+  /// Beside the buttons: the time, or why the primary command is not possible.
+  virtual QString hint() const { return {}; }
+  /// The name of the widget that can change what the hint says; empty: none can.
+  virtual QString cause() const { return {}; }
+  virtual Command primary() const = 0;
+  virtual std::vector<Command> secondary() const { return {}; }
+  /// Of a measurement under way, 0 to 1.
+  virtual std::optional<double> progress() const { return std::nullopt; }
+  virtual std::optional<Banner> banner() const { return std::nullopt; }
+  /// False: the stage has the whole width now.
+  virtual bool usesInspector() const { return true; }
+  /// The page is looked at, or no longer.
+  virtual void enter() {}
+  virtual void leave() {}
+  /// Back within the page; false if there is nothing to go back to.
+  virtual bool goBack() { return false; }
+  virtual bool canGoBack() const { return false; }
+  /// Ends what goes on in the background, keeping what is measured.
+  virtual void finish() {}
+  /// What the user changed on this page. Emptied when another calibration is opened.
+  QUndoStack& undoStack() { return undo_; }
+
+ Q_SIGNALS:
+  void changed();
+  /// The step is done: the next one, please.
+  void nextWanted();
+  void failed(const relucent::FailureReport& report);
+
+ protected:
+  /// Makes a change that can be taken back: apply(after) now, apply(before) when it is undone. `name`: what
+  /// was changed; changes of one name in quick succession are one.
+  template <typename Value, typename Apply>
+  void changeUndoably(const QString& name, Value before, Value after, Apply apply) {
+    undo_.push(new Undoable<Value>(name, std::move(before), std::move(after), std::move(apply)));
+  }
+
+ private:
+  QUndoStack undo_;
+};
+
+}  // namespace relucent
+
+Q_DECLARE_METATYPE(relucent::FailureReport)

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/frame/status_strip.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QGuiApplication>
+#include <QLocale>
+
+#include "jobs/free_space.h"
+#include "output/window_projector.h"
+#include "theme/theme.h"
+#include "views/number_text.h"
+
+namespace relucent {
+
+StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), session_(session) {
+  setRole(this, "strip");
+  setFixedHeight(space::statusStrip);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(16, 0, space::page, 0);
+  row->setSpacing(8);
+  auto part = [&](Icon icon, const QString& name) {
+    auto* group = new QWidget;
+    auto* within = new QHBoxLayout(group);
+    within->setContentsMargins(0, 0, 18, 0);
+    within->setSpacing(8);
+    within->addWidget(new IconLabel(icon, secondaryColour, 16));
+    QLabel* title = labelOf(name, "strong");
+    title->setWordWrap(false);
+    within->addWidget(title);
+    QLabel* value = labelOf({}, "note");
+    value->setWordWrap(false);
+    within->addWidget(value);
+    row->addWidget(group);
+    return value;
+  };
+  projector_ = part(Icon::projector, tr("Projector"));
+  camera_ = part(Icon::camera, tr("Camera"));
+  disk_ = part(Icon::disk, tr("Disk"));
+  roomLight_ = part(Icon::sun, tr("Room light"));
+  roomLight_->setObjectName("room-light");
+  projector_->setObjectName("strip-projector");
+  room_ = roomLight_->parentWidget();
+  row->addStretch(1);
+  row->addWidget(saved_ = labelOf({}, "note"));
+  saved_->setWordWrap(false);
+  often_.setInterval(5000);
+  connect(&often_, &QTimer::timeout, this, &StatusStrip::refresh);
+  connect(&session_, &Session::changed, this, &StatusStrip::refresh);
+  connect(qApp, &QGuiApplication::screenAdded, this, &StatusStrip::refresh);
+  connect(qApp, &QGuiApplication::screenRemoved, this, &StatusStrip::refresh);
+  often_.start();
+  refresh();
+}
+
+/// Its size, and what it is; that it is not there where nobody waits for it, either.
+QString StatusStrip::projectorText() const {
+  Size size = session_.projectorSize();
+  QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
+  if (const ScreenRigSettings* screen = session_.screenRig()) {
+    kind = QString::fromStdString(screen->display.connector);
+    if (findScreen(identityOf(screen->display)) == nullptr) kind = tr("%1, unplugged").arg(kind);
+  }
+  return QString("%1, %2").arg(sizeText(size.width, size.height), kind);
+}
+
+void StatusStrip::showRoomLight() {
+  const std::optional<RoomLight>& light = session_.roomLight();
+  room_->setVisible(session_.isOpen() && light.has_value());
+  if (!light) return;
+  QString share = percentText(light->share);
+  roomLight_->setText(light->isSteady ? tr("%1 of full light, steady").arg(share)
+                                      : tr("%1 of full light, changed").arg(share));
+  setRole(roomLight_, light->isSteady ? "note" : "amber");
+}
+
+void StatusStrip::refresh() {
+  showRoomLight();
+  if (!session_.isOpen()) {
+    projector_->setText(tr("none chosen"));
+    camera_->setText(tr("none chosen"));
+    disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(QDir::homePath()))));
+    saved_->clear();
+    return;
+  }
+  projector_->setText(projectorText());
+  QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
+  if (const ScreenRigSettings* screen = session_.screenRig())
+    kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
+  camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));
+  const QString folder = QString::fromStdString(session_.path().string());
+  disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
+  QString latest;
+  for (Step step : allSteps)
+    if (const auto& result = session_.result(step))
+      latest = std::max(latest, QString::fromStdString(result->stored));
+  QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
+  saved_->setText(
+      when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
+                     : QString());
+}
+
+}  // namespace relucent

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/frame/wizard.h"
+
+namespace relucent {
+
+Wizard::Wizard(Session& session, QObject* parent) : QObject(parent), session_(session) {
+  connect(&session_, &Session::opened, this, [this] {
+    for (PageModel* page : pages_) page->undoStack().clear();
+    if (session_.isOpen()) go(standing());
+  });
+}
+
+void Wizard::add(PageModel& page) {
+  pages_.push_back(&page);
+  connect(&page, &PageModel::changed, this, &Wizard::changed);
+  connect(&page, &PageModel::nextWanted, this, &Wizard::next);
+}
+
+bool Wizard::isLocked(std::size_t index) const {
+  for (std::size_t before = 0; before < index; ++before) {
+    StepState state = pages_[before]->status().state;
+    if (state != StepState::done && state != StepState::outOfDate) return true;
+  }
+  return false;
+}
+
+bool Wizard::go(std::size_t index) {
+  if (index >= pages_.size() || isLocked(index)) return false;
+  if (index != current_) {
+    currentPage().leave();
+    current_ = index;
+    Q_EMIT moved();
+  }
+  currentPage().enter();
+  Q_EMIT changed();
+  return true;
+}
+
+void Wizard::next() {
+  go(current_ + 1);
+}
+
+void Wizard::back() {
+  if (!currentPage().goBack() && current_ > 0) go(current_ - 1);
+}
+
+bool Wizard::canGoBack() const {
+  return current_ > 0 || currentPage().canGoBack();
+}
+
+std::size_t Wizard::standing() const {
+  std::size_t last = 0;
+  while (last + 1 < pages_.size() && !isLocked(last + 1)) ++last;
+  return last;
+}
+
+}  // namespace relucent

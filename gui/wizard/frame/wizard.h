@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "wizard/frame/page_model.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+/// The steps in order, which of them is looked at, and which can be. Knows no page but by its contract.
+class Wizard : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Wizard(Session& session, QObject* parent = nullptr);
+  /// In the order of the rail; the first is always open.
+  void add(PageModel& page);
+
+  std::size_t count() const { return pages_.size(); }
+  PageModel& page(std::size_t index) const { return *pages_[index]; }
+  std::size_t current() const { return current_; }
+  PageModel& currentPage() const { return *pages_[current_]; }
+
+  /// A page opens when all before it have a result, perhaps an old one.
+  bool isLocked(std::size_t index) const;
+  /// False, with nothing changed, if it is locked.
+  bool go(std::size_t index);
+  void next();
+  void back();
+  bool canGoBack() const;
+  /// The first page that has no result: where the calibration stood.
+  std::size_t standing() const;
+
+ Q_SIGNALS:
+  /// Another page is looked at.
+  void moved();
+  /// Something about some page.
+  void changed();
+
+ private:
+  Session& session_;
+  std::vector<PageModel*> pages_;
+  std::size_t current_ = 0;
+};
+
+}  // namespace relucent

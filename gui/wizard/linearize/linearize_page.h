@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "jobs/job.h"
+#include "wizard/devices/device_page.h"
+
+namespace relucent {
+
+/// Step 3: the light of every level of the projector, measured and fitted.
+class LinearizePage : public DevicePage {
+  Q_OBJECT
+
+ public:
+  using Ramps = std::array<std::map<double, double>, 3>;
+
+  explicit LinearizePage(Session& session, QObject* parent = nullptr);
+  ~LinearizePage() override { finish(); }
+
+  QString name() const override { return tr("Linearize"); }
+  QString subtitle() const override {
+    return tr("Measure how much light each step of the projector's three colours really gives.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  QString cause() const override { return session_.mayMeasure() ? QString() : "room-is-clear"; }
+  Command primary() const override;
+  std::vector<Command> secondary() const override;
+  std::optional<double> progress() const override;
+  std::optional<Banner> banner() const override;
+  void finish() override;
+
+  bool isMeasuring() const { return job_.isRunning(); }
+  /// What has been measured, perhaps with other settings; none before.
+  const std::optional<Linearization>& result() const { return result_; }
+  /// The shown projector's response; nullptr: not measured yet.
+  const ProjectorResponse* response() const;
+  /// Points of its ramps while they are measured, drive -> share of full light.
+  Ramps ramps() const { return session_.live().ramps(projector()); }
+  LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
+  /// Seconds that the measurement took; none before.
+  std::optional<double> seconds() const;
+
+  int levels() const { return session_.settings().linearization.levels; }
+  void setLevels(int levels);
+  /// The colours of a projector do not add up: going on is allowed, and is recorded.
+  bool addsUp() const;
+
+ private:
+  void keepLevels(int levels);
+  void measure(bool again);
+  void look();
+  void ended();
+
+  Job job_;
+  std::optional<Linearization> result_;
+  std::string shown_;  // when the result was stored that is in result_
+};
+
+}  // namespace relucent

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include <QComboBox>
+#include <QStackedWidget>
+
+#include "jobs/core_sentences.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/image_view.h"
+#include "views/line_chart.h"
+#include "views/number_text.h"
+#include "wizard/devices/device_selector.h"
+#include "wizard/devices/flash_consent.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/linearize/linearize_page.h"
+
+namespace relucent {
+namespace {
+
+const QColor& redOf() {
+  return colours().red;
+}
+const QColor& greenOf() {
+  return colours().green;
+}
+const QColor& blueOf() {
+  return colours().blue;
+}
+
+struct Channel {
+  const char* name;
+  const QColor& (*colour)();
+  Marker marker;
+};
+constexpr std::array<Channel, 3> channels{
+    {{QT_TRANSLATE_NOOP("relucent::LinearizePage", "Red"), redOf, Marker::circle},
+     {QT_TRANSLATE_NOOP("relucent::LinearizePage", "Green"), greenOf, Marker::square},
+     {QT_TRANSLATE_NOOP("relucent::LinearizePage", "Blue"), blueOf, Marker::triangle}}};
+constexpr double codes = 255.0, percent = 100.0;
+
+std::vector<Curve> fitted(const ProjectorResponse& response) {
+  std::vector<Curve> curves;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Curve curve{LinearizePage::tr(channels[c].name), channels[c].colour, channels[c].marker, {}, {}};
+    const ResponseCurve& fit = response.channels[c];
+    for (int i = 0; i <= 256; ++i) curve.line.emplace_back(codes * i / 256.0, percent * fit(i / 256.0));
+    for (std::size_t i = 0; i < fit.x().size(); ++i)
+      curve.points.emplace_back(codes * fit.x()[i], percent * fit.y()[i]);
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+std::vector<Curve> measured(const LinearizePage::Ramps& ramps) {
+  std::vector<Curve> curves;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Curve curve{LinearizePage::tr(channels[c].name), channels[c].colour, channels[c].marker, {}, {}};
+    for (auto [drive, light] : ramps[c]) curve.points.emplace_back(codes * drive, percent * light);
+    curve.line = curve.points;
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+QWidget* liveCards(LinearizePage& model) {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(space::gap);
+  auto* sent = new Card(LinearizePage::tr("Sent to the projector"));
+  auto* seen = new Card(LinearizePage::tr("Seen by the camera"));
+  auto* pattern = new ImageView;
+  auto* photograph = new ImageView;
+  pattern->setAccessibleName(LinearizePage::tr("Pattern that the projector shows"));
+  photograph->setAccessibleName(LinearizePage::tr("Last photograph"));
+  for (ImageView* view : {pattern, photograph})
+    view->setEmptyText(LinearizePage::tr("Appears when measuring begins."));
+  sent->body()->addWidget(pattern, 1);
+  seen->body()->addWidget(photograph, 1);
+  sent->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, sent));
+  seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
+  layout->addWidget(sent, 1);
+  layout->addWidget(seen, 1);
+  QObject::connect(&model, &LinearizePage::changed, row, [&model, pattern, photograph, seen] {
+    if (!model.isMeasuring()) return;
+    LivePictures live = model.pictures();
+    if (live.pattern.empty() || live.frame.signal.empty()) return;
+    pattern->setPicture(encodedPictureOf(live.pattern));
+    photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
+    seen->setSubtitle(
+        LinearizePage::tr("%1, photograph %2")
+            .arg(exposureText(live.frame.seconds), countText(static_cast<std::uint64_t>(live.photographs))));
+  });
+  return row;
+}
+
+QWidget* stageOf(LinearizePage& model) {
+  auto* stage = new QWidget;
+  auto* column = new QVBoxLayout(stage);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(space::gap);
+  auto* response = new Card(LinearizePage::tr("Response of the projector"));
+  auto* chart = new LineChart({0.0, codes, false, LinearizePage::tr("Level sent to the projector")},
+                              {0.0, percent, false, LinearizePage::tr("Light, % of full")});
+  chart->setObjectName("response-chart");
+  chart->setAccessibleName(LinearizePage::tr("Light of every level, three colours"));
+  response->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, response));
+  response->body()->addWidget(chart, 1);
+  column->addWidget(response, 3);
+  column->addWidget(liveCards(model), 2);
+  auto refresh = [&model, response, chart] {
+    if (model.isMeasuring()) {
+      chart->setCurves(measured(model.ramps()));
+      response->setSubtitle(LinearizePage::tr("as it is measured, in random order"));
+    } else if (const ProjectorResponse* known = model.response()) {
+      chart->setCurves(fitted(*known));
+      response->setSubtitle(
+          LinearizePage::tr("%n level(s) a colour, random order, drift removed", nullptr, model.levels()));
+    } else {
+      chart->setCurves({});
+      response->setSubtitle(LinearizePage::tr("not measured yet"));
+    }
+  };
+  QObject::connect(&model, &LinearizePage::changed, stage, refresh);
+  refresh();
+  return stage;
+}
+
+QWidget* inspectorOf(LinearizePage& model) {
+  QVBoxLayout* column = nullptr;
+  QWidget* card = inspectorCard(column);
+  column->addWidget(labelOf(LinearizePage::tr("Result"), "section"));
+  auto* adds = new Remark;
+  auto* linear = new Remark;
+  auto* rises = new Remark;
+  for (Remark* verdict : {adds, linear, rises}) column->addWidget(verdict);
+  auto* findings = new Note(Note::Kind::amber);
+  column->addWidget(findings);
+  column->addWidget(lineOf());
+  column->addWidget(labelOf(LinearizePage::tr("Exposures"), "section"));
+  auto* exposures = new ValueRow(LinearizePage::tr("Chosen for this venue"));
+  column->addWidget(exposures);
+  column->addWidget(lineOf());
+  column->addWidget(labelOf(LinearizePage::tr("Measure with"), "section"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(labelOf(LinearizePage::tr("Levels a colour"), "secondary"), 1);
+  auto* levels = new QComboBox;
+  levels->setAccessibleName(LinearizePage::tr("Levels a colour"));
+  for (int count : {9, 17, 33, 65}) levels->addItem(QString::number(count), count);
+  row->addWidget(levels);
+  column->addLayout(row);
+  column->addWidget(consentPart(model.session()));
+  column->addStretch(1);
+  QObject::connect(levels, &QComboBox::activated, &model,
+                   [&model, levels] { model.setLevels(levels->currentData().toInt()); });
+
+  auto refresh = [&model, adds, linear, rises, findings, exposures, levels] {
+    using Kind = Remark::Kind;
+    levels->setCurrentIndex(levels->findData(model.levels()));
+    levels->setEnabled(!model.isMeasuring());
+    bool known = model.result() && !model.isMeasuring();
+    linear->setVisible(known);
+    rises->setVisible(known);
+    findings->setVisible(known && !model.result()->findings.empty());
+    if (!known) {
+      adds->show(Kind::watch,
+                 model.isMeasuring() ? LinearizePage::tr("Measuring") : LinearizePage::tr("Not measured yet"),
+                 LinearizePage::tr(
+                     "Whether the colours add up, the camera is linear and every level is brighter than the "
+                     "one below is told when all levels are measured."));
+      exposures->setValue(QString::fromUtf8("–"));
+      return;
+    }
+    const Linearization& result = *model.result();
+    double worst = result.additivityError.empty()
+                       ? 0.0
+                       : *std::max_element(result.additivityError.begin(), result.additivityError.end());
+    if (model.addsUp())
+      adds->show(
+          Kind::good, LinearizePage::tr("The colours add up"),
+          LinearizePage::tr("Red, green and blue together give white within %1.").arg(percentText(worst)));
+    else
+      adds->show(
+          Kind::warning, LinearizePage::tr("The colours do not add up"),
+          LinearizePage::tr("White differs by %1 from its colours. Turn off “brilliant” or “dynamic” in the "
+                            "projector's menu, then measure again.")
+              .arg(percentText(worst)));
+    bool identity =
+        model.camera() < result.cameras.size() && result.cameras[model.camera()].response[1].isIdentity();
+    linear->show(Kind::good,
+                 identity ? LinearizePage::tr("The camera is linear")
+                          : LinearizePage::tr("The camera's curve is known"),
+                 identity ? LinearizePage::tr("Doubling the exposure doubles the signal.")
+                          : LinearizePage::tr("Its photographs are brought back to linear light."));
+    rises->show(Kind::good, LinearizePage::tr("Curves rise everywhere"),
+                LinearizePage::tr("No level is darker than the one below it."));
+    QStringList sentences, times;
+    for (const std::string& finding : result.findings) sentences << fullSentence(finding);
+    findings->setText(LinearizePage::tr("Found while measuring"), sentences.join("\n\n"));
+    for (double seconds : result.exposures) times << exposureText(seconds);
+    exposures->setValue(times.join(", "));
+  };
+  QObject::connect(&model, &LinearizePage::changed, card, refresh);
+  refresh();
+  return card;
+}
+
+}  // namespace
+
+PageView viewOf(LinearizePage& model) {
+  return {stageOf(model), inspectorOf(model)};
+}
+
+}  // namespace relucent

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/output/output_inspector.h"
+
+#include <QComboBox>
+#include <QDir>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "theme/tick.h"
+#include "views/number_text.h"
+#include "wizard/devices/device_selector.h"
+#include "wizard/devices/flash_consent.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/output/output_page.h"
+#include "wizard/output/playlist_view.h"
+
+namespace relucent {
+namespace {
+
+/// The projector's screen, filled again when one is plugged in or out.
+QComboBox* screenBox(OutputPage& page) {
+  auto* box = new QComboBox;
+  box->setObjectName("output-screen");
+  box->setAccessibleName(OutputPage::tr("Projector's screen"));
+  QObject::connect(box, &QComboBox::activated, &page,
+                   [&page](int index) { page.choose(static_cast<std::size_t>(index)); });
+  auto refresh = [&page, box] {
+    QStringList now;
+    for (const OutputScreen& screen : page.screens()) {
+      QString name = screen.operators ? OutputPage::tr("This screen") : screen.identity.connector;
+      now << QString("%1, %2").arg(name, sizeText(screen.size.width(), screen.size.height()));
+    }
+    QStringList shown;
+    for (int i = 0; i < box->count(); ++i) shown << box->itemText(i);
+    if (shown != now) {
+      box->clear();
+      box->addItems(now);
+    }
+    box->setCurrentIndex(page.chosen() ? static_cast<int>(*page.chosen()) : -1);
+  };
+  QObject::connect(&page, &OutputPage::changed, box, refresh);
+  refresh();
+  return box;
+}
+
+QString errorLine(const QString& what, const ProvedProjection& projection) {
+  return OutputPage::tr("%1: measured ΔE %2, predicted %3")
+      .arg(what, decimalText(projection.measured.deltaE, 1), decimalText(projection.predicted.deltaE, 1));
+}
+
+void showProof(Remark& remark, const Proof* proof) {
+  if (proof == nullptr)
+    return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
+                       OutputPage::tr("One photograph shows whether the surface looks as predicted."));
+  const ProveResult& figures = proof->figures;
+  QString meaning = errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
+                    errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
+                    OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
+  if (proof->isAsPredicted())
+    remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);
+  else
+    remark.show(Remark::Kind::warning, OutputPage::tr("The camera or projector may have moved."), meaning);
+}
+
+void showDrift(Remark& remark, const std::optional<VerifyResult>& drift) {
+  remark.setVisible(drift.has_value());
+  if (!drift) return;
+  QString meaning =
+      OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")
+          .arg(percentText(drift->found.error), percentText(drift->errorThen),
+               percentText(drift->found.changedShare));
+  switch (drift->judgement.verdict) {
+    case Verdict::stillGood:
+      return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
+    case Verdict::remeasure:
+      return remark.show(Remark::Kind::warning,
+                         OutputPage::tr("Something has changed. Measure the light transport again."),
+                         meaning);
+    case Verdict::startAgain:
+      return remark.show(Remark::Kind::failed,
+                         OutputPage::tr("Hardly anything fits. Aim, focus and measure everything again."),
+                         meaning);
+  }
+}
+
+QWidget* proofPart(OutputPage& page) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(labelOf(OutputPage::tr("Verification"), "section"));
+  auto* found = new Remark;
+  found->setObjectName("proof-remark");
+  column->addWidget(found);
+  QPushButton* take = buttonOf(OutputPage::tr("Take verification photograph"));
+  take->setObjectName("verify");
+  take->setToolTip(OutputPage::tr("Ctrl+Shift+V"));
+  column->addWidget(take);
+  auto* changed = new Remark;
+  changed->setObjectName("drift-remark");
+  column->addWidget(changed);
+  QPushButton* drift = buttonOf(OutputPage::tr("Check for drift"));
+  drift->setObjectName("check-drift");
+  drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
+  column->addWidget(drift);
+  column->addWidget(consentPart(page.session()));
+  QObject::connect(take, &QPushButton::clicked, &page, &OutputPage::verify);
+  QObject::connect(drift, &QPushButton::clicked, &page, &OutputPage::checkDrift);
+  auto refresh = [=, &page] {
+    showProof(*found, page.proof().proof().get());
+    showDrift(*changed, page.proof().drift());
+    take->setEnabled(page.proof().isPossible());
+    drift->setEnabled(page.proof().isPossible() && page.proof().mayFlash());
+    take->setIcon(iconOf(Icon::camera, take->isEnabled() ? colours().text : colours().disabled));
+    drift->setIcon(iconOf(Icon::drift, drift->isEnabled() ? colours().text : colours().disabled));
+  };
+  QObject::connect(&page, &OutputPage::changed, part, refresh);
+  QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+QWidget* handOverPart(OutputPage& page) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(labelOf(OutputPage::tr("Hand over"), "section"));
+  QPushButton* report = buttonOf(OutputPage::tr("Save report"));
+  report->setObjectName("report");
+  column->addWidget(report);
+  QLabel* written = labelOf({}, "note");
+  written->setObjectName("report-written");
+  column->addWidget(written);
+  auto* starts = new Tick(OutputPage::tr("Start the show with this computer"));
+  starts->setObjectName("start-with-computer");
+  column->addWidget(starts);
+  QLabel* state = labelOf({}, "note");
+  state->setObjectName("install-state");
+  column->addWidget(state);
+  QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
+  QObject::connect(starts, &Tick::toggled, &page, &OutputPage::setStartsWithComputer);
+  auto refresh = [=, &page] {
+    report->setEnabled(page.proof().isPossible());
+    report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));
+    written->setVisible(!page.reportFile().isEmpty());
+    written->setText(OutputPage::tr("Written to %1, and for paper to report.pdf beside it.")
+                         .arg(QDir::toNativeSeparators(page.reportFile())));
+    QSignalBlocker quiet(starts);
+    starts->setChecked(page.startsWithComputer());
+    state->setText(
+        page.isInstalled()
+            ? (page.startsWithComputer()
+                   ? OutputPage::tr(
+                         "Installed. The show starts at the next log-in, without camera or wizard.")
+                   : OutputPage::tr(
+                         "The show still starts with this computer. Install it again to end that."))
+            : (page.startsWithComputer()
+                   ? OutputPage::tr("Once installed, the show runs unattended, without camera or wizard.")
+                   : OutputPage::tr("The show does not start by itself.")));
+  };
+  QObject::connect(&page, &OutputPage::changed, part, refresh);
+  QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+}  // namespace
+
+QWidget* outputInspector(OutputPage& page) {
+  QVBoxLayout* column = nullptr;
+  QWidget* card = inspectorCard(column);
+  column->addWidget(labelOf(OutputPage::tr("Projector's screen"), "section"));
+  column->addWidget(new DeviceSelector(DeviceSelector::Kind::projector, page, card));
+  column->addWidget(screenBox(page));
+  auto* differs = new Note(Note::Kind::information);
+  column->addWidget(differs);
+  auto* moved = new Note(Note::Kind::information);
+  moved->setObjectName("moved-screen");
+  column->addWidget(moved);
+  column->addWidget(labelOf(OutputPage::tr("Playlist"), "section"));
+  column->addWidget(playlistPart(page));
+  auto* method = new Note(Note::Kind::information);
+  method->setObjectName("method-note");
+  column->addWidget(method);
+  column->addWidget(lineOf());
+  column->addWidget(proofPart(page));
+  column->addWidget(lineOf());
+  column->addWidget(handOverPart(page));
+  column->addStretch(1);
+  auto refresh = [=, &page] {
+    Size size = page.projectorSize();
+    differs->setVisible(page.chosen() &&
+                        page.screens()[*page.chosen()].size != QSize(size.width, size.height));
+    differs->setText(
+        OutputPage::tr("This screen's resolution is not that of the projector that was measured."),
+        OutputPage::tr("The picture stands in its middle, pixel for pixel."));
+    QString meaning = page.meaningOfScreen();
+    moved->setVisible(!meaning.isEmpty() && page.chosen());
+    moved->setText(OutputPage::tr("The projector is another screen now"), meaning);
+    QString still = page.stillMethod();
+    method->setVisible(!still.isEmpty());
+    method->setText(OutputPage::tr("Still pictures: %1").arg(still),
+                    OutputPage::tr("Films and cross-fades use windows and steps, which are quick enough."));
+  };
+  QObject::connect(&page, &OutputPage::changed, card, refresh);
+  refresh();
+  return card;
+}
+
+}  // namespace relucent

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/output/output_page.h"
+
+#include <QCoreApplication>
+#include <QDesktopServices>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QStandardPaths>
+#include <QUrl>
+
+#include "base/error.h"
+#include "output/installation.h"
+#include "output/own_picture.h"
+#include "wizard/session/method_name.h"
+
+namespace relucent {
+
+OutputPage::OutputPage(Session& session, QObject* parent)
+    : DevicePage(session, parent),
+      proof_(session, [this] { return name(); }),
+      config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
+  connect(&session_, &Session::opened, this, [this] {
+    close();
+    projection_.mirrorProjector(projector());
+    chosen_.clear();
+    reportFile_.clear();
+    listScreens();
+    lookForShow();
+    preferred_ = QString::fromStdString(session_.settings().content.picture);
+    playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
+                   preferred_);
+  });
+  connect(&session_, &Session::changed, this, [this] {
+    followScreen();
+    QString picture = QString::fromStdString(session_.settings().content.picture);
+    if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
+    if (chosen_.size() != projectors()) return listScreens();
+    Q_EMIT changed();
+  });
+  connect(&playlist_, &OutputPlaylist::unreadable, this, [this](const QString& sentence) {
+    tell({ErrorKind::format, sentence, tr("Make the list again."), sentence});
+  });
+  connect(&playlist_, &OutputPlaylist::changed, this, &OutputPage::changed);
+  connect(&proof_, &OutputProof::changed, this, &OutputPage::changed);
+  connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
+  connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
+  connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
+    reportFile_ = file;
+    QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+    Q_EMIT changed();
+  });
+  connect(&projection_, &OutputProjection::changed, this, &OutputPage::changed);
+  connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
+  connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
+  connect(qApp, &QGuiApplication::screenRemoved, this, &OutputPage::listScreens);
+  listScreens();
+}
+
+OutputPage::~OutputPage() {
+  finish();
+}
+
+void OutputPage::finish() {
+  reopen_ = false;
+  proof_.cancel();
+  close();
+}
+
+void OutputPage::enter() {
+  listScreens();
+  lookForShow();
+}
+
+StepStatus OutputPage::status() const {
+  if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
+  if (isInstalled()) return {StepState::done, tr("Show installed")};
+  return {};
+}
+
+QString OutputPage::hint() const {
+  if (projection_.isOpening()) return projection_.stage();
+  if (proof_.work() != OutputProof::Work::none) return proof_.stage();
+  if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
+  if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
+  if (isOpen() && isInstalled())
+    return tr("Installed: the show starts at the next log-in. Hold A to compare.");
+  if (isOpen())
+    return proof_.proof() ? tr("Playing. Hold A to compare.")
+                          : tr("Take a verification photograph, or install without proof.");
+  if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
+  return tr("Nothing is projected before you open the output.");
+}
+
+Command OutputPage::primary() const {
+  auto* self = const_cast<OutputPage*>(this);
+  if (isOpen())
+    return {isInstalled()    ? tr("Install again")
+            : proof_.proof() ? tr("Install show")
+                             : tr("Install without proof"),
+            Icon::power,
+            !playlist_.isEmpty(),
+            {},
+            [self] { self->install(); }};
+  return {tr("Open output"),
+          Icon::play,
+          !projectorWithoutScreen() && !playlist_.isEmpty() && !projection_.isOpening() &&
+              session_.busy().isEmpty(),
+          {},
+          [self] { self->open(); }};
+}
+
+std::vector<Command> OutputPage::secondary() const {
+  auto* self = const_cast<OutputPage*>(this);
+  if (!isOpen()) return {};
+  return {{isFrozen() ? tr("Play") : tr("Freeze"), isFrozen() ? Icon::play : Icon::pause, true,
+           QKeySequence("Ctrl+P"), [self] { self->setFrozen(!self->isFrozen()); }},
+          {isBlack() ? tr("Show again") : tr("Black"), Icon::black, true, QKeySequence("Ctrl+B"),
+           [self] { self->setBlack(!self->isBlack()); }},
+          {tr("Close output"), Icon::stop, true, {}, [self] { self->close(); }}};
+}
+
+std::optional<double> OutputPage::progress() const {
+  if (projection_.isOpening()) return projection_.fraction();
+  return proof_.work() != OutputProof::Work::none ? std::optional(proof_.fraction()) : std::nullopt;
+}
+
+void OutputPage::setPlaylist(const PlaylistSettings& settings) {
+  try {
+    playlist_.set(settings);
+  } catch (...) {
+    tell(failureOf(std::current_exception()));
+  }
+  if (playlist_.isEmpty())
+    close();
+  else
+    projection_.setList(settings);
+}
+
+void OutputPage::edit(const QString& what, const PlaylistSettings& after) {
+  if (after == playlist_.settings()) return;
+  changeUndoably(what, playlist_.settings(), after,
+                 [this](const PlaylistSettings& settings) { setPlaylist(settings); });
+}
+
+void OutputPage::addFiles(const QStringList& files) {
+  edit(tr("Add to the playlist"), playlist_.withAdded(files));
+}
+
+void OutputPage::removeItem(qsizetype index) {
+  edit(tr("Remove from the playlist"), playlist_.without(index));
+}
+
+void OutputPage::moveItem(qsizetype index, qsizetype by) {
+  edit(tr("Order of the playlist"), playlist_.withMoved(index, by));
+}
+
+void OutputPage::setRepeat(bool repeat) {
+  PlaylistSettings after = playlist_.settings();
+  after.loop = repeat;
+  edit(tr("Repeat"), after);
+}
+
+void OutputPage::setFade(double seconds) {
+  PlaylistSettings after = playlist_.settings();
+  after.fadeSeconds = seconds;
+  edit(tr("Cross-fade"), after);
+}
+
+QString OutputPage::stillMethod() const {
+  const std::string& method = session_.settings().content.method;
+  return method == toString(Method::refined) ? QString() : methodName(method);
+}
+
+void OutputPage::open() {
+  if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
+      !session_.busy().isEmpty())
+    return;
+  std::vector<ScreenIdentity> screens;
+  for (const auto& screen : chosen_) screens.push_back(screens_[*screen].identity);
+  projection_.open({session_.path(), playlist_.settings(), session_.settings().content.fit, screens});
+}
+
+void OutputPage::close() {
+  projection_.close();
+}
+
+void OutputPage::whileClosed(const std::function<void()>& work) {
+  if (!proof_.isPossible() || projection_.isOpening()) return;
+  // A real camera would photograph the show.
+  if (isOpen() && !session_.isSimulated()) {
+    close();
+    reopen_ = true;
+  }
+  work();
+}
+
+void OutputPage::verify() {
+  whileClosed([this] { proof_.photograph(pictureToProve()); });
+}
+
+void OutputPage::proofEnded() {
+  if (std::exchange(reopen_, false)) open();
+}
+
+QString OutputPage::pictureToProve() const {
+  const QList<PlaylistItem>& items = playlist_.settings().items;
+  qsizetype now = projection_.playing();
+  if (now >= 0 && now < items.size() && OutputPlaylist::isStill(items[now])) return items[now].path;
+  auto still = std::find_if(items.begin(), items.end(), OutputPlaylist::isStill);
+  return still != items.end() ? still->path : ownPicture();
+}
+
+void OutputPage::report() {
+  if (proof_.isPossible()) proof_.report(pictureToProve());
+}
+
+void OutputPage::setStartsWithComputer(bool starts) {
+  starts_ = starts;
+  Q_EMIT changed();
+}
+
+void OutputPage::setConfigFolder(const QString& folder) {
+  config_ = folder;
+  lookForShow();
+}
+
+void OutputPage::lookForShow() {
+  const QString venue = QString::fromStdString(session_.path().string());
+  installed_ = session_.isOpen() && (relucent::isInstalled(Start::service, config_, venue) ||
+                                     relucent::isInstalled(Start::autostart, config_, venue));
+  Q_EMIT changed();
+}
+
+QStringList OutputPage::showArguments() const {
+  Canvas canvas =
+      isOpen() ? projection_.canvas() : OutputProjection::canvasFor(playlist_.settings(), Fit::fit);
+  QStringList arguments{"show",      QString::fromStdString(session_.path().string()),
+                        "--content", playlist_.file(),
+                        "--canvas",  QString("%1x%2").arg(canvas.size.width()).arg(canvas.size.height()),
+                        "--log",     QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)};
+  // One for each projector, or by their sizes.
+  QStringList connectors;
+  for (const auto& screen : chosen_)
+    if (screen && !screens_[*screen].identity.connector.isEmpty())
+      connectors << screens_[*screen].identity.connector;
+  if (static_cast<std::size_t>(connectors.size()) == projectors())
+    for (const QString& connector : connectors) arguments << "--screen" << connector;
+  return arguments;
+}
+
+void OutputPage::install() {
+  try {
+    playlist_.save();
+    if (starts_)
+      // Where systemd does not run the session, the desktop starts it.
+      relucent::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
+                        QCoreApplication::applicationFilePath(), showArguments());
+    else
+      for (Start start : {Start::service, Start::autostart}) uninstall(start, config_);
+  } catch (...) {
+    tell(failureOf(std::current_exception()));
+  }
+  lookForShow();
+}
+
+void OutputPage::tell(const Failure& failure) {
+  Q_EMIT failed({failure, tr("The calibration is as it was."), {}, {}});
+}
+
+}  // namespace relucent

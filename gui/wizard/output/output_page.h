@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "output/output_playlist.h"
+#include "output/output_projection.h"
+#include "wizard/devices/device_page.h"
+#include "wizard/output/output_proof.h"
+
+namespace relucent {
+
+/// A screen that the output can shine on.
+struct OutputScreen {
+  ScreenIdentity identity;
+  QSize size;              // in its own pixels
+  bool operators = false;  // the one with this window
+};
+
+/// Step 8: the content on the projector, corrected in real time; proved; handed over.
+class OutputPage : public DevicePage {
+  Q_OBJECT
+
+ public:
+  explicit OutputPage(Session& session, QObject* parent = nullptr);
+  ~OutputPage() override;
+
+  QString name() const override { return tr("Output"); }
+  QString subtitle() const override {
+    return tr("Play corrected content, prove that it works with one photograph, and hand the venue over.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  QString cause() const override { return projectorWithoutScreen() ? "output-screen" : QString(); }
+  Command primary() const override;
+  std::vector<Command> secondary() const override;
+  std::optional<double> progress() const override;
+  void enter() override;
+  void finish() override;
+
+  const std::vector<OutputScreen>& screens() const { return screens_; }
+  /// The shown projector's screen.
+  std::optional<std::size_t> chosen() const { return screenOf(projector()); }
+  /// Another projector that had that screen gets this one's in return. Of a calibration whose projector is a
+  /// screen, another of its pixels becomes that projector's.
+  void choose(std::size_t index);
+  std::optional<std::size_t> screenOf(std::size_t projector) const {
+    return projector < chosen_.size() ? chosen_[projector] : std::nullopt;
+  }
+  /// What it means for what is measured that the projector is another screen now; empty: nothing.
+  QString meaningOfScreen() const;
+
+  const OutputPlaylist& playlist() const { return playlist_; }
+  void addFiles(const QStringList& files);
+  void removeItem(qsizetype index);
+  void moveItem(qsizetype index, qsizetype by);
+  void setRepeat(bool repeat);
+  void setFade(double seconds);
+
+  bool isOpen() const { return projection_.isOpen(); }
+  bool isBlack() const { return projection_.isBlack(); }
+  bool isFrozen() const { return projection_.isFrozen(); }
+  bool isCompensated() const { return projection_.isCompensated(); }
+  void setBlack(bool black) { projection_.setBlack(black); }
+  void setFrozen(bool frozen) { projection_.setFrozen(frozen); }
+  void setCompensated(bool compensated) { projection_.setCompensated(compensated); }
+  /// What plays, and how it goes.
+  OutputProjection& projection() { return projection_; }
+  const OutputProjection& projection() const { return projection_; }
+  /// Of the shown projector.
+  Size projectorSize() const { return session_.projectorSize(projector()); }
+  /// Not the one for films: how pictures that stand are solved. Empty: like films.
+  QString stillMethod() const;
+
+  void open();
+  void close();
+
+  const OutputProof& proof() const { return proof_; }
+  /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
+  void verify();
+  void checkDrift() {
+    whileClosed([this] { proof_.checkDrift(); });
+  }
+  /// Writes the report and lets the desktop show it.
+  void report();
+  /// Where it is; empty: not written since the calibration was opened.
+  const QString& reportFile() const { return reportFile_; }
+
+  /// Whether installing makes the show start with the computer; yes at first.
+  bool startsWithComputer() const { return starts_; }
+  void setStartsWithComputer(bool starts);
+  /// The show that starts with the computer is this venue's.
+  bool isInstalled() const { return installed_; }
+  /// Keeps the playlist and makes the show start at log-in, or no more.
+  void install();
+  /// Of the user; tests have their own.
+  void setConfigFolder(const QString& folder);
+
+ private:
+  void listScreens();
+  void lookForShow();
+  std::optional<std::size_t> projectorWithoutScreen() const;
+  bool coversOperator() const;
+  QString screenHint(std::size_t projector) const;
+  std::optional<std::size_t> usualScreen() const;
+  void keepScreen();
+  void followScreen();
+  void projectorChanged() override { projection_.mirrorProjector(projector()); }
+  void edit(const QString& what, const PlaylistSettings& after);
+  void setPlaylist(const PlaylistSettings& settings);
+  void whileClosed(const std::function<void()>& work);
+  void proofEnded();
+  QString pictureToProve() const;
+  QStringList showArguments() const;
+  void tell(const Failure& failure);
+
+  OutputPlaylist playlist_;
+  OutputProof proof_;
+  OutputProjection projection_;
+  std::vector<OutputScreen> screens_;
+  std::vector<std::optional<std::size_t>> chosen_;  // a projector's
+  ScreenIdentity screenBefore_;                     // the calibration's
+  bool reopen_ = false;                             // when the photographs are taken
+  QString preferred_;                               // Preview's picture
+  QString config_;
+  bool installed_ = false;
+  QString reportFile_;
+  bool starts_ = true;
+};
+
+}  // namespace relucent

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/output/output_proof.h"
+
+#include <QFile>
+#include <QStandardPaths>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "handover/report_pdf.h"
+#include "image/exr.h"
+#include "pipeline/report.h"
+#include "wizard/output/proof_file.h"
+
+namespace relucent {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Core reads files: what lies within the program is written beside the pictures.
+fs::path fileOf(const QString& picture, const fs::path& folder) {
+  if (!picture.startsWith(':')) return picture.toStdString();
+  QFile resource(picture);
+  require(resource.open(QIODevice::ReadOnly), "the program's own picture is missing");
+  createFolder(folder);
+  fs::path file = folder / "content.png";
+  writeFileAtomically(file, resource.readAll().toStdString());
+  return file;
+}
+
+QImage read(const fs::path& file) {
+  return QImage(QString::fromStdString(file.string()));
+}
+
+/// Of the show that this program installs.
+std::vector<fs::path> showLogs() {
+  fs::path folder = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation).toStdString();
+  return {folder / "show.log", folder / "health.json"};
+}
+
+/// When the light transport was measured.
+std::string measurementOf(const Session& session) {
+  const auto& stored = session.result(Step::acquisition);
+  return stored ? stored->stored : std::string();
+}
+
+std::shared_ptr<Proof> proofOf(ProveResult figures, const fs::path& folder) {
+  auto proof = std::make_shared<Proof>();
+  proof->wanted = read(folder / "target.png");
+  proof->photograph = read(folder / "after.png");
+  proof->deltaE = readExr(folder / "after_delta_e.exr").pixels;
+  proof->taken = QDateTime::currentDateTime();
+  proof->figures = std::move(figures);
+  return proof;
+}
+
+}  // namespace
+
+struct OutputProof::Found {
+  std::shared_ptr<const Proof> proof;
+  std::optional<VerifyResult> drift;
+  QString report;
+};
+
+OutputProof::OutputProof(Session& session, std::function<QString()> who, QObject* parent)
+    : QObject(parent), session_(session), who_(std::move(who)) {
+  connect(&session_, &Session::opened, this, [this] {
+    job_.cancel();
+    recall();
+    found_ = nullptr;
+    drift_.reset();
+    Q_EMIT changed();
+  });
+  connect(&session_, &Session::changed, this, &OutputProof::forgetWhatIsNoProof);
+  connect(&job_, &Job::progressed, this, &OutputProof::changed);
+  connect(&job_, &Job::ended, this, &OutputProof::finished);
+}
+
+/// Somebody photographed it earlier, and nothing has changed since.
+void OutputProof::recall() {
+  proof_ = session_.isOpen() ? loadProof(proofFolder(session_.path())) : nullptr;
+  if (proof_ && !holds(*proof_)) proof_ = nullptr;
+}
+
+bool OutputProof::holds(const Proof& proof) const {
+  return proof.content == session_.settings().content && proof.measured == measurementOf(session_);
+}
+
+void OutputProof::forgetWhatIsNoProof() {
+  if (!proof_ || !session_.isOpen()) return;
+  if (holds(*proof_)) return;
+  proof_ = nullptr;
+  Q_EMIT changed();
+}
+
+void OutputProof::start(Work work, Job::Work job) {
+  work_ = work;
+  session_.setBusy(who_());
+  job_.start(std::move(job));
+  Q_EMIT changed();
+}
+
+void OutputProof::photograph(const QString& picture) {
+  if (!isPossible()) return;
+  found_ = std::make_shared<Found>();
+  start(Work::photograph,
+        [found = found_, work = workOf(session_), picture, content = session_.settings().content,
+         measured = measurementOf(session_)](Progress& progress) {
+          ProveSettings settings;
+          settings.out = proofFolder(work.path);
+          settings.image = fileOf(picture, settings.out);
+          settings.method = content.method;
+          settings.target = targetOf(content);
+          Progress opening = progress.part(0.2, tr("Opening the devices").toStdString());
+          Rig& rig = work.devices->open(opening);
+          Progress proving = progress.part(0.8, tr("Taking the verification photograph").toStdString());
+          auto proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
+          proof->content = content;
+          proof->measured = measured;
+          saveProof(*proof, settings.out);
+          found->proof = proof;
+        });
+}
+
+void OutputProof::checkDrift() {
+  if (!isPossible() || !mayFlash()) return;
+  found_ = std::make_shared<Found>();
+  start(Work::drift, [found = found_, work = workOf(session_)](Progress& progress) {
+    Progress opening = progress.part(0.3, tr("Opening the devices").toStdString());
+    Rig& rig = work.devices->open(opening);
+    Progress verifying = progress.part(0.7, tr("Checking for drift").toStdString());
+    found->drift = verifyCalibration(work.path, {}, rig, verifying);
+    found->drift->found.residual.clear();  // large, and not shown
+  });
+}
+
+void OutputProof::report(const QString& picture) {
+  if (!isPossible()) return;
+  found_ = std::make_shared<Found>();
+  start(Work::report, [found = found_, path = session_.path(), cache = session_.cache(), picture,
+                       logs = showLogs()](Progress& progress) {
+    ReportSettings settings;
+    settings.out = path / "report.html";
+    settings.images = {fileOf(picture, proofFolder(path))};
+    settings.bundle = path / "support.zip";
+    settings.attachments = logs;
+    settings.evaluate = false;  // what was measured, not what a simulation knows
+    Progress writing = progress.part(1.0, tr("Writing the report").toStdString());
+    WrittenFiles written = relucent::report(path, settings, cache, writing);
+    found->report = QString::fromStdString(written.files.front().string());
+    writeReportPdf(QString::fromStdString(readFile(settings.out)),
+                   QString::fromStdString((path / "report.pdf").string()));
+  });
+}
+
+void OutputProof::finished() {
+  std::shared_ptr<Found> found = std::exchange(found_, nullptr);
+  if (session_.busy() == who_()) session_.setBusy({});
+  bool done = job_.state() == Job::State::done && found;
+  if (done && found->proof) proof_ = found->proof;
+  if (done && found->drift) drift_ = std::move(found->drift);
+  Q_EMIT changed();
+  Q_EMIT ended(work_);
+  if (done && !found->report.isEmpty()) Q_EMIT reported(found->report);
+  if (job_.state() == Job::State::failed) Q_EMIT failed(job_.failure());
+}
+
+}  // namespace relucent

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QDateTime>
+#include <QImage>
+#include <functional>
+
+#include "jobs/job.h"
+#include "pipeline/prove.h"
+#include "pipeline/verify.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+/// What a verification photograph came to.
+struct Proof {
+  ProveResult figures;
+  QImage wanted, photograph;  // as somebody sees them who is used to the content's white
+  Image deltaE;               // CIEDE2000 of every pixel; NaN outside the content
+  QDateTime taken;
+  /// What it was taken of: with other content or another measurement it proves nothing.
+  ContentSettings content;
+  std::string measured;
+
+  /// Within twice of what was predicted: nothing has moved.
+  bool isAsPredicted() const { return figures.after.measured.deltaE <= 2.0 * figures.after.predicted.deltaE; }
+};
+
+/// What can be proved of a venue: by a photograph of the content, by photographs of the test patterns, and on
+/// paper. One at a time, on another thread.
+class OutputProof : public QObject {
+  Q_OBJECT
+
+ public:
+  enum class Work { none, photograph, drift, report };
+
+  /// `who`: the page that the devices are used by, as it is called in the language of the moment.
+  OutputProof(Session& session, std::function<QString()> who, QObject* parent = nullptr);
+  ~OutputProof() override { job_.cancel(); }
+
+  Work work() const { return job_.isRunning() ? work_ : Work::none; }
+  QString stage() const { return job_.stage(); }
+  double fraction() const { return job_.fraction(); }
+  /// Devices and light transport are free.
+  bool isPossible() const { return session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty(); }
+  /// A dozen patterns one after the other: people must know.
+  bool mayFlash() const { return session_.mayMeasure(); }
+
+  const std::shared_ptr<const Proof>& proof() const { return proof_; }
+  const std::optional<VerifyResult>& drift() const { return drift_; }
+
+  /// `picture`: a file or resource.
+  void photograph(const QString& picture);
+  void checkDrift();
+  /// Written into the calibration's folder as report.html and report.pdf, and support.zip for whoever helps;
+  /// reported() names the first.
+  void report(const QString& picture);
+  void cancel() { job_.cancel(); }
+
+ Q_SIGNALS:
+  void changed();
+  /// In any way, before failed() or reported().
+  void ended(relucent::OutputProof::Work work);
+  void failed(const relucent::Failure& failure);
+  void reported(const QString& file);
+
+ private:
+  void start(Work work, Job::Work job);
+  void finished();
+  void recall();
+  bool holds(const Proof& proof) const;
+  void forgetWhatIsNoProof();
+
+  Session& session_;
+  Job job_;
+  Work work_ = Work::none;
+  std::function<QString()> who_;
+  std::shared_ptr<const Proof> proof_;
+  std::optional<VerifyResult> drift_;
+  struct Found;
+  std::shared_ptr<Found> found_;  // by the job
+};
+
+}  // namespace relucent

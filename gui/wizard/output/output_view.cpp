@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QComboBox>
+#include <QDropEvent>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMimeData>
+#include <QShortcut>
+#include <cmath>
+
+#include "theme/controls.h"
+#include "theme/readout.h"
+#include "theme/theme.h"
+#include "views/image_view.h"
+#include "views/line_chart.h"
+#include "views/number_text.h"
+#include "wizard/devices/device_selector.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/output/output_inspector.h"
+#include "wizard/output/output_page.h"
+#include "wizard/output/playlist_view.h"
+
+namespace relucent {
+namespace {
+
+constexpr double worstDeltaE = 12.0;  // of the map
+constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
+
+/// Three figures, and the time of every frame in the last minute.
+class PlaybackCard : public Card {
+ public:
+  explicit PlaybackCard(OutputPage& page) : Card(OutputPage::tr("Playback")), page_(page) {
+    auto* row = new QHBoxLayout;
+    row->setSpacing(space::gap);
+    for (auto [readout, what] :
+         {std::pair(&rate_, OutputPage::tr("frames a second")),
+          std::pair(&time_, OutputPage::tr("frame time")), std::pair(&late_, OutputPage::tr("frames late"))})
+      row->addWidget(*readout = new Readout(what));
+    row->addStretch(1);
+    body()->addLayout(row);
+    rate_->setObjectName("frame-rate");
+    chart_ = new LineChart({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
+                           {0.0, 20.0, false, OutputPage::tr("Frame time, ms")});
+    chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
+    body()->addWidget(chart_, 1);
+    connect(&page_, &OutputPage::changed, this, &PlaybackCard::refresh);
+    refresh();
+  }
+
+ private:
+  void refresh() {
+    PlayerStatistics s = page_.projection().statistics();
+    bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 0.0;
+    QString none = QString::fromUtf8("–");
+    rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);
+    time_->setValue(open && s.frameSeconds > 0.0
+                        ? OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.frameSeconds, 1))
+                        : none);
+    // A picture that stands is not late for anything.
+    late_->setValue(open && moves ? countText(s.late) : none, moves && s.late > 0);
+    setSubtitle(!open   ? OutputPage::tr("closed")
+                : moves ? OutputPage::tr("on %1").arg(page_.projection().engineName())
+                        : OutputPage::tr("still picture, on %1").arg(page_.projection().engineName()));
+    Curve curve{OutputPage::tr("Frame time"), accentColour, Marker::none, {}, {}};
+    const std::deque<double>& times = page_.projection().frameTimes();
+    double highest = 20.0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      curve.line.emplace_back(-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]);
+      highest = std::max(highest, times[i]);
+    }
+    chart_->setAxes({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
+                    {0.0, 1.1 * highest, false, OutputPage::tr("Frame time, ms")});
+    chart_->setCurves({curve});
+  }
+  OutputPage& page_;
+  Readout *rate_, *time_, *late_;
+  LineChart* chart_;
+};
+
+/// What the projector shows, small.
+class MirrorView : public ImageView {
+ public:
+  explicit MirrorView(OutputProjection& projection) : projection_(projection) {
+    connect(&projection_, &OutputProjection::mirrored, this, [this] { setPicture(projection_.mirror()); });
+  }
+
+ protected:
+  // Nothing is scaled for a view that nobody sees.
+  void showEvent(QShowEvent* event) override {
+    ImageView::showEvent(event);
+    projection_.watch(size() * devicePixelRatioF());
+  }
+  void resizeEvent(QResizeEvent* event) override {
+    ImageView::resizeEvent(event);
+    if (isVisible()) projection_.watch(size() * devicePixelRatioF());
+  }
+  void hideEvent(QHideEvent* event) override {
+    ImageView::hideEvent(event);
+    projection_.watch({});
+  }
+
+ private:
+  OutputProjection& projection_;
+};
+
+/// Whether the widget has a use of its own for letters.
+bool takesLetters(const QWidget* widget) {
+  return qobject_cast<const QLineEdit*>(widget) != nullptr ||
+         qobject_cast<const QAbstractItemView*>(widget) != nullptr ||
+         qobject_cast<const QAbstractSpinBox*>(widget) != nullptr ||
+         qobject_cast<const QComboBox*>(widget) != nullptr;
+}
+
+/// Pictures beside each other. A held shows the original wherever on the page the focus is; while it has the
+/// focus itself: space freezes, B blackens.
+class OutputStage : public QWidget {
+ public:
+  explicit OutputStage(OutputPage& page) : page_(page) {
+    setObjectName("output-stage");
+    setAcceptDrops(true);
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setSpacing(space::gap);
+    grid->addWidget(projectorCard(), 0, 0);
+    grid->addWidget(photographCard(), 0, 1);
+    grid->addWidget(differenceCard(), 1, 0);
+    grid->addWidget(new PlaybackCard(page_), 1, 1);
+    for (int i : {0, 1}) {
+      grid->setColumnStretch(i, 1);
+      grid->setRowStretch(i, 1);
+    }
+    connect(new QShortcut(QKeySequence("Ctrl+Shift+V"), this), &QShortcut::activated, &page_,
+            &OutputPage::verify);
+    connect(&page_, &OutputPage::changed, this, [this] { refresh(); });
+    qApp->installEventFilter(this);
+    refresh();
+  }
+
+ protected:
+  /// Comparing is told of in the action bar: it must not depend on what was clicked last.
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if ((event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) || !isVisible())
+      return false;
+    auto* key = static_cast<QKeyEvent*>(event);
+    auto* widget = qobject_cast<QWidget*>(watched);
+    if (key->key() != Qt::Key_A || key->modifiers() != Qt::NoModifier || widget == nullptr ||
+        widget->window() != window() || takesLetters(QApplication::focusWidget()))
+      return false;
+    if (!key->isAutoRepeat()) page_.setCompensated(event->type() == QEvent::KeyRelease);
+    return true;
+  }
+  void keyPressEvent(QKeyEvent* event) override {
+    if (event->isAutoRepeat()) return;
+    switch (event->key()) {
+      case Qt::Key_Space:
+        return page_.setFrozen(!page_.isFrozen());
+      case Qt::Key_B:
+        return page_.setBlack(!page_.isBlack());
+      default:
+        QWidget::keyPressEvent(event);
+    }
+  }
+  void dragEnterEvent(QDragEnterEvent* event) override {
+    if (!draggedFiles(*event->mimeData()).isEmpty()) event->acceptProposedAction();
+  }
+  void dropEvent(QDropEvent* event) override { page_.addFiles(draggedFiles(*event->mimeData())); }
+
+ private:
+  Card* projectorCard() {
+    projector_ = new Card(OutputPage::tr("On the projector now"));
+    compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
+    compare_->setObjectName("compare");
+    projector_->addAction(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
+    projector_->addAction(compare_);
+    output_ = new MirrorView(page_.projection());
+    output_->setObjectName("output-view");
+    output_->setAccessibleName(OutputPage::tr("What the projector shows"));
+    output_->setAccessibleDescription(
+        OutputPage::tr("Hold A for the original, space freezes, B makes it black."));
+    output_->setEmptyText(OutputPage::tr("The output is closed. Nothing is projected."));
+    projector_->body()->addWidget(output_, 1);
+    connect(compare_, &Segmented::chosen, &page_, [this](int index) { page_.setCompensated(index == 0); });
+    return projector_;
+  }
+  Card* photographCard() {
+    photograph_ = new Card(OutputPage::tr("Photograph of the surface"));
+    photo_ = new ImageView;
+    photo_->setObjectName("photograph-view");
+    photo_->setLink(&link_);
+    photo_->setAccessibleName(
+        OutputPage::tr("What was wanted at the left of the divider, the photograph at the right"));
+    photo_->setEmptyText(OutputPage::tr("No verification photograph has been taken."));
+    photograph_->body()->addWidget(photo_, 1);
+    return photograph_;
+  }
+  Card* differenceCard() {
+    auto* card = new Card(OutputPage::tr("Photograph against wanted"));
+    card->setSubtitle(OutputPage::tr("colour difference"));
+    difference_ = new ImageView;
+    difference_->setObjectName("proof-difference");
+    difference_->setLink(&link_);
+    difference_->setAccessibleName(
+        OutputPage::tr("Colour difference between the photograph and what was wanted"));
+    difference_->setEmptyText(OutputPage::tr("A verification photograph shows here what is left to see."));
+    difference_->setScale({ColourMap::cividis, 0.0, worstDeltaE, false}, QString::fromUtf8("ΔE₀₀"), false);
+    card->body()->addWidget(difference_, 1);
+    return card;
+  }
+  void refresh() {
+    compare_->setEnabled(page_.isOpen());
+    compare_->setCurrent(page_.isCompensated() ? 0 : 1);
+    output_->setCaption(figures());
+    const std::shared_ptr<const Proof>& proof = page_.proof().proof();
+    if (proof == shown_) return;
+    shown_ = proof;
+    showProof();
+  }
+  /// Over the projector's picture: how it goes.
+  QString figures() const {
+    PlayerStatistics s = page_.projection().statistics();
+    if (!page_.isOpen() || s.frames == 0) return {};
+    QString clipped = percentText(s.clipped);
+    if (!(s.framesPerSecond > 0.0))
+      return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);
+    return OutputPage::tr("%1 fps, %2 ms, %3 of the pixels at their limit")
+        .arg(decimalText(s.framesPerSecond, 1), decimalText(1000.0 * s.frameSeconds, 1), clipped);
+  }
+  void showProof() {
+    if (!shown_) {
+      photo_->setPicture({});
+      photo_->setCompared({}, {}, {});
+      difference_->setPicture({});
+      return photograph_->setSubtitle({});
+    }
+    photograph_->setSubtitle(
+        OutputPage::tr("taken %1").arg(QLocale().toString(shown_->taken.time(), QLocale::ShortFormat)));
+    photo_->setPicture(shown_->wanted);
+    photo_->setCompared(shown_->photograph, OutputPage::tr("Wanted"), OutputPage::tr("Photograph"));
+    ColourScale scale{ColourMap::cividis, 0.0, worstDeltaE, false};
+    difference_->setPicture(mapped(shown_->deltaE.data(), shown_->deltaE.size(), scale));
+    difference_->setReadout([proof = shown_](QPoint pixel) {
+      const float difference = proof->deltaE.at(pixel.x(), pixel.y(), 0);
+      return isolated(QString::fromUtf8("%1: ΔE %2")
+                          .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
+    });
+  }
+
+  OutputPage& page_;
+  ViewLink link_;
+  Card *projector_, *photograph_;
+  Segmented* compare_;
+  ImageView *output_, *photo_, *difference_;
+  std::shared_ptr<const Proof> shown_;
+};
+
+}  // namespace
+
+PageView viewOf(OutputPage& page) {
+  return {new OutputStage(page), outputInspector(page)};
+}
+
+}  // namespace relucent

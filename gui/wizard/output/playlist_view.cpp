@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/output/playlist_view.h"
+
+#include <QCheckBox>
+#include <QDropEvent>
+#include <QFileDialog>
+#include <QKeyEvent>
+#include <QMimeData>
+#include <QSlider>
+#include <QUrl>
+#include <cmath>
+
+#include "jobs/core_sentences.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/number_text.h"
+#include "wizard/output/output_page.h"
+
+namespace relucent {
+
+QStringList draggedFiles(const QMimeData& data) {
+  QStringList files;
+  for (const QUrl& url : data.urls())
+    if (url.isLocalFile()) files.append(url.toLocalFile());
+  return files;
+}
+
+PlaylistView::PlaylistView(OutputPage& page, QWidget* parent) : QListWidget(parent), page_(page) {
+  setObjectName("playlist");
+  setAccessibleName(OutputPage::tr("Playlist"));
+  setAccessibleDescription(
+      OutputPage::tr("Delete removes an item, Ctrl+Up and Ctrl+Down move it. Files can be dropped here."));
+  setDragDropMode(DragDrop);
+  setDefaultDropAction(Qt::MoveAction);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setTextElideMode(Qt::ElideMiddle);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  connect(&page_, &OutputPage::changed, this, &PlaylistView::refresh);
+  connect(&Theme::instance(), &Theme::changed, this, [this] {
+    clear();
+    refresh();
+  });
+  refresh();
+}
+
+QSize PlaylistView::sizeHint() const {
+  constexpr int least = 2, most = 5, row = 32;
+  return {200, row * std::clamp(count(), least, most) + 4};
+}
+
+void PlaylistView::refresh() {
+  const QList<PlaylistItem>& items = page_.playlist().settings().items;
+  int row = currentRow();
+  if (count() != items.size()) updateGeometry();
+  while (count() > items.size()) delete takeItem(count() - 1);
+  while (count() < items.size()) addItem(new QListWidgetItem);
+  qsizetype playing = page_.projection().playing();
+  for (int i = 0; i < count(); ++i) {
+    QString name = OutputPlaylist::nameOf(items[i]);
+    QListWidgetItem* entry = item(i);
+    bool plays = i == playing, still = OutputPlaylist::isStill(items[i]);
+    // Painting an icon is not for nothing: only where it changes.
+    int kind = plays ? 2 : still ? 1 : 0;
+    if (entry->text() == name && entry->data(Qt::UserRole) == kind) continue;
+    entry->setText(name);
+    entry->setData(Qt::UserRole, kind);
+    entry->setToolTip(items[i].path);
+    entry->setIcon(plays ? iconOf(Icon::play, colours().accent)
+                         : iconOf(still ? Icon::picture : Icon::film, colours().secondary));
+    entry->setData(Qt::AccessibleTextRole, plays ? OutputPage::tr("%1, playing").arg(name) : name);
+    entry->setFont(typeOf(type::body, plays ? QFont::DemiBold : QFont::Normal));
+  }
+  if (count() > 0) setCurrentRow(std::clamp(row, 0, count() - 1));
+}
+
+void PlaylistView::moveRow(int by) {
+  int to = currentRow() + by;
+  if (currentRow() < 0 || to < 0 || to >= count()) return;
+  page_.moveItem(currentRow(), by);
+  setCurrentRow(to);
+}
+
+void PlaylistView::keyPressEvent(QKeyEvent* event) {
+  bool moves = event->modifiers().testFlag(Qt::ControlModifier);
+  if (moves && event->key() == Qt::Key_Up) return moveRow(-1);
+  if (moves && event->key() == Qt::Key_Down) return moveRow(1);
+  if (event->key() == Qt::Key_Delete) return page_.removeItem(currentRow());
+  QListWidget::keyPressEvent(event);
+}
+
+void PlaylistView::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->source() == this || !draggedFiles(*event->mimeData()).isEmpty()) event->acceptProposedAction();
+}
+
+void PlaylistView::dragMoveEvent(QDragMoveEvent* event) {
+  event->acceptProposedAction();
+}
+
+void PlaylistView::dropEvent(QDropEvent* event) {
+  if (event->source() == this) {
+    QModelIndex under = indexAt(event->position().toPoint());
+    int to = under.isValid() ? under.row() : count() - 1;
+    moveRow(to - currentRow());
+    // The row is moved already: nothing is left for the drag to remove.
+    event->setDropAction(Qt::CopyAction);
+    event->accept();
+    return;
+  }
+  page_.addFiles(draggedFiles(*event->mimeData()));
+  event->acceptProposedAction();
+}
+
+QWidget* playlistPart(OutputPage& page) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* list = new PlaylistView(page);
+  column->addWidget(list);
+
+  auto* row = new QHBoxLayout;
+  row->setSpacing(space::tight);
+  QPushButton* add = buttonOf(OutputPage::tr("Add"));
+  add->setObjectName("playlist-add");
+  add->setAccessibleName(OutputPage::tr("Add files to the playlist"));
+  row->addWidget(add);
+  QToolButton* up = toolOf(Icon::up, OutputPage::tr("Move up"));
+  QToolButton* down = toolOf(Icon::down, OutputPage::tr("Move down"));
+  QToolButton* remove = toolOf(Icon::remove, OutputPage::tr("Remove from the playlist"));
+  up->setObjectName("playlist-up");
+  down->setObjectName("playlist-down");
+  remove->setObjectName("playlist-remove");
+  for (QToolButton* button : {up, down, remove}) row->addWidget(button);
+  row->addStretch(1);
+  auto* repeat = new QCheckBox(OutputPage::tr("Repeat"));
+  repeat->setObjectName("repeat");
+  row->addWidget(repeat);
+  column->addLayout(row);
+  auto* fadeRow = new ValueRow(OutputPage::tr("Cross-fade"));
+  auto* fade = new QSlider(Qt::Horizontal);
+  fade->setObjectName("fade");
+  fade->setAccessibleName(OutputPage::tr("Cross-fade, tenths of a second"));
+  fade->setRange(0, 50);
+  column->addWidget(fadeRow);
+  column->addWidget(fade);
+  QLabel* skipped = labelOf({}, "amber");
+  skipped->setObjectName("skipped");
+  column->addWidget(skipped);
+
+  QObject::connect(add, &QPushButton::clicked, &page, [&page, part] {
+    page.addFiles(QFileDialog::getOpenFileNames(part, OutputPage::tr("Add pictures or films")));
+  });
+  auto move = [&page, list](int by) {
+    int to = list->currentRow() + by;
+    page.moveItem(list->currentRow(), by);
+    if (to >= 0 && to < list->count()) list->setCurrentRow(to);
+  };
+  QObject::connect(up, &QToolButton::clicked, &page, [move] { move(-1); });
+  QObject::connect(down, &QToolButton::clicked, &page, [move] { move(1); });
+  QObject::connect(remove, &QToolButton::clicked, &page,
+                   [&page, list] { page.removeItem(list->currentRow()); });
+  QObject::connect(repeat, &QCheckBox::toggled, &page, &OutputPage::setRepeat);
+  QObject::connect(fade, &QSlider::valueChanged, &page, [&page](int tenths) { page.setFade(tenths / 10.0); });
+  auto refresh = [=, &page] {
+    const PlaylistSettings& settings = page.playlist().settings();
+    QSignalBlocker quietRepeat(repeat), quietFade(fade);
+    repeat->setChecked(settings.loop);
+    fade->setValue(static_cast<int>(std::lround(10.0 * settings.fadeSeconds)));
+    fadeRow->setValue(OutputPage::tr("%1 s").arg(numberText(settings.fadeSeconds)));
+    bool several = settings.items.size() > 1;
+    for (QToolButton* button : {up, down}) button->setEnabled(several);
+    for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow}) widget->setVisible(several);
+    remove->setEnabled(!settings.items.isEmpty());
+    QStringList wrong = page.projection().skipped();
+    skipped->setVisible(!wrong.isEmpty());
+    if (!wrong.isEmpty())
+      skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.last().toStdString())));
+  };
+  QObject::connect(&page, &OutputPage::changed, part, refresh);
+  refresh();
+  return part;
+}
+
+}  // namespace relucent

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "wizard/output/output_proof.h"
+
+namespace relucent {
+
+/// The folder of a calibration's verification photograph.
+std::filesystem::path proofFolder(const std::filesystem::path& calibration);
+
+/// Keeps figures, time and what they were taken of beside the pictures, as proof.json.  Throws: Error{disk}.
+void saveProof(const Proof& proof, const std::filesystem::path& folder);
+
+/// The verification photograph that lies in the folder; nullptr where there is none that can be read.
+std::shared_ptr<const Proof> loadProof(const std::filesystem::path& folder);
+
+}  // namespace relucent

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/preview/preview_inspector.h"
+
+#include <QFileDialog>
+#include <QSlider>
+#include <cmath>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/number_text.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/preview/preview_page.h"
+
+namespace relucent {
+
+QWidget* previewInspector(PreviewPage& page) {
+  QVBoxLayout* column = nullptr;
+  QWidget* card = inspectorCard(column);
+  column->addWidget(labelOf(PreviewPage::tr("Content"), "section"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(new IconLabel(Icon::picture, secondaryColour, 22));
+  QLabel* name = labelOf({}, "strong");
+  row->addWidget(name, 1);
+  QPushButton* change = buttonOf(PreviewPage::tr("Change"));
+  row->addWidget(change);
+  column->addLayout(row);
+  auto* fit = new Segmented({PreviewPage::tr("Whole"), PreviewPage::tr("Fill"), PreviewPage::tr("Stretch")});
+  fit->setObjectName("fit");
+  column->addWidget(fit);
+  QPushButton* automatic = buttonOf(PreviewPage::tr("Place automatically"));
+  automatic->setObjectName("place-automatically");
+  automatic->setToolTip(PreviewPage::tr("In the largest upright rectangle that can be reached"));
+  column->addWidget(automatic);
+  auto* problem = new Note(Note::Kind::amber);
+  problem->setObjectName("place-problem");
+  column->addWidget(problem);
+  column->addWidget(lineOf());
+  column->addWidget(labelOf(PreviewPage::tr("Light"), "section"));
+  auto* bright = new ValueRow(PreviewPage::tr("May stay too dark"));
+  auto* brightness = new QSlider(Qt::Horizontal);
+  brightness->setRange(0, 60);
+  brightness->setObjectName("brightness");
+  brightness->setAccessibleName(PreviewPage::tr("Share of the content that may stay too dark, percent"));
+  column->addWidget(bright);
+  column->addWidget(brightness);
+  column->addWidget(labelOf(
+      PreviewPage::tr("The larger this share, the brighter the picture, and the more of it stays too dark."),
+      "note"));
+  auto* black = new ValueRow(PreviewPage::tr("Lift of the blacks"));
+  auto* lift = new QSlider(Qt::Horizontal);
+  lift->setRange(0, 20);
+  lift->setAccessibleName(PreviewPage::tr("Lift of the blacks, percent"));
+  column->addWidget(black);
+  column->addWidget(lift);
+  column->addWidget(lineOf());
+  column->addWidget(labelOf(PreviewPage::tr("Reach"), "section"));
+  auto* reach = new ValueRow(PreviewPage::tr("Can be reached"));
+  auto* dark = new ValueRow(PreviewPage::tr("Too dark to reach"));
+  auto* never = new ValueRow(PreviewPage::tr("Never black enough"));
+  auto* error = new ValueRow(PreviewPage::tr("Colour error"));
+  for (ValueRow* value : {reach, dark, never, error}) column->addWidget(value);
+  auto* shadow = new Note(Note::Kind::information);
+  column->addWidget(shadow);
+  column->addStretch(1);
+
+  QObject::connect(change, &QPushButton::clicked, &page, [&page, card] {
+    QString file =
+        QFileDialog::getOpenFileName(card, PreviewPage::tr("Choose a picture"), {},
+                                     PreviewPage::tr("Pictures (*.png *.jpg *.jpeg *.tif *.tiff *.exr)"));
+    if (!file.isEmpty()) page.choosePicture(file);
+  });
+  QObject::connect(automatic, &QPushButton::clicked, &page, &PreviewPage::placeAutomatically);
+  auto apply = [&page](const QString& what, auto edit) {
+    ContentSettings settings = page.settings();
+    edit(settings);
+    page.setSettings(settings, what);
+  };
+  static constexpr std::array fits{Fit::fit, Fit::cover, Fit::fill};
+  QObject::connect(fit, &Segmented::chosen, &page, [apply](int index) {
+    apply(PreviewPage::tr("Fit"),
+          [index](ContentSettings& s) { s.fit = fits[static_cast<std::size_t>(index)]; });
+  });
+  QObject::connect(brightness, &QSlider::valueChanged, &page, [apply](int value) {
+    apply(PreviewPage::tr("Brightness"), [value](ContentSettings& s) { s.reachablePercentile = value; });
+  });
+  QObject::connect(lift, &QSlider::valueChanged, &page, [apply](int value) {
+    apply(PreviewPage::tr("Lift of the blacks"),
+          [value](ContentSettings& s) { s.blackLift = value / 100.0; });
+  });
+  auto refresh = [=, &page] {
+    const ContentSettings& settings = page.settings();
+    name->setText(page.pictureName());
+    fit->setCurrent(static_cast<int>(std::find(fits.begin(), fits.end(), settings.fit) - fits.begin()));
+    QSignalBlocker quietBrightness(brightness), quietLift(lift);
+    brightness->setValue(static_cast<int>(settings.reachablePercentile));
+    lift->setValue(static_cast<int>(std::lround(100.0 * settings.blackLift)));
+    bright->setValue(percentText(settings.reachablePercentile / 100.0));
+    black->setValue(percentText(settings.blackLift));
+    automatic->setEnabled(settings.corners.has_value());
+    problem->setVisible(!page.problem().isEmpty());
+    problem->setText(page.problem());
+    constexpr double worthSaying = 0.01;
+    shadow->setVisible(page.preview() && page.preview()->unlit > worthSaying);
+    if (page.projectors() == 1)
+      shadow->setText(PreviewPage::tr("Part of the picture gets no light from this projector."),
+                      PreviewPage::tr("A second could fill it."));
+    else
+      shadow->setText(PreviewPage::tr("Part of the picture gets no light from any projector."),
+                      PreviewPage::tr("Another one could fill it."));
+    if (const auto& preview = page.preview()) {
+      reach->setValue(percentText(preview->reachableShare), preview->reachableShare > 0.8 ? "good" : "amber");
+      dark->setValue(percentText(preview->tooDark));
+      never->setValue(percentText(preview->tooBright));
+      error->setValue(isolated(QString::fromUtf8("ΔE %1").arg(decimalText(preview->deltaEMean, 1))));
+    }
+  };
+  QObject::connect(&page, &PreviewPage::changed, card, refresh);
+  refresh();
+  return card;
+}
+
+}  // namespace relucent

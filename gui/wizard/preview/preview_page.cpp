@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/preview/preview_page.h"
+
+#include <QFileInfo>
+
+#include "output/own_picture.h"
+#include "pipeline/measuring.h"
+#include "pipeline/stages.h"
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+/// What is compared; `optimum` last, it takes longest.
+constexpr std::array comparedMethods{Method::none, Method::mix, Method::clusters, Method::refined,
+                                     Method::optimum};
+
+}  // namespace
+
+PreviewPage::PreviewPage(Session& session, QObject* parent)
+    : PageModel(parent),
+      session_(session),
+      computing_(
+          [this](std::shared_ptr<const ContentPreview> preview) {
+            preview_ = std::move(preview);
+            problem_.clear();
+            adoptContent(preview_->picture, preview_->content);
+            if (table_.empty()) compareNext();
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) { refuse(failure); }),
+      comparing_(
+          [this](std::pair<int, MethodPreview> answer) {
+            if (answer.first == round_) table_.push_back(answer.second);
+            compareNext();
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+          }),
+      reading_(
+          [this](std::pair<std::string, std::shared_ptr<const Image>> read) {
+            adoptContent(read.first, read.second);
+            ContentSettings after = settings_;
+            after.picture = read.first;
+            setSettings(after, tr("Picture"));
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("The picture of before stays."), {}, {}});
+          }) {
+  connect(&session_, &Session::opened, this, [this] {
+    finish();
+    settings_ = session_.settings().content;
+    engine_ = nullptr;
+    preview_ = nullptr;
+    content_ = nullptr;
+    problem_.clear();
+    preparedFor_.clear();
+    table_.clear();
+    looked_ = false;
+  });
+  connect(&session_, &Session::changed, this, [this] {
+    if (looked_) prepare();
+    Q_EMIT changed();
+  });
+  connect(&job_, &Job::progressed, this, &PreviewPage::changed);
+  connect(&job_, &Job::ended, this, &PreviewPage::prepared);
+}
+
+void PreviewPage::enter() {
+  looked_ = true;
+  // What failed is tried again when somebody comes back to it, not before.
+  if (job_.state() == Job::State::failed) preparedFor_.clear();
+  prepare();
+}
+
+void PreviewPage::prepare() {
+  if (!session_.isOpen() || job_.isRunning() || !session_.busy().isEmpty()) return;
+  const ThresholdSettings& cut = session_.settings().threshold;
+  std::string wanted = fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept,
+                                   session_.result(Step::acquisition)->stored);
+  if (wanted == preparedFor_) return;
+  preparedFor_ = wanted;
+  engine_ = nullptr;
+  made_ = std::make_shared<PreviewEngine>();
+  session_.setBusy(name());
+  job_.start([made = made_, path = session_.path()](Progress& progress) {
+    {
+      CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+      Progress reading = progress.part(0.2, tr("Reading the light transport").toStdString());
+      MeasuredVenue venue = loadMeasuredVenue(folder, reading);
+      Progress inverting = progress.part(0.5, tr("Inverting the light transport").toStdString());
+      measureInverse(folder, venue, inverting);
+    }
+    CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+    Progress loading = progress.part(0.3, tr("Preparing the preview").toStdString());
+    made->measured = loadCalibration(folder, loading);
+    CompensatorSettings settings;
+    settings.clustering = settingsOf(folder).clustering;
+    made->compensator.emplace(made->measured.venue, made->measured.inverse, settings);
+  });
+  Q_EMIT changed();
+}
+
+void PreviewPage::prepared() {
+  if (session_.busy() == name()) session_.setBusy({});
+  if (job_.state() == Job::State::done) {
+    engine_ = std::exchange(made_, nullptr);
+    session_.reload();
+    compute();
+  } else {
+    if (job_.state() == Job::State::cancelled) preparedFor_.clear();
+    if (job_.state() == Job::State::failed)
+      Q_EMIT failed({job_.failure(), tr("What is measured is safe."), {}, {}});
+  }
+  Q_EMIT changed();
+}
+
+QString PreviewPage::pictureName() const {
+  return settings_.picture.empty() ? tr("Demonstration picture")
+                                   : QFileInfo(QString::fromStdString(settings_.picture)).fileName();
+}
+
+void PreviewPage::choosePicture(const QString& file) {
+  reading_.ask([file]() -> std::pair<std::string, std::shared_ptr<const Image>> {
+    return {file.toStdString(), std::make_shared<Image>(linearContentOf(file))};
+  });
+}
+
+void PreviewPage::adoptContent(const std::string& picture, std::shared_ptr<const Image> content) {
+  if (contentOf_ != picture || !content_) table_.clear();
+  contentOf_ = picture;
+  content_ = std::move(content);
+}
+
+void PreviewPage::setSettings(const ContentSettings& settings, const QString& what) {
+  changeUndoably(what, settings_, settings, [this](const ContentSettings& wanted) { adopt(wanted); });
+}
+
+void PreviewPage::adopt(const ContentSettings& settings) {
+  // The methods are compared with the content in one place under one light.
+  ContentSettings sameMethod = settings;
+  sameMethod.method = settings_.method;
+  if (sameMethod != settings_) table_.clear();
+  settings_ = settings;
+  problem_.clear();
+  compute();
+  Q_EMIT changed();
+}
+
+void PreviewPage::setCorners(const Corners& corners) {
+  if (!isConvex(corners)) {
+    problem_ = tr("The corners cross over. Drag them apart.");
+    Q_EMIT changed();
+    return;
+  }
+  ContentSettings after = settings_;
+  after.corners = corners;
+  setSettings(after, tr("Corners"));
+}
+
+void PreviewPage::placeAutomatically() {
+  ContentSettings after = settings_;
+  after.corners.reset();
+  setSettings(after, tr("Automatic place"));
+}
+
+std::optional<Corners> PreviewPage::corners() const {
+  if (settings_.corners) return settings_.corners;
+  return preview_ ? std::optional(preview_->corners) : std::nullopt;
+}
+
+/// A place where nothing can be shown is no failure: the sentence stands beside the picture.
+void PreviewPage::refuse(const Failure& failure) {
+  if (failure.kind == ErrorKind::input)
+    problem_ = failure.what + ' ' + failure.advice;
+  else
+    Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+  Q_EMIT changed();
+}
+
+void PreviewPage::compute() {
+  if (!engine_) return;
+  ++round_;
+  computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
+                  settings = settings_] { return previewOf(*engine, settings, known); });
+  Q_EMIT changed();
+}
+
+/// The table fills row by row while the pictures are there already.
+void PreviewPage::compareNext() {
+  if (!engine_ || !content_ || comparing_.isBusy() || table_.size() >= comparedMethods.size()) return;
+  Method method = comparedMethods[table_.size()];
+  comparing_.ask([engine = engine_, content = content_, settings = settings_, method, round = round_] {
+    return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
+  });
+}
+
+StepStatus PreviewPage::status() const {
+  if (job_.isRunning())
+    return {session_.progress(Step::content) == StepProgress::open ? StepState::open : StepState::done,
+            tr("Preparing")};
+  switch (session_.progress(Step::content)) {
+    case StepProgress::done:
+      return {
+          StepState::done,
+          tr("%1 in reach").arg(percentText(session_.result(Step::content)->values.value("reachable", 0.0)))};
+    case StepProgress::stale:
+      return {StepState::outOfDate, tr("Out of date")};
+    case StepProgress::open:
+      break;
+  }
+  return {};
+}
+
+QString PreviewPage::hint() const {
+  if (job_.isRunning()) return job_.stage();
+  if (!engine_)
+    return session_.busy().isEmpty() ? tr("The preview is not prepared.")
+                                     : tr("The devices are in use at %1.").arg(session_.busy());
+  if (!problem_.isEmpty()) return problem_;
+  if (isComputing()) return tr("Predicting");
+  if (!preview_) return {};
+  return tr("Predicted from the measurement. Nothing is projected yet.");
+}
+
+Command PreviewPage::primary() const {
+  auto* self = const_cast<PreviewPage*>(this);
+  return {tr("Go to output"), Icon::next, preview_ != nullptr, {}, [self] { self->accept(); }};
+}
+
+std::optional<double> PreviewPage::progress() const {
+  return job_.isRunning() ? std::optional(job_.fraction()) : std::nullopt;
+}
+
+void PreviewPage::accept() {
+  try {
+    CalibrateSettings settings = session_.settings();
+    settings.content = settings_;
+    session_.changeSettings(settings);
+    session_.decide(Step::content,
+                    Json{{"reachable", preview_->reachableShare}, {"delta_e", preview_->deltaEMean}});
+    Q_EMIT nextWanted();
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});
+  }
+}
+
+}  // namespace relucent

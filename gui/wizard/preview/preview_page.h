@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "jobs/job.h"
+#include "jobs/latest.h"
+#include "wizard/frame/page_model.h"
+#include "wizard/preview/content_preview.h"
+#include "wizard/session/session.h"
+
+namespace relucent {
+
+/// Step 7: content in its place, before it is projected. It lies in the first camera's view, and what all
+/// projectors give together is shown: there is no device to choose.
+class PreviewPage : public PageModel {
+  Q_OBJECT
+
+ public:
+  explicit PreviewPage(Session& session, QObject* parent = nullptr);
+  ~PreviewPage() override { finish(); }
+
+  QString name() const override { return tr("Preview"); }
+  QString subtitle() const override {
+    return tr(
+        "Place the content in the camera's view and see what the audience will see before you project it.");
+  }
+  StepStatus status() const override;
+  QString hint() const override;
+  Command primary() const override;
+  std::optional<double> progress() const override;
+  void enter() override;
+  void leave() override { looked_ = false; }
+  void finish() override { job_.cancel(); }
+
+  bool isReady() const { return engine_ != nullptr; }
+  std::size_t projectors() const { return session_.projectors(); }
+  const ContentSettings& settings() const { return settings_; }
+  /// `what`: changed, in the list of what can be undone.
+  void setSettings(const ContentSettings& settings, const QString& what = tr("Content"));
+  /// Where the content lies in the first camera's view. Corners that cross over are refused: problem() says
+  /// so.
+  void setCorners(const Corners& corners);
+  /// In the largest upright rectangle that can be reached.
+  void placeAutomatically();
+  /// The corners as they are, chosen or found; none before the first prediction.
+  std::optional<Corners> corners() const;
+  /// What stands against the last place that was asked for; empty: nothing.
+  const QString& problem() const { return problem_; }
+  /// Read on another thread. Tells failed() if it is no picture; the one before stays.
+  void choosePicture(const QString& file);
+  QString pictureName() const;
+  const std::shared_ptr<const ContentPreview>& preview() const { return preview_; }
+  /// One row a method that has been tried with this content, in the order of the methods.
+  const std::vector<MethodPreview>& table() const { return table_; }
+  bool isComputing() const { return computing_.isBusy(); }
+
+ private:
+  void prepare();
+  void prepared();
+  void adopt(const ContentSettings& settings);
+  void adoptContent(const std::string& picture, std::shared_ptr<const Image> content);
+  void refuse(const Failure& failure);
+  void compute();
+  void compareNext();
+  void accept();
+
+  Session& session_;
+  Job job_;
+  ContentSettings settings_;
+  std::shared_ptr<const Image> content_;
+  std::string contentOf_;  // where it was read
+  QString problem_;
+  std::shared_ptr<PreviewEngine> made_;  // by the job, taken when it ends
+  std::shared_ptr<const PreviewEngine> engine_;
+  std::string preparedFor_;
+  std::shared_ptr<const ContentPreview> preview_;
+  std::vector<MethodPreview> table_;
+  int round_ = 0;  // of comparisons: answers of earlier ones are dropped
+  Latest<std::shared_ptr<const ContentPreview>> computing_;
+  Latest<std::pair<int, MethodPreview>> comparing_;
+  Latest<std::pair<std::string, std::shared_ptr<const Image>>> reading_;
+  bool looked_ = false;  // now
+};
+
+}  // namespace relucent

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <QHeaderView>
+#include <QPainter>
+#include <QTableWidget>
+#include <cmath>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/image_view.h"
+#include "views/number_text.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/preview/corner_view.h"
+#include "wizard/preview/preview_inspector.h"
+#include "wizard/preview/preview_page.h"
+#include "wizard/session/method_name.h"
+
+namespace relucent {
+namespace {
+
+/// Hatches where the content cannot be reached, and its corners. Finer than the picture, so that lines stay
+/// thin.
+QImage hatchesOf(const ContentPreview& preview) {
+  constexpr int fine = 4;
+  Size size = preview.with.size();
+  QImage overlay(size.width * fine, size.height * fine, QImage::Format_ARGB32_Premultiplied);
+  overlay.fill(Qt::transparent);
+  for (int y = 0; y < overlay.height(); ++y) {
+    auto* line = reinterpret_cast<QRgb*>(overlay.scanLine(y));
+    for (int x = 0; x < overlay.width(); ++x) {
+      std::size_t at = indexOf(size, {x / fine, y / fine});
+      if (preview.inside[at] != 0 && preview.reachable[at] == 0 && (x + y) % 8 < 3)
+        line[x] = colours(Look::dark).text.rgb();
+    }
+  }
+  QPainter painter(&overlay);
+  painter.setRenderHint(QPainter::Antialiasing);
+  QPolygonF corners;
+  for (const auto& corner : preview.corners) corners.append(QPointF(corner[0], corner[1]) * fine);
+  painter.setPen(QPen(colours(Look::dark).accent, 3.0));
+  painter.drawPolygon(corners);
+  return overlay;
+}
+
+enum Shown { picture, reachable, difference };
+
+class PreviewStage : public QWidget {
+ public:
+  explicit PreviewStage(PreviewPage& page) : page_(page) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(space::gap);
+    card_ = new Card(PreviewPage::tr("Audience view"));
+    card_->setSubtitle(PreviewPage::tr("predicted from the measurement"));
+    kind_ = new Segmented(
+        {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference")});
+    card_->addAction(kind_);
+    views_ = {place_ = new CornerView, new ImageView, new ImageView};
+    for (ImageView* view : views_) {
+      view->setLink(&link_);
+      view->setEmptyText(PreviewPage::tr("Preparing the preview"));
+      card_->body()->addWidget(view, 1);
+      view->hide();
+    }
+    views_[picture]->show();
+    views_[picture]->setObjectName("preview-view");
+    views_[picture]->setAccessibleName(
+        PreviewPage::tr("What the audience will see, uncorrected at the left of the divider and "
+                        "corrected at the right"));
+    views_[reachable]->setAccessibleName(
+        PreviewPage::tr("The brightest light that can be reached; hatched where it is too little"));
+    views_[difference]->setAccessibleName(
+        PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
+    connect(place_, &CornerView::moved, &page_, &PreviewPage::setCorners);
+    column->addWidget(card_, 1);
+    column->addWidget(tableCard());
+    connect(kind_, &Segmented::chosen, this, [this](int index) {
+      for (int i = 0; i < 3; ++i) views_[static_cast<std::size_t>(i)]->setVisible(i == index);
+    });
+    connect(&page_, &PreviewPage::changed, this, [this] { refresh(); });
+    refresh();
+  }
+
+ private:
+  Card* tableCard() {
+    auto* card = new Card(PreviewPage::tr("Methods"));
+    card->setSubtitle(PreviewPage::tr("predicted for this content; click one to use it"));
+    table_ = new QTableWidget(0, 6);
+    table_->setObjectName("methods");
+    table_->setAccessibleName(PreviewPage::tr("Comparison of methods"));
+    table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("PSNR"),
+                                       PreviewPage::tr("SSIM"), PreviewPage::tr("Colour error"),
+                                       PreviewPage::tr("Time a picture"), PreviewPage::tr("Notes")});
+    table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(26);
+    // The notes have what is left.
+    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    table_->horizontalHeader()->setStretchLastSection(true);
+    table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setShowGrid(false);
+    // As high as the methods, the rest is the picture's.
+    constexpr int header = 34, rowHeight = 26, methods = 5;
+    table_->setFixedHeight(header + methods * rowHeight);
+    connect(table_, &QTableWidget::cellClicked, &page_, [this](int row, int) { choose(row); });
+    connect(table_, &QTableWidget::cellActivated, &page_, [this](int row, int) { choose(row); });
+    card->body()->addWidget(table_);
+    return card;
+  }
+  void choose(int row) {
+    if (row < 0 || static_cast<std::size_t>(row) >= page_.table().size()) return;
+    ContentSettings settings = page_.settings();
+    settings.method = toString(page_.table()[static_cast<std::size_t>(row)].method);
+    page_.setSettings(settings, PreviewPage::tr("Method"));
+  }
+  static QString noteOf(Method method) {
+    switch (method) {
+      case Method::mix:
+        return PreviewPage::tr("blind to bounces");
+      case Method::refined:
+        return PreviewPage::tr("recommended");
+      case Method::optimum:
+        return PreviewPage::tr("limit of this venue");
+      default:
+        return {};
+    }
+  }
+  void fillTable() {
+    const std::vector<MethodPreview>& rows = page_.table();
+    table_->setRowCount(static_cast<int>(rows.size()));
+    for (int row = 0; row < table_->rowCount(); ++row) {
+      const MethodPreview& method = rows[static_cast<std::size_t>(row)];
+      QStringList cells{methodName(toString(method.method)),
+                        PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
+                        decimalText(method.ssim, 3),
+                        isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
+                        method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
+                        : method.seconds < 1.0
+                            ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
+                            : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1)),
+                        noteOf(method.method)};
+      bool chosen = toString(method.method) == page_.settings().method;
+      for (int cell = 0; cell < cells.size(); ++cell) {
+        auto* item = new QTableWidgetItem(cells[cell]);
+        item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
+        table_->setItem(row, cell, item);
+      }
+      if (chosen) table_->selectRow(row);
+    }
+  }
+  void refresh() {
+    fillTable();
+    place_->setWrong(!page_.problem().isEmpty());
+    place_->setCorners(page_.corners());
+    const auto& preview = page_.preview();
+    if (preview == shown_) return;
+    shown_ = preview;
+    if (!preview) {
+      for (ImageView* view : views_) view->setPicture({});
+      return;
+    }
+    Size size = preview->with.size();
+    views_[picture]->setPicture(pictureOf(preview->without, preview->white));
+    views_[picture]->setCompared(pictureOf(preview->with, preview->white), PreviewPage::tr("Uncorrected"),
+                                 page_.settings().method == toString(Method::none)
+                                     ? PreviewPage::tr("Uncorrected, too")
+                                     : PreviewPage::tr("Corrected, predicted"));
+    ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};
+    views_[reachable]->setScale(reach, PreviewPage::tr("of white"), true);
+    views_[reachable]->setPicture(mapped(preview->reach, size, reach));
+    views_[reachable]->setOverlay(hatchesOf(*preview));
+    ColourScale deltaE{ColourMap::cividis, 0.0, 12.0, false};
+    views_[difference]->setScale(deltaE, QString::fromUtf8("ΔE₀₀"), false);
+    views_[difference]->setPicture(mapped(preview->deltaE.data(), size, deltaE));
+    views_[difference]->setReadout([preview](QPoint pixel) {
+      const float difference = preview->deltaE.at(pixel.x(), pixel.y(), 0);
+      return isolated(QString::fromUtf8("%1: ΔE %2")
+                          .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
+    });
+  }
+
+  PreviewPage& page_;
+  ViewLink link_;
+  Card* card_;
+  Segmented* kind_;
+  CornerView* place_;
+  std::array<ImageView*, 3> views_{};
+  QTableWidget* table_;
+  std::shared_ptr<const ContentPreview> shown_;
+};
+
+}  // namespace
+
+PageView viewOf(PreviewPage& page) {
+  return {new PreviewStage(page), previewInspector(page)};
+}
+
+}  // namespace relucent

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/session/other_screens.h"
+
+#include <QGuiApplication>
+#include <QScreen>
+#include <QThread>
+#include <QWindow>
+#include <algorithm>
+#include <chrono>
+#include <future>
+
+#include "base/error.h"
+#include "output/projector_window.h"
+#include "output/window_projector.h"
+
+namespace relucent {
+namespace {
+
+/// Looks at whether the waiting thread is asked to end.
+constexpr std::chrono::milliseconds patience(20);
+
+/// What must stay as it is: the projector's screen, and where the operator works.
+std::vector<QRect> takenPlaces(const ScreenRigSettings& projector) {
+  std::vector<QRect> places;
+  for (const QScreen* screen : {findScreen(identityOf(projector.display)), QGuiApplication::primaryScreen()})
+    if (screen != nullptr) places.push_back(screen->geometry());
+  for (const QWindow* window : QGuiApplication::topLevelWindows())
+    if (window->isVisible() && qobject_cast<const ProjectorWindow*>(window) == nullptr)
+      places.push_back(window->geometry());
+  return places;
+}
+
+}  // namespace
+
+std::vector<ScreenRigSettings> otherScreens(const ScreenRigSettings& projector) {
+  const std::vector<QRect> taken = takenPlaces(projector);
+  std::vector<ScreenRigSettings> others;
+  for (const QScreen* screen : QGuiApplication::screens()) {
+    if (std::any_of(taken.begin(), taken.end(),
+                    [screen](const QRect& place) { return place.intersects(screen->geometry()); }))
+      continue;
+    ScreenRigSettings& other = others.emplace_back(projector);
+    const QSize size = nativeSize(*screen);
+    other.display = displayOf(*screen);
+    other.projector = {size.width(), size.height()};
+  }
+  return others;
+}
+
+std::vector<ScreenRigSettings> askForOtherScreens(const ScreenRigSettings& projector) {
+  auto asked = std::make_shared<std::promise<std::vector<ScreenRigSettings>>>();
+  std::future<std::vector<ScreenRigSettings>> answer = asked->get_future();
+  QMetaObject::invokeMethod(
+      qApp, [asked, projector] { asked->set_value(otherScreens(projector)); }, Qt::QueuedConnection);
+  while (answer.wait_for(patience) != std::future_status::ready)
+    if (QThread::currentThread()->isInterruptionRequested()) throw Cancelled();
+  return answer.get();
+}
+
+}  // namespace relucent

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/session/session.h"
+
+#include <QPointer>
+#include <utility>
+
+#include "base/error.h"
+#include "calibration/results.h"
+#include "devices/test_exposure.h"
+#include "output/window_projector.h"
+#include "pipeline/measuring.h"
+#include "pipeline/settings_json.h"
+#include "pipeline/stages.h"
+#include "rig/watched_rig.h"
+#include "wizard/session/other_screens.h"
+
+namespace relucent {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int audienceLimit = 3;  // patterns a second
+
+/// Holds other screens up as the rig's own projectors, which their pictures are not to be taken for.
+class HeldUp : public RigWatcher {
+ public:
+  explicit HeldUp(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
+  void beforeShowing(std::size_t index, RigLight& light) override { live_->beforeShowing(index, light); }
+
+ private:
+  std::shared_ptr<LiveRig> live_;
+};
+
+struct ProjectorSize {
+  Size operator()(const ReplayRigSettings&) const { return {}; }  // only the recording knows
+  Size operator()(const auto& rig) const { return rig.projector; }
+};
+
+}  // namespace
+
+Rig& SessionDevices::open(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  if (!opened_) {
+    Progress opening = progress.part(hasScreen() ? 0.3 : 1.0, "Preparing the devices");
+    OpenedRig opened = openRig(settings_, cache_, screens_, opening);
+    opened.rig = watched(std::move(opened.rig), live_);
+    {
+      std::scoped_lock instant(screenGuard_);
+      screen_ = opened.screen;
+      if (screen_) screen_->setLatency(latency_.value_or(unmeasuredLatency()));
+    }
+    opened_ = std::move(opened);
+  }
+  // A camera that was turned away is looked through again.
+  if (hasScreen() && !proof_.isSeen) prove(progress);
+  return opened_->rig;
+}
+
+void SessionDevices::prove(Progress& progress) {
+  Progress proving = progress.part(0.7, "Looking for the projector's picture");
+  Projector& projector = *opened_->rig.projectors.front();
+  Camera& camera = *opened_->rig.cameras.front();
+  LatencySettings settling;
+  settling.mostFrames = 1;  // show() waits long enough
+  Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
+  for (const ScreenRigSettings& other : askForOtherScreens(std::get<ScreenRigSettings>(settings_)))
+    beside.projectors.push_back(delayed(screens_(other), unmeasuredLatency(), sleepFor));
+  beside = watched(std::move(beside), std::make_shared<HeldUp>(live_));
+  std::vector<Projector*> others;
+  for (const std::unique_ptr<Projector>& other : beside.projectors) others.push_back(other.get());
+  const ScreenExposure exposureOf = [&](Projector& screen) {
+    return testExposure(screen, camera, settling, sleepFor, proving);
+  };
+  proof_ = proveScreen(projector, others, camera, exposureOf, {}, proving);
+  requireSeen(proof_, projector, camera);
+}
+
+RigCheck SessionDevices::check(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  require(opened_ && hasScreen(), "only an open screen is checked");
+  Projector& projector = *opened_->rig.projectors.front();
+  Camera& camera = *opened_->rig.cameras.front();
+  const double frame = 1.0 / std::get<ScreenRigSettings>(settings_).frameRate;
+  RigCheck check;
+  check.proof = proof_;
+
+  Progress measuring = progress.part(0.6, "Measuring the latency");
+  LatencySettings latency;
+  latency.frame = frame;
+  latency.mostFrames = patience_.mostFrames;
+  screen()->setLatency(0.0);
+  try {
+    check.latency = measureLatency(projector, camera, proof_.exposure, latency, sleepFor, measuring);
+  } catch (...) {
+    screen()->setLatency(unmeasuredLatency());
+    throw;
+  }
+  setLatency(check.latency.seconds);
+
+  Progress judging = progress.part(0.4, "Judging the light");
+  LightCheckSettings light;
+  light.frame = frame;
+  light.photographs = patience_.photographs;
+  light.settle = patience_.mostFrames * frame;
+  // Within a frame: that is what is judged.
+  screen()->setWholeFrames(false);
+  try {
+    check.light = checkLight(projector, camera, proof_.exposure, light, sleepFor, judging);
+  } catch (...) {
+    screen()->setWholeFrames(true);
+    throw;
+  }
+  screen()->setWholeFrames(true);
+  return check;
+}
+
+std::shared_ptr<ScreenControl> SessionDevices::screen() const {
+  std::scoped_lock instant(screenGuard_);
+  return screen_;
+}
+
+/// Long enough for most projectors: what proves the screen comes before what measures.
+double SessionDevices::unmeasuredLatency() const {
+  return patience_.mostFrames / std::get<ScreenRigSettings>(settings_).frameRate / 3.0;
+}
+
+void SessionDevices::setLatency(double seconds) {
+  std::scoped_lock instant(screenGuard_);
+  latency_ = seconds;
+  if (screen_) screen_->setLatency(seconds);
+}
+
+void SessionDevices::rest() {
+  if (std::shared_ptr<ScreenControl> used = screen()) used->rest();
+}
+
+Session::Session(fs::path cache, QObject* parent)
+    : QObject(parent),
+      cache_(std::move(cache)),
+      live_(std::make_shared<LiveRig>()),
+      reading_(
+          [this](std::shared_ptr<const Acquisition> acquisition) {
+            acquisition_ = std::move(acquisition);
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            readFailure_ = failure;
+            Q_EMIT changed();
+          }) {}
+
+QString Session::name() const {
+  return QString::fromStdString(path_.filename().string());
+}
+
+void Session::open(const fs::path& path) {
+  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  adopt(folder);
+}
+
+void Session::begin(const fs::path& path, const CalibrateSettings& settings) {
+  CalibrationFolder folder = beginCalibration(path, settings);
+  adopt(folder);
+}
+
+void Session::adopt(const CalibrationFolder& folder) {
+  path_ = fs::absolute(folder.path()).lexically_normal();
+  if (path_.filename().empty()) path_ = path_.parent_path();
+  acquisition_ = nullptr;
+  acquired_.clear();
+  live_->resume();  // work that still ends must not stand still for ever
+  live_ = std::make_shared<LiveRig>();
+  look(folder);
+  roomClear_ = false;
+  roomLight_.reset();
+  slowDown();
+  equip();
+  Q_EMIT opened();
+  Q_EMIT changed();
+}
+
+/// Devices by the settings; those of before are let go of.
+void Session::equip() {
+  devices_ = std::make_shared<SessionDevices>(
+      settings_.rig, cache_, live_, [this](const ScreenRigSettings& screen) { return openScreen(screen); },
+      patience_);
+  const auto& checked = result(Step::camera);
+  if (checked && progress(Step::camera) == StepProgress::done && checked->values.contains("latency_seconds"))
+    devices_->setLatency(checked->values["latency_seconds"].get<double>());
+}
+
+/// Called on a worker's thread.
+std::unique_ptr<ScreenProjector> Session::openScreen(const ScreenRigSettings& settings) {
+  return std::make_unique<WindowProjector>(identityOf(settings.display), settings.projector,
+                                           [self = QPointer<Session>(this)](bool waits) {
+                                             if (!self) return;
+                                             self->screenMissing_ = waits;
+                                             Q_EMIT self->changed();
+                                           });
+}
+
+void Session::changeRig(const RigSettings& rig) {
+  devices_ = nullptr;  // nobody else is let to a camera that is held
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    try {
+      relucent::changeRig(folder, rig);
+    } catch (...) {
+      equip();
+      throw;
+    }
+    look(folder);
+  }
+  equip();
+  Q_EMIT changed();
+}
+
+void Session::changeScreen(const ScreenRigSettings& screen) {
+  devices_ = nullptr;
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    try {
+      relucent::changeScreen(folder, screen);
+    } catch (...) {
+      equip();
+      throw;
+    }
+    look(folder);
+  }
+  equip();
+  Q_EMIT changed();
+}
+
+void Session::close() {
+  path_.clear();
+  devices_ = nullptr;
+  acquisition_ = nullptr;
+  acquired_.clear();
+  steps_ = {};
+  settings_ = {};
+  Q_EMIT opened();
+  Q_EMIT changed();
+}
+
+void Session::look(const CalibrationFolder& folder) {
+  settings_ = settingsOf(folder);
+  const RigSettings measured = rigFromJson(folder.rig());
+  const auto* screen = std::get_if<ScreenRigSettings>(&measured);
+  measuredDisplay_ = screen != nullptr ? screen->display : ScreenRigSettings::Display();
+  for (Step step : allSteps)
+    steps_[static_cast<std::size_t>(step)] = {progressOf(folder, step), resultOf(folder, step)};
+}
+
+void Session::reload() {
+  look(CalibrationFolder::open(path_, CalibrationFolder::Access::read));
+  Q_EMIT changed();
+}
+
+bool Session::isSimulated() const {
+  return std::holds_alternative<VenueSettings>(settings_.rig);
+}
+
+bool Session::hasLight() const {
+  return std::holds_alternative<CommandRigSettings>(settings_.rig) || screenRig() != nullptr;
+}
+
+std::size_t Session::projectors() const {
+  return measuredDevices("projectors").value_or(projectorsOf(settings_.rig));
+}
+
+std::size_t Session::projectorsOf(const RigSettings& rig) {
+  if (const auto* simulated = std::get_if<VenueSettings>(&rig))
+    for (const VenueDescription& venue : venues())
+      if (venue.name == simulated->name) return static_cast<std::size_t>(venue.projectors);
+  return 1;
+}
+
+std::size_t Session::cameras() const {
+  return measuredDevices("cameras").value_or(1);
+}
+
+/// As the results of measurements list them.
+std::optional<std::size_t> Session::measuredDevices(const char* kind) const {
+  for (Step step : {Step::acquisition, Step::linearization})
+    if (const auto& stored = result(step); stored && stored->values.contains(kind))
+      return std::max<std::size_t>(1, stored->values[kind].size());
+  return std::nullopt;
+}
+
+Size Session::projectorSize(std::size_t projector) const {
+  if (const auto& measured = result(Step::acquisition); measured && projector < projectors()) {
+    const Json& size = measured->values.at("projectors").at(projector);
+    return {size.at(0), size.at(1)};
+  }
+  return std::visit(ProjectorSize{}, settings_.rig);
+}
+
+int Session::photographsKept(Step step) const {
+  int count = 0;
+  std::error_code code;
+  std::string begin = std::string(toString(step)) + "-";
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_ / "shots", code))
+    if (entry.path().filename().string().starts_with(begin)) ++count;
+  return count;
+}
+
+void Session::changeSettings(const CalibrateSettings& settings) {
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    relucent::changeSettings(folder, settings);
+    look(folder);
+  }
+  Q_EMIT changed();
+}
+
+void Session::decide(Step step, Json values) {
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    storeDecision(folder, step, std::move(values));
+    look(folder);
+  }
+  Q_EMIT changed();
+}
+
+void Session::wantAcquisition() {
+  const std::optional<StageResult>& stored = result(Step::acquisition);
+  if (!stored || stored->stored == acquired_) return;
+  acquired_ = stored->stored;
+  acquisition_ = nullptr;
+  readFailure_.reset();
+  reading_.ask([stored = *stored]() -> std::shared_ptr<const Acquisition> {
+    return std::make_shared<Acquisition>(loadAcquisition(stored));
+  });
+}
+
+void Session::setFlashLimit(int changesPerSecond) {
+  flashLimit_ = changesPerSecond;
+  slowDown();
+  Q_EMIT changed();
+}
+
+void Session::slowDown() {
+  bool real = isOpen() && hasLight();
+  // Until somebody has said that the room is clear, an audience may be looking.
+  int limit = flashLimit_ > 0 ? flashLimit_ : roomClear_ ? 0 : audienceLimit;
+  live_->setLeastInterval(real && limit > 0 ? 1000 / limit : 0);
+}
+
+void Session::setRoomClear(bool clear) {
+  roomClear_ = clear;
+  slowDown();
+  Q_EMIT changed();
+}
+
+void Session::setRoomLight(const RoomLight& light) {
+  if (std::exchange(roomLight_, light) != light) Q_EMIT changed();
+}
+
+void Session::setBusy(const QString& who) {
+  busy_ = who;
+  if (busy_.isEmpty() && devices_) devices_->rest();
+  Q_EMIT changed();
+}
+
+}  // namespace relucent

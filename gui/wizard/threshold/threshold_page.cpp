@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/threshold/threshold_page.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+constexpr double suggestedShare = 0.995;
+constexpr double leastKept = 0.95;
+
+std::size_t deviceOf(const Rasters& rasters, std::size_t index) {
+  std::size_t device = 0;
+  while (index >= rasters.offset(device) + rasters.size(device).count()) ++device;
+  return device;
+}
+
+bool dropsNothing(const ThresholdSettings& cut) {
+  return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
+}
+
+/// What a cut leaves, as a histogram has it: to a bin, and its brightest part as far as the cut goes into it.
+TransportStatistics estimated(const TransportStatistics& whole, double cut) {
+  TransportStatistics kept = whole;
+  double energy = 0.0, leaves = 0.0, all = 0.0;
+  for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
+    double low = std::log10(strengthOfBin(bin)), high = low + 1.0 / StrengthHistogram::binsPerDecade;
+    double share = cut > 0.0 ? std::clamp((high - std::log10(cut)) / (high - low), 0.0, 1.0) : 1.0;
+    energy += share * whole.histogram.energy[bin];
+    leaves += share * static_cast<double>(whole.histogram.leaves[bin]);
+    all += whole.histogram.energy[bin];
+    kept.histogram.energy[bin] *= share;
+    kept.histogram.leaves[bin] =
+        static_cast<std::uint64_t>(share * static_cast<double>(whole.histogram.leaves[bin]));
+  }
+  if (all > 0.0) kept.energyKept = energy / all;
+  double left = whole.leaves > 0 ? leaves / static_cast<double>(whole.leaves) : 1.0;
+  kept.leaves = static_cast<std::uint64_t>(leaves);
+  kept.bytes = static_cast<std::uint64_t>(left * static_cast<double>(whole.bytes));
+  kept.connections = static_cast<std::uint64_t>(left * static_cast<double>(whole.connections));
+  return kept;
+}
+
+}  // namespace
+
+ThresholdPage::ThresholdPage(Session& session, QObject* parent)
+    : DevicePage(session, parent),
+      statistics_(
+          [this](TransportStatistics statistics) {
+            // Lowered to nothing meanwhile, the cut leaves everything.
+            if (!dropsNothing(cut_)) kept_ = statistics;
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }),
+      first_(
+          [this](TransportStatistics statistics) {
+            whole_ = statistics;
+            if (dropsNothing(cut_)) kept_ = statistics;
+            suggested_ = cutKeeping(statistics.histogram, suggestedShare);
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }),
+      looking_(
+          [this](std::shared_ptr<const PixelFootprint> footprint) {
+            if (!adopted_ || !picked_ ||
+                footprint->luminance.size() != adopted_->transport.projectors().count())
+              return;
+            footprint_ = std::move(footprint);
+            // Not the answer of before, while a newer one is on its way.
+            if (!looking_.isBusy() && std::exchange(follows_, false)) followFootprint();
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }),
+      lighting_(
+          [this](std::shared_ptr<const std::vector<float>> lit) {
+            if (!adopted_ || !pickedProjector_ || lit->size() != adopted_->transport.cameras().count())
+              return;
+            lit_ = std::move(lit);
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }),
+      picturing_(
+          [this](std::shared_ptr<const MatrixPictures> matrix) {
+            if (!adopted_ || &matrix->transport() != &adopted_->transport) return;
+            matrix_ = std::move(matrix);
+            Q_EMIT changed();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}, {}, {}});
+          }) {
+  connect(&session_, &Session::opened, this, [this] {
+    cut_ = session_.settings().threshold;
+    shareOfRow_ = cut_.shareOfRowMax > 0.0f;
+    absoluteBefore_ = shareBefore_ = 0.0f;
+    forget();
+  });
+  connect(&session_, &Session::changed, this, [this] {
+    adopt();
+    Q_EMIT changed();
+  });
+}
+
+void ThresholdPage::adopt() {
+  if (session_.acquisition() == adopted_) return;
+  adopted_ = session_.acquisition();
+  whole_.reset();
+  kept_.reset();
+  matrix_ = nullptr;
+  forget();
+  if (!adopted_) return;
+  first_.ask([acquisition = adopted_] { return statisticsOf(acquisition->transport); });
+  compute();
+}
+
+void ThresholdPage::compute() {
+  if (adopted_) {
+    if (whole_ && dropsNothing(cut_)) kept_ = whole_;
+    if (!dropsNothing(cut_)) {
+      if (whole_ && !shareOfRow_) kept_ = estimated(*whole_, static_cast<double>(cut_.absolute));
+      statistics_.ask(
+          [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
+    }
+    picturing_.ask([acquisition = adopted_, cut = cut_]() -> std::shared_ptr<const MatrixPictures> {
+      std::shared_ptr<const TransportMatrix> transport(acquisition, &acquisition->transport);
+      return std::make_shared<MatrixPictures>(transport, cut);
+    });
+  }
+  Q_EMIT changed();
+}
+
+StepStatus ThresholdPage::status() const {
+  switch (session_.progress(Step::threshold)) {
+    case StepProgress::done:
+      return {StepState::done,
+              tr("%1 of light kept")
+                  .arg(percentText(session_.result(Step::threshold)->values.value("kept", 1.0)))};
+    case StepProgress::stale:
+      return {StepState::outOfDate, tr("Out of date")};
+    case StepProgress::open:
+      break;
+  }
+  return {};
+}
+
+QString ThresholdPage::hint() const {
+  if (session_.acquisitionFailure()) return session_.acquisitionFailure()->what;
+  if (!whole_ || !kept_) return tr("Reading the light transport");
+  if (kept_->energyKept < leastKept) return tr("Below 95 % of the light, bounces are lost.");
+  return tr("Next: groups of pixels that can be solved on their own");
+}
+
+Command ThresholdPage::primary() const {
+  auto* self = const_cast<ThresholdPage*>(this);
+  return {tr("Group into clusters"), Icon::next, kept_.has_value(), {}, [self] { self->accept(); }};
+}
+
+std::optional<Banner> ThresholdPage::banner() const {
+  if (session_.progress(Step::threshold) != StepProgress::stale) return std::nullopt;
+  return Banner{Banner::Kind::amber,
+                tr("The threshold was chosen for an earlier measurement"),
+                tr("Look at it again, then go on."),
+                {},
+                {}};
+}
+
+void ThresholdPage::setShareOfRow(bool share) {
+  if (std::exchange(shareOfRow_, share) == share) return;
+  // One way at a time; the other one drops nothing, and is found again as it was left.
+  if (share) {
+    absoluteBefore_ = std::exchange(cut_.absolute, 0.0f);
+    cut_.shareOfRowMax = shareBefore_;
+  } else {
+    shareBefore_ = std::exchange(cut_.shareOfRowMax, 0.0f);
+    cut_.absolute = absoluteBefore_;
+  }
+  compute();
+}
+
+void ThresholdPage::setAbsolute(double cut) {
+  shareOfRow_ = false;
+  cut_.shareOfRowMax = 0.0f;
+  cut_.absolute = static_cast<float>(cut);
+  compute();
+}
+
+void ThresholdPage::setShare(double share) {
+  shareOfRow_ = true;
+  cut_.absolute = 0.0f;
+  cut_.shareOfRowMax = static_cast<float>(share);
+  compute();
+}
+
+void ThresholdPage::forget() {
+  picked_.reset();
+  pickedProjector_.reset();
+  footprint_ = nullptr;
+  lit_ = nullptr;
+  follows_ = false;
+}
+
+void ThresholdPage::pick(Pixel pixel) {
+  if (!adopted_) return;
+  picked_ = pixel;
+  follows_ = true;
+  lookAtRow();
+  Q_EMIT changed();
+}
+
+void ThresholdPage::pickProjector(Pixel pixel) {
+  if (!adopted_) return;
+  pickedProjector_ = pixel;
+  follows_ = false;
+  lookAtColumn();
+  Q_EMIT changed();
+}
+
+void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
+  if (!adopted_) return;
+  const Rasters &cameras = adopted_->transport.cameras(), &projectors = adopted_->transport.projectors();
+  if (row >= cameras.count() || column >= projectors.count()) return;
+  showCamera(deviceOf(cameras, row));
+  showProjector(deviceOf(projectors, column));
+  picked_ = pixelAt(cameras.size(camera()), row - cameras.offset(camera()));
+  pickedProjector_ = pixelAt(projectors.size(projector()), column - projectors.offset(projector()));
+  follows_ = false;
+  lookAtRow();
+  lookAtColumn();
+  Q_EMIT changed();
+}
+
+std::optional<std::size_t> ThresholdPage::pickedRow() const {
+  if (!adopted_ || !picked_) return std::nullopt;
+  const Rasters& cameras = adopted_->transport.cameras();
+  return cameras.offset(camera()) + indexOf(cameras.size(camera()), *picked_);
+}
+
+std::optional<std::size_t> ThresholdPage::pickedColumn() const {
+  if (!adopted_ || !pickedProjector_) return std::nullopt;
+  const Rasters& projectors = adopted_->transport.projectors();
+  return projectors.offset(projector()) + indexOf(projectors.size(projector()), *pickedProjector_);
+}
+
+void ThresholdPage::lookAtRow() {
+  looking_.ask([acquisition = adopted_, row = *pickedRow()]() -> std::shared_ptr<const PixelFootprint> {
+    return std::make_shared<PixelFootprint>(footprintOf(acquisition->transport, row));
+  });
+}
+
+void ThresholdPage::lookAtColumn() {
+  lighting_.ask(
+      [acquisition = adopted_, column = *pickedColumn()]() -> std::shared_ptr<const std::vector<float>> {
+        return std::make_shared<std::vector<float>>(lightOfPixel(acquisition->transport, column));
+      });
+}
+
+/// The pixel of the shown projector that lights the picked camera pixel most, if any does.
+void ThresholdPage::followFootprint() {
+  const Rasters& projectors = adopted_->transport.projectors();
+  auto begin = footprint_->luminance.begin() + static_cast<std::ptrdiff_t>(projectors.offset(projector()));
+  auto end = begin + static_cast<std::ptrdiff_t>(projectors.size(projector()).count());
+  auto strongest = std::max_element(begin, end);
+  if (!(*strongest > 0.0f)) return;
+  pickedProjector_ = pixelAt(projectors.size(projector()), static_cast<std::size_t>(strongest - begin));
+  lookAtColumn();
+}
+
+/// The camera pixel stays, and is looked at from the other projector.
+void ThresholdPage::projectorChanged() {
+  pickedProjector_.reset();
+  lit_ = nullptr;
+  if (footprint_ && !looking_.isBusy()) followFootprint();
+}
+
+/// What the projector's pixel lights is seen by the other camera as well; the camera's pixel is not there.
+void ThresholdPage::cameraChanged() {
+  picked_.reset();
+  footprint_ = nullptr;
+  follows_ = false;
+}
+
+void ThresholdPage::accept() {
+  try {
+    CalibrateSettings settings = session_.settings();
+    settings.threshold = cut_;
+    session_.changeSettings(settings);
+    session_.decide(Step::threshold, Json{{"kept", kept_->energyKept}, {"leaves", kept_->leaves}});
+    Q_EMIT nextWanted();
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});
+  }
+}
+
+}  // namespace relucent

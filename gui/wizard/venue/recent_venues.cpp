@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/venue/recent_venues.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFileInfo>
+
+#include "base/error.h"
+#include "pipeline/stages.h"
+#include "pipeline/steps.h"
+
+namespace relucent {
+namespace {
+
+struct Words {
+  Q_DECLARE_TR_FUNCTIONS(RecentVenues)
+};
+
+constexpr const char* key = "recent/venues";
+
+QString stateOf(const CalibrationFolder& folder) {
+  if (progressOf(folder, Step::acquisition) == StepProgress::open)
+    return progressOf(folder, Step::linearization) == StepProgress::open ? Words::tr("Nothing measured yet")
+                                                                         : Words::tr("Acquire is next");
+  if (progressOf(folder, Step::content) == StepProgress::done) return Words::tr("Ready to play");
+  if (progressOf(folder, Step::content) == StepProgress::stale) return Words::tr("Preview out of date");
+  return Words::tr("Measured");
+}
+
+}  // namespace
+
+QList<RecentVenue> RecentVenues::list() const {
+  QList<RecentVenue> venues;
+  for (const QString& entry : settings_.value(key).toStringList()) {
+    qsizetype bar = entry.indexOf('|');
+    RecentVenue venue;
+    venue.opened = QDateTime::fromString(entry.left(bar), Qt::ISODate);
+    venue.folder = entry.mid(bar + 1);
+    venue.name = QFileInfo(venue.folder).fileName();
+    if (!QFileInfo::exists(venue.folder)) continue;
+    try {
+      auto folder = CalibrationFolder::open(venue.folder.toStdString(), CalibrationFolder::Access::read);
+      venue.state = stateOf(folder);
+      venue.simulated = std::holds_alternative<VenueSettings>(settingsOf(folder).rig);
+    } catch (const Error&) {
+      // It stays on the list: opening it tells what is wrong.
+    }
+    venues.append(venue);
+  }
+  return venues;
+}
+
+void RecentVenues::add(const QString& folder, const QDateTime& now) {
+  QStringList entries = settings_.value(key).toStringList();
+  QString clean = QDir::cleanPath(folder);
+  entries.removeIf([&](const QString& entry) { return entry.mid(entry.indexOf('|') + 1) == clean; });
+  entries.prepend(now.toString(Qt::ISODate) + '|' + clean);
+  while (entries.size() > most) entries.removeLast();
+  settings_.setValue(key, entries);
+}
+
+}  // namespace relucent

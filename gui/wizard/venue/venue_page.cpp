@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/venue/venue_page.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QStandardPaths>
+
+#include "calibration/calibration_folder.h"
+#include "views/number_text.h"
+
+namespace relucent {
+namespace {
+
+const QString manifestName = CalibrationFolder::manifestName;
+
+QString sizeText(Size size) {
+  return relucent::sizeText(size.width, size.height);
+}
+
+}  // namespace
+
+VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
+    : PageModel(parent), session_(session), recent_(recent), openScreen_(session) {
+  parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
+  venues_ = {
+      {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
+       ":/venues/corner.png"},
+      {"statue", QT_TR_NOOP("Bust before a brick wall"),
+       QT_TR_NOOP("Texture, shadow and light between surfaces"), ":/venues/statue.png"},
+      {"depth", QT_TR_NOOP("Many depths"), QT_TR_NOOP("Some surfaces are out of focus"),
+       ":/venues/depth.png"},
+      {"dome", QT_TR_NOOP("Dome"), QT_TR_NOOP("Every part lights every other part"), ":/venues/dome.png"},
+      {"glass", QT_TR_NOOP("Wine glass"), QT_TR_NOOP("Light is refracted both ways"), ":/venues/glass.png"},
+      {"relief", QT_TR_NOOP("Relief, two projectors"), QT_TR_NOOP("Each shines into the other's shadows"),
+       ":/venues/relief.png"},
+      {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
+       ":/venues/plain.png"}};
+  setSizes({{{64, 48}, {48, 36}, QT_TR_NOOP("%1, a first look")},
+            {{128, 96}, {80, 60}, QT_TR_NOOP("%1, quick")},
+            {{256, 192}, {160, 120}, QT_TR_NOOP("%1, usual")},
+            {{512, 384}, {320, 240}, QT_TR_NOOP("%1, fine")}});
+  size_ = 1;
+  script_.projector = {1024, 768};
+  connect(&session_, &Session::changed, this, &VenuePage::changed);
+  connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::changed);
+  connect(&session_, &Session::opened, this, [this] {
+    if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
+    mode_ = Mode::start;
+  });
+}
+
+QString VenuePage::name() const {
+  return tr("Venue");
+}
+
+QString VenuePage::title() const {
+  switch (mode_) {
+    case Mode::rehearse:
+      return tr("Rehearse in a simulated venue");
+    case Mode::script:
+      return tr("New venue by script");
+    case Mode::devices:
+      return tr("New venue");
+    case Mode::screen:
+      return tr("The projector's screen");
+    case Mode::start:
+      break;
+  }
+  return tr("Venue");
+}
+
+QString VenuePage::subtitle() const {
+  switch (mode_) {
+    case Mode::rehearse:
+      return tr("The same steps, with a simulated projector and camera. Nothing is projected into the room.");
+    case Mode::script:
+      return tr("Say which screen shines, which programs show and photograph, and where the work is kept.");
+    case Mode::devices:
+      return tr("Say which screen shines on the surface, and where the work is kept.");
+    case Mode::screen:
+      return tr("Say which screen the projector is now. What was measured stays.");
+    case Mode::start:
+      break;
+  }
+  return tr("Start here. Every venue keeps its own measurements and settings.");
+}
+
+StepStatus VenuePage::status() const {
+  if (!session_.isOpen()) return {StepState::open, mode_ == Mode::start ? QString() : tr("Setting up")};
+  if (const ScreenRigSettings* screen = session_.screenRig())
+    return {StepState::done,
+            tr("%1, %2").arg(QString::fromStdString(screen->display.connector), sizeText(screen->projector))};
+  QString kind = session_.isSimulated() ? tr("simulated, %1") : tr("by script, %1");
+  return {StepState::done, kind.arg(sizeText(session_.projectorSize()))};
+}
+
+QString VenuePage::hint() const {
+  if (mode_ == Mode::start)
+    return session_.isOpen() ? tr("%1 is open").arg(session_.name())
+                             : tr("Enter opens the highlighted choice");
+  if (QString wrong = problem(); !wrong.isEmpty()) return wrong;
+  if (mode_ == Mode::screen) return tr("Nothing is measured again.");
+  WorkLeft work = expected();
+  const auto patterns = static_cast<int>(work.shots);
+  return groupedText(tr("About %n pattern(s), %1", nullptr, patterns), patterns)
+      .arg(bytesText(work.diskBytes));
+}
+
+Command VenuePage::primary() const {
+  auto* self = const_cast<VenuePage*>(this);
+  if (mode_ == Mode::start) {
+    if (!session_.isOpen()) return {};
+    return {tr("Check camera"), Icon::next, true, {}, [self] { Q_EMIT self->nextWanted(); }};
+  }
+  if (mode_ == Mode::screen)
+    return {tr("Use this screen"), Icon::projector, problem().isEmpty(), {}, [self] { self->useScreen(); }};
+  return {mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"),
+          mode_ == Mode::rehearse ? Icon::play : Icon::next,
+          problem().isEmpty(),
+          {},
+          [self] { self->begin(); }};
+}
+
+std::vector<Command> VenuePage::secondary() const {
+  // Where it is missing, the banner has the same.
+  if (mode_ != Mode::start || !openScreen_.isChangeable() || openScreen_.isMissing()) return {};
+  auto* self = const_cast<VenuePage*>(this);
+  return {{tr("Change the screen"), Icon::projector, true, {}, [self] { self->setMode(Mode::screen); }}};
+}
+
+std::optional<Banner> VenuePage::banner() const {
+  if (mode_ != Mode::start || !openScreen_.isChangeable() || !openScreen_.isMissing()) return std::nullopt;
+  auto* self = const_cast<VenuePage*>(this);
+  return Banner{Banner::Kind::amber,
+                tr("The projector's screen %1 is not there")
+                    .arg(QString::fromStdString(session_.screenRig()->display.connector)),
+                tr("Plug it in, or say which screen the projector is now."),
+                {tr("Change the screen"), Icon::projector, true, {}, [self] { self->setMode(Mode::screen); }},
+                {}};
+}
+
+bool VenuePage::goBack() {
+  if (mode_ == Mode::start) return false;
+  setMode(Mode::start);
+  return true;
+}
+
+void VenuePage::setRoomClear(bool clear) {
+  roomClear_ = clear;
+  Q_EMIT changed();
+}
+
+void VenuePage::setMode(Mode mode) {
+  mode_ = mode;
+  roomClear_ = false;
+  openScreen_.forget();
+  if (mode != Mode::start) suggestName();
+  Q_EMIT changed();
+}
+
+bool VenuePage::isOpenNow(const RecentVenue& venue) const {
+  return session_.isOpen() &&
+         QDir::cleanPath(QString::fromStdString(session_.path().string())) == venue.folder;
+}
+
+void VenuePage::open(const QString& path) {
+  try {
+    QFileInfo file(path);
+    bool within = file.isFile() && file.fileName() == manifestName;
+    QDir folder(within ? file.path() : path);
+    if (folder.exists() && !folder.exists(manifestName)) return tellNoVenue(folder);
+    session_.open(folder.path().toStdString());
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder."), {}, {}});
+  }
+}
+
+void VenuePage::tellNoVenue(const QDir& folder) {
+  int within = 0;
+  for (const QString& child : folder.entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+    if (folder.exists(child + '/' + manifestName)) ++within;
+  Failure failure{ErrorKind::input,
+                  tr("%1 is not the folder of a venue: it has no %2 in it.").arg(folder.path(), manifestName),
+                  within > 0 ? tr("There are %n venue(s) within it: open one of them.", nullptr, within)
+                             : tr("Choose a venue's own folder. It has the venue's name."),
+                  folder.path(), tr("This folder is not a venue")};
+  Q_EMIT failed({failure, tr("Nothing was changed in that folder."), {}, {}});
+}
+
+void VenuePage::chooseVenue(std::size_t index) {
+  venue_ = index;
+  suggestName();
+  Q_EMIT changed();
+}
+
+void VenuePage::chooseSize(std::size_t index) {
+  size_ = index;
+  Q_EMIT changed();
+}
+
+QString VenuePage::nameOf(const RehearsalSize& size) {
+  return tr(size.text).arg(sizeText(size.projector));
+}
+
+void VenuePage::setSizes(std::vector<RehearsalSize> sizes) {
+  sizes_ = std::move(sizes);
+  size_ = 0;
+  Q_EMIT changed();
+}
+
+void VenuePage::setScript(const CommandRigSettings& script) {
+  script_ = script;
+  Q_EMIT changed();
+}
+
+void VenuePage::chooseScreen(const ScreenChoice& choice) {
+  if (!choice.refusal.isEmpty()) return;
+  screen_.display = choice.display;
+  screen_.projector = choice.size;
+  screen_.frameRate = choice.frameRate;
+  screenWarning_ = choice.warning;
+  Q_EMIT changed();
+}
+
+void VenuePage::setVenueName(const QString& name) {
+  venueName_ = name;
+  named_ = !name.isEmpty();
+  Q_EMIT changed();
+}
+
+void VenuePage::setFolder(const QString& folder) {
+  parent_ = QDir::cleanPath(folder);
+  suggestName();
+  Q_EMIT changed();
+}
+
+void VenuePage::setUsualFolder(const QString& folder) {
+  if (std::exchange(usualFolder_, folder) != folder) setFolder(folder);
+}
+
+/// A name that is not taken yet.
+void VenuePage::suggestName() {
+  if (named_) return;
+  QString base = isReal() ? tr("New venue") : tr(venues_[venue_].name);
+  venueName_ = base;
+  for (int number = 2; QFileInfo::exists(target()); ++number)
+    venueName_ = QString("%1 %2").arg(base).arg(number);
+}
+
+void VenuePage::useScreen() {
+  if (!problem().isEmpty()) return;
+  try {
+    openScreen_.apply();
+    setMode(Mode::start);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+  }
+}
+
+void VenuePage::begin() {
+  if (mode_ == Mode::screen || !problem().isEmpty()) return;
+  try {
+    QDir().mkpath(parent_);
+    bool clear = roomClear_;  // begun, the page starts over
+    session_.begin(target().toStdString(), wanted());
+    session_.setRoomClear(clear);
+    named_ = false;
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was measured yet."), {}, {}});
+  }
+}
+
+}  // namespace relucent

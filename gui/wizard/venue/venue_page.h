@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+
+#include "wizard/devices/screen_choice.h"
+#include "wizard/frame/page_model.h"
+#include "wizard/session/session.h"
+#include "wizard/venue/recent_venues.h"
+#include "wizard/venue/venue_screen.h"
+
+class QDir;
+
+namespace relucent {
+
+/// A simulated venue as it is offered.
+struct RehearsalVenue {
+  std::string id;               // core's name
+  const char *name, *sentence;  // for VenuePage::tr()
+  QString picture;              // resource
+};
+/// Sizes of the simulated devices.
+struct RehearsalSize {
+  Size projector, camera;
+  const char* text;  // for VenuePage::tr(), with a place for the pixels
+};
+
+/// Step 1: which venue, and where its work is kept.
+class VenuePage : public PageModel {
+  Q_OBJECT
+
+ public:
+  enum class Mode { start, rehearse, script, devices, screen };
+
+  VenuePage(Session& session, RecentVenues recent, QObject* parent = nullptr);
+
+  QString name() const override;
+  QString title() const override;
+  QString subtitle() const override;
+  StepStatus status() const override;
+  QString hint() const override;
+  QString cause() const override { return firstProblem().cause; }
+  Command primary() const override;
+  std::vector<Command> secondary() const override;
+  std::optional<Banner> banner() const override;
+  bool goBack() override;
+  bool canGoBack() const override { return mode_ != Mode::start; }
+  bool usesInspector() const override { return mode_ != Mode::start; }
+
+  Mode mode() const { return mode_; }
+  void setMode(Mode mode);
+  QList<RecentVenue> recent() const { return recent_.list(); }
+  bool isOpenNow(const RecentVenue& venue) const;
+  /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened.
+  void open(const QString& path);
+
+  const std::vector<RehearsalVenue>& venues() const { return venues_; }
+  const std::vector<RehearsalSize>& sizes() const { return sizes_; }
+  static QString nameOf(const RehearsalSize& size);
+  std::size_t venue() const { return venue_; }
+  std::size_t size() const { return size_; }
+  void chooseVenue(std::size_t index);
+  void chooseSize(std::size_t index);
+  /// Pixels of their own for tests and pictures.
+  void setSizes(std::vector<RehearsalSize> sizes);
+
+  const CommandRigSettings& script() const { return script_; }
+  void setScript(const CommandRigSettings& script);
+
+  /// The screen of the desktop that is the projector, in the mode `devices`.
+  const ScreenRigSettings& screen() const { return screen_; }
+  void chooseScreen(const ScreenChoice& choice);
+  /// What choosing that screen means, a sentence; empty: nothing out of the ordinary.
+  QString screenWarning() const { return screenWarning_; }
+
+  /// The screen of the calibration that is open, in the mode `screen`.
+  VenueScreen& openScreen() { return openScreen_; }
+  const VenueScreen& openScreen() const { return openScreen_; }
+  const Session& session() const { return session_; }
+
+  /// Of the new calibration.
+  QString venueName() const { return venueName_; }
+  void setVenueName(const QString& name);
+  QString folder() const { return parent_; }
+  void setFolder(const QString& folder);
+  /// Where new ones are kept as long as nobody says otherwise.
+  void setUsualFolder(const QString& folder);
+  std::uint64_t freeBytes() const;
+  /// Before a screen is chosen nobody knows the projector's pixels.
+  bool isExpectedKnown() const { return mode_ != Mode::devices || !screen_.projector.empty(); }
+  /// What acquiring will about take; nobody knows how long before the devices were tried.
+  WorkLeft expected() const;
+  /// By a fast camera and by a slow one.
+  std::pair<double, double> expectedSeconds() const;
+
+  /// Devices of the user's, not simulated ones.
+  bool isReal() const { return mode_ == Mode::script || mode_ == Mode::devices; }
+
+  /// Devices of the user's may flash more than three times a second. Off whenever a new venue is begun.
+  bool needsConsent() const { return isReal() && session_.flashLimit() == 0; }
+  bool isRoomClear() const { return roomClear_; }
+  void setRoomClear(bool clear);
+
+  /// The first sentence against beginning; empty: nothing.
+  QString problem() const { return firstProblem().sentence; }
+
+ private:
+  struct Problem {
+    QString sentence;
+    QString cause{};  // the widget's name
+  };
+  Problem firstProblem() const;
+  CalibrateSettings wanted() const;
+  void begin();
+  void useScreen();
+  void tellNoVenue(const QDir& folder);
+  void suggestName();
+  QString target() const { return parent_ + '/' + venueName_; }
+
+  Session& session_;
+  RecentVenues recent_;
+  VenueScreen openScreen_;
+  Mode mode_ = Mode::start;
+  std::vector<RehearsalVenue> venues_;
+  std::vector<RehearsalSize> sizes_;
+  std::size_t venue_ = 0, size_ = 0;
+  CommandRigSettings script_;
+  ScreenRigSettings screen_;
+  QString screenWarning_;
+  QString venueName_, parent_;
+  QString usualFolder_;
+  bool roomClear_ = false;
+  bool named_ = false;  // by the user
+};
+
+}  // namespace relucent

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// What a new venue will take, and what stands against beginning it.
+#include <QDir>
+#include <QFileInfo>
+#include <QGuiApplication>
+
+#include "acquisition/forecast.h"
+#include "jobs/core_sentences.h"
+#include "jobs/free_space.h"
+#include "views/number_text.h"
+#include "wizard/venue/venue_page.h"
+
+namespace relucent {
+namespace {
+
+constexpr Size usualScreen{1920, 1080};
+
+bool hasOneScreen() {
+  return QGuiApplication::screens().size() == 1;
+}
+
+}  // namespace
+
+std::uint64_t VenuePage::freeBytes() const {
+  return freeBytesAt(parent_);
+}
+
+CalibrateSettings VenuePage::wanted() const {
+  CalibrateSettings settings;
+  if (isReal()) {
+    if (mode_ == Mode::script)
+      settings.rig = script_;
+    else
+      settings.rig = screen_;
+    return settings;
+  }
+  VenueSettings venue;
+  venue.name = venues_[venue_].id;
+  venue.projector = sizes_[size_].projector;
+  venue.camera = sizes_[size_].camera;
+  settings.rig = venue;
+  return settings;
+}
+
+WorkLeft VenuePage::expected() const {
+  Size projector = sizes_[size_].projector, camera = sizes_[size_].camera;
+  if (mode_ == Mode::script) {
+    projector = script_.projector;
+    camera = script_.camera.value_or(projector);
+  } else if (mode_ == Mode::devices) {
+    // A camera is chosen later; until then one of as many pixels.
+    projector = camera = screen_.projector.empty() ? usualScreen : screen_.projector;
+  }
+  constexpr std::size_t exposures = 2;
+  constexpr double meanExposure = 0.1;
+  Rasters projectors(std::vector<Size>(Session::projectorsOf(wanted().rig), projector));
+  return forecast(Rasters(camera), projectors, exposures, meanExposure, {}, {}, {});
+}
+
+std::pair<double, double> VenuePage::expectedSeconds() const {
+  // A GigE camera gave 16 photographs a second; a still camera takes and sends a raw file in some 3 seconds.
+  constexpr double fastPhotograph = 1.0 / 16.0, slowPhotograph = 3.0;
+  const double photographs = expected().exposures;
+  return {photographs * fastPhotograph, photographs * slowPhotograph};
+}
+
+VenuePage::Problem VenuePage::firstProblem() const {
+  if (mode_ == Mode::start) return {};
+  if (mode_ == Mode::screen) {
+    if (!openScreen_.isChangeable()) return {tr("The devices are in use at %1.").arg(session_.busy())};
+    if (!openScreen_.isAnother()) return {tr("Choose another screen."), "screens"};
+    return {};
+  }
+  if (venueName_.trimmed().isEmpty()) return {tr("Give the venue a name."), "venue-name"};
+  if (venueName_.contains('/')) return {tr("A name cannot hold a slash."), "venue-name"};
+  if (QFileInfo::exists(target()))
+    return {tr("There is a folder of that name. Choose another name."), "venue-name"};
+  if (mode_ == Mode::devices && screen_.projector.empty())
+    return {hasOneScreen()
+                ? tr("Only your own screen is there. Plug the projector in, and extend the desktop to it.")
+                : tr("Choose the screen that shines on the surface."),
+            "screens"};
+  if (std::vector<std::string> found = problems(wanted()); !found.empty())
+    return {fullSentence(found.front())};
+  std::uint64_t needed = expected().diskBytes, free = freeBytes();
+  if (free < needed)
+    return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), "venue-folder"};
+  if (needsConsent() && !roomClear_) return {tr("Confirm that the room is clear."), "room-is-clear"};
+  return {};
+}
+
+}  // namespace relucent

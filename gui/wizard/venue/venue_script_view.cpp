@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <QLineEdit>
+#include <QSpinBox>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/venue/screen_list.h"
+#include "wizard/venue/venue_page.h"
+#include "wizard/venue/venue_parts.h"
+
+namespace relucent {
+namespace {
+
+QLineEdit* commandLine(VenuePage& model, QVBoxLayout* column, const QString& name, const QString& example,
+                       std::string CommandRigSettings::*part) {
+  column->addWidget(labelOf(name, "note"));
+  auto* line = new QLineEdit(QString::fromStdString(model.script().*part));
+  line->setPlaceholderText(example);
+  line->setAccessibleName(name);
+  QObject::connect(line, &QLineEdit::textEdited, &model, [&model, part](const QString& text) {
+    CommandRigSettings script = model.script();
+    script.*part = text.toStdString();
+    model.setScript(script);
+  });
+  column->addWidget(line);
+  return line;
+}
+
+}  // namespace
+
+QWidget* scriptStage(VenuePage& model) {
+  auto* stage = new QWidget;
+  auto* column = new QVBoxLayout(stage);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(space::gap);
+  column->addWidget(screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
+                                  CommandRigSettings script = model.script();
+                                  script.projector = choice.size;
+                                  model.setScript(script);
+                                })),
+                    1);
+  auto* programs = new Card(VenuePage::tr("Programs"));
+  programs->setSubtitle(VenuePage::tr("Any projector and any camera that a command can drive"));
+  commandLine(model, programs->body(),
+              VenuePage::tr("Shows the file {image} and ends as soon as the projector shines it"),
+              "show-on-projector {image}", &CommandRigSettings::projectorCommand);
+  commandLine(
+      model, programs->body(),
+      VenuePage::tr("Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF"),
+      "photograph --seconds {exposure} --to {output}", &CommandRigSettings::cameraCommand);
+  programs->body()->addStretch(1);
+  column->addWidget(programs, 1);
+  return stage;
+}
+
+QWidget* scriptInspector(VenuePage& model) {
+  QVBoxLayout* column = nullptr;
+  QWidget* card = inspectorCard(column);
+  column->addWidget(labelOf(VenuePage::tr("Projector's pixels"), "section"));
+  auto* row = new QHBoxLayout;
+  for (int Size::*side : {&Size::width, &Size::height}) {
+    auto* box = new QSpinBox;
+    box->setRange(8, 8192);
+    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    box->setValue(model.script().projector.*side);
+    box->setAccessibleName(side == &Size::width ? VenuePage::tr("Width") : VenuePage::tr("Height"));
+    QObject::connect(box, &QSpinBox::valueChanged, &model, [&model, side](int value) {
+      CommandRigSettings script = model.script();
+      if (script.projector.*side == value) return;
+      script.projector.*side = value;
+      model.setScript(script);
+    });
+    QObject::connect(&model, &VenuePage::changed, box, [&model, box, side] {
+      QSignalBlocker quiet(box);
+      box->setValue(model.script().projector.*side);
+    });
+    row->addWidget(box);
+  }
+  column->addLayout(row);
+  column->addWidget(lineOf());
+  column->addWidget(keepingPart(model));
+  column->addWidget(consentToBegin(model));
+  column->addStretch(1);
+  return card;
+}
+
+}  // namespace relucent

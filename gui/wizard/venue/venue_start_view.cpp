@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <QFileDialog>
+#include <QShortcut>
+
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "wizard/venue/tile.h"
+#include "wizard/venue/venue_page.h"
+#include "wizard/venue/venue_parts.h"
+
+namespace relucent {
+namespace {
+
+class RecentRow : public QFrame {
+ public:
+  RecentRow(VenuePage& model, const RecentVenue& venue) {
+    setRole(this, "card");
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(16, 10, 12, 10);
+    row->addWidget(new IconLabel(venue.simulated ? Icon::play : Icon::projector, secondaryColour, 24));
+    row->addSpacing(8);
+    auto* texts = new QVBoxLayout;
+    texts->setSpacing(2);
+    texts->addWidget(labelOf(venue.name, "strong"));
+    QString when = QLocale().toString(venue.opened, QLocale::ShortFormat);
+    texts->addWidget(labelOf(venue.simulated ? VenuePage::tr("Rehearsal. Opened %1").arg(when)
+                                             : VenuePage::tr("Opened %1").arg(when),
+                             "note"));
+    row->addLayout(texts, 1);
+    QLabel* state = labelOf(venue.state, "information");
+    state->setWordWrap(false);
+    row->addWidget(state);
+    row->addSpacing(8);
+    const bool isOpen = model.isOpenNow(venue);
+    QPushButton* open = buttonOf(isOpen ? VenuePage::tr("Is open") : VenuePage::tr("Open"));
+    open->setEnabled(!isOpen);
+    open->setAccessibleName(VenuePage::tr("Open %1").arg(venue.name));
+    QObject::connect(open, &QPushButton::clicked, &model,
+                     [&model, folder = venue.folder] { model.open(folder); });
+    row->addWidget(open);
+  }
+};
+
+void chooseFolder(VenuePage& model, QWidget* parent) {
+  QString folder = QFileDialog::getExistingDirectory(parent, VenuePage::tr("Open a venue"), model.folder());
+  if (!folder.isEmpty()) model.open(folder);
+}
+
+class StartStage : public QWidget {
+ public:
+  explicit StartStage(VenuePage& model) : model_(model) {
+    auto* all = new QVBoxLayout(this);
+    all->setContentsMargins(0, 0, 0, 0);
+    all->setSpacing(space::gap);
+    auto* tiles = new QHBoxLayout;
+    tiles->setSpacing(space::gap);
+    auto* rehearse = new Tile(Icon::play, VenuePage::tr("Rehearse"),
+                              VenuePage::tr("Learn every step in a simulated venue. No devices needed."));
+    auto* open = new Tile(Icon::folder, VenuePage::tr("Open a venue"),
+                          VenuePage::tr("Continue where you stopped, or change the content."));
+    auto* create =
+        new Tile(Icon::plus, VenuePage::tr("New venue"),
+                 VenuePage::tr("Measure a surface with a projector and a camera at this computer."));
+    auto* script = new Tile(Icon::settings, VenuePage::tr("New venue by script"),
+                            VenuePage::tr("Projector and camera are driven by programs of yours."));
+    rehearse->setObjectName("rehearse");
+    create->setObjectName("new-venue");
+    for (Tile* tile : {rehearse, open, create, script}) tiles->addWidget(tile);
+    all->addLayout(tiles);
+    QObject::connect(create, &Tile::clicked, &model, [&model] { model.setMode(VenuePage::Mode::devices); });
+    QObject::connect(script, &Tile::clicked, &model, [&model] { model.setMode(VenuePage::Mode::script); });
+    QObject::connect(open, &Tile::clicked, &model, [this] { chooseFolder(model_, this); });
+    QObject::connect(rehearse, &Tile::clicked, &model,
+                     [&model] { model.setMode(VenuePage::Mode::rehearse); });
+    connect(new QShortcut(QKeySequence::New, this), &QShortcut::activated, create, &Tile::click);
+    connect(new QShortcut(QKeySequence::Open, this), &QShortcut::activated, open, &Tile::click);
+    all->addWidget(labelOf(VenuePage::tr("Recent"), "heading"));
+    recent_ = new Card;
+    all->addWidget(recent_, 1);
+    connect(&model, &VenuePage::changed, this, [this] { refresh(); });
+    fill();
+  }
+
+ private:
+  void refresh() {
+    if (isVisible()) fill();
+  }
+  void showEvent(QShowEvent*) override { fill(); }
+  void fill() {
+    QList<RecentVenue> venues = model_.recent();
+    QStringList now;
+    for (const RecentVenue& venue : venues)
+      now << venue.folder + venue.state + (model_.isOpenNow(venue) ? "*" : "");
+    if (now == shown_ && recent_->body()->count() > 0) return;
+    shown_ = now;
+    while (QLayoutItem* item = recent_->body()->takeAt(0)) {
+      delete item->widget();
+      delete item;
+    }
+    if (venues.isEmpty()) return fillEmpty();
+    for (const RecentVenue& venue : venues.first(std::min<qsizetype>(5, venues.size())))
+      recent_->body()->addWidget(new RecentRow(model_, venue));
+    recent_->body()->addStretch(1);
+  }
+  void fillEmpty() {
+    auto* middle = new QWidget;
+    auto* column = new QVBoxLayout(middle);
+    column->addStretch(1);
+    column->addWidget(new IconLabel(Icon::house, secondaryColour, 48), 0, Qt::AlignHCenter);
+    for (auto [text, role] :
+         {std::pair(VenuePage::tr("No venues yet"), "heading"),
+          std::pair(VenuePage::tr("The venues that you measure are listed here, newest first."), "secondary"),
+          std::pair(VenuePage::tr("A first rehearsal takes a few minutes."), "secondary")}) {
+      QLabel* label = labelOf(text, role);
+      label->setAlignment(Qt::AlignHCenter);
+      column->addWidget(label);
+    }
+    QPushButton* rehearse = buttonOf(VenuePage::tr("Rehearse in a simulated venue"));
+    connect(rehearse, &QPushButton::clicked, &model_, [this] { model_.setMode(VenuePage::Mode::rehearse); });
+    column->addSpacing(8);
+    column->addWidget(rehearse, 0, Qt::AlignHCenter);
+    column->addStretch(1);
+    recent_->body()->addWidget(middle);
+  }
+
+  VenuePage& model_;
+  Card* recent_;
+  QStringList shown_;
+};
+
+}  // namespace
+
+QWidget* startStage(VenuePage& model) {
+  return new StartStage(model);
+}
+
+}  // namespace relucent

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <QComboBox>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QStackedWidget>
+
+#include "jobs/time_left.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/number_text.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/venue/tile.h"
+#include "wizard/venue/venue_page.h"
+#include "wizard/venue/venue_parts.h"
+
+namespace relucent {
+namespace {
+
+/// Name, folder, and what it will take: the same for every kind of new venue.
+class KeepingPart : public QWidget {
+ public:
+  explicit KeepingPart(VenuePage& model) : model_(model) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(labelOf(VenuePage::tr("This venue"), "section"));
+    column->addWidget(labelOf(VenuePage::tr("Name"), "note"));
+    name_ = new QLineEdit;
+    name_->setObjectName("venue-name");
+    name_->setAccessibleName(VenuePage::tr("Name of the venue"));
+    column->addWidget(name_);
+    column->addWidget(labelOf(VenuePage::tr("Folder"), "note"));
+    auto* row = new QHBoxLayout;
+    folder_ = new QLineEdit;
+    folder_->setObjectName("venue-folder");
+    folder_->setAccessibleName(VenuePage::tr("Folder that holds the venue"));
+    row->addWidget(folder_, 1);
+    QToolButton* browse = toolOf(Icon::folder, VenuePage::tr("Choose a folder"));
+    row->addWidget(browse);
+    column->addLayout(row);
+    column->addSpacing(8);
+    column->addWidget(lineOf());
+    column->addWidget(labelOf(VenuePage::tr("Expected"), "section"));
+    column->addWidget(patterns_ = new ValueRow(VenuePage::tr("Patterns")));
+    column->addWidget(time_ = new ValueRow(VenuePage::tr("Time, by camera")));
+    time_->setToolTip(VenuePage::tr("Industrial cameras and video devices are fast, still cameras slow."));
+    column->addWidget(disk_ = new ValueRow(VenuePage::tr("Disk")));
+    connect(name_, &QLineEdit::textEdited, &model, &VenuePage::setVenueName);
+    connect(folder_, &QLineEdit::editingFinished, &model, [this] { model_.setFolder(folder_->text()); });
+    connect(browse, &QToolButton::clicked, this, [this] {
+      QString chosen =
+          QFileDialog::getExistingDirectory(this, VenuePage::tr("Choose a folder"), model_.folder());
+      if (!chosen.isEmpty()) model_.setFolder(chosen);
+    });
+    connect(&model, &VenuePage::changed, this, [this] { refresh(); });
+    refresh();
+  }
+
+ private:
+  void refresh() {
+    if (name_->text() != model_.venueName()) name_->setText(model_.venueName());
+    if (!folder_->hasFocus()) folder_->setText(model_.folder());
+    time_->setVisible(model_.isReal());
+    if (!model_.isExpectedKnown()) {
+      time_->setValue(QString::fromUtf8("–"));
+      patterns_->setValue(QString::fromUtf8("–"));
+      return disk_->setValue(VenuePage::tr("%1 free").arg(bytesText(model_.freeBytes())));
+    }
+    WorkLeft work = model_.expected();
+    patterns_->setValue(VenuePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work.shots))));
+    auto [fast, slow] = model_.expectedSeconds();
+    time_->setValue(VenuePage::tr("%1 to %2").arg(durationText(fast), durationText(slow)));
+    const std::uint64_t free = model_.freeBytes();
+    disk_->setValue(VenuePage::tr("%1 of %2").arg(bytesText(work.diskBytes), bytesText(free)),
+                    free < work.diskBytes ? "error" : "strong");
+  }
+
+  VenuePage& model_;
+  QLineEdit *name_, *folder_;
+  ValueRow *patterns_, *time_, *disk_;
+};
+
+}  // namespace
+
+QWidget* keepingPart(VenuePage& model) {
+  return new KeepingPart(model);
+}
+
+QWidget* rehearseStage(VenuePage& model) {
+  auto* stage = new QWidget;
+  auto* grid = new QGridLayout(stage);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(space::gap);
+  auto* group = new QButtonGroup(stage);
+  constexpr int across = 4;
+  for (std::size_t i = 0; i < model.venues().size(); ++i) {
+    const RehearsalVenue& venue = model.venues()[i];
+    auto* tile = new Tile(QImage(venue.picture), VenuePage::tr(venue.name), VenuePage::tr(venue.sentence));
+    tile->setObjectName("venue-" + QString::fromStdString(venue.id));
+    tile->setCheckable(true);
+    tile->setChecked(i == model.venue());
+    group->addButton(tile, static_cast<int>(i));
+    grid->addWidget(tile, static_cast<int>(i) / across, static_cast<int>(i) % across);
+  }
+  QObject::connect(group, &QButtonGroup::idClicked, &model,
+                   [&model](int id) { model.chooseVenue(static_cast<std::size_t>(id)); });
+  return stage;
+}
+
+QWidget* rehearseInspector(VenuePage& model) {
+  QVBoxLayout* column = nullptr;
+  QWidget* card = inspectorCard(column);
+  column->addWidget(labelOf(VenuePage::tr("Simulated devices"), "section"));
+  column->addWidget(labelOf(VenuePage::tr("Projector"), "note"));
+  auto* sizes = new QComboBox;
+  sizes->setObjectName("rehearsal-size");
+  sizes->setAccessibleName(VenuePage::tr("Pixels of the simulated projector"));
+  for (const RehearsalSize& size : model.sizes()) sizes->addItem(VenuePage::nameOf(size));
+  sizes->setCurrentIndex(static_cast<int>(model.size()));
+  QObject::connect(sizes, &QComboBox::activated, &model,
+                   [&model](int index) { model.chooseSize(static_cast<std::size_t>(index)); });
+  column->addWidget(sizes);
+  column->addWidget(
+      labelOf(VenuePage::tr("More pixels show finer detail and take longer. The first time, the light "
+                            "of the venue is traced; later it is remembered."),
+              "note"));
+  column->addWidget(lineOf());
+  column->addWidget(keepingPart(model));
+  column->addStretch(1);
+  return card;
+}
+
+PageView viewOf(VenuePage& model) {
+  auto* stages = new QStackedWidget;
+  auto* inspectors = new QStackedWidget;
+  for (QWidget* stage :
+       {startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model), screenStage(model)})
+    stages->addWidget(stage);
+  for (QWidget* inspector : {new QWidget, rehearseInspector(model), scriptInspector(model),
+                             devicesInspector(model), screenInspector(model)})
+    inspectors->addWidget(inspector);
+  auto refresh = [&model, stages, inspectors] {
+    int mode = static_cast<int>(model.mode());
+    stages->setCurrentIndex(mode);
+    inspectors->setCurrentIndex(mode);
+  };
+  QObject::connect(&model, &VenuePage::changed, stages, refresh);
+  refresh();
+  return {stages, inspectors};
+}
+
+}  // namespace relucent

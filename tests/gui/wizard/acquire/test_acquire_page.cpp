@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The page of acquisition before and while it measures: plan, time to leave, tries by itself.
+#include "wizard/acquire/acquire_page.h"
+
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "pipeline/measuring.h"
+#include "venue/venue.h"
+#include "wizard/acquire/retrying.h"
+
+using namespace relucent;
+
+namespace {
+
+constexpr int patience = 120'000;  // ms for a small measurement on a busy machine
+
+CalibrateSettings simulated() {
+  VenueSettings venue;
+  venue.name = "plain";
+  venue.projector = {48, 36};
+  venue.camera = {40, 30};
+  venue.pathsPerPixel = 16;
+  CalibrateSettings settings;
+  settings.rig = venue;
+  settings.linearization.levels = 9;
+  return settings;
+}
+
+CalibrateSettings scripted() {
+  CommandRigSettings script;
+  script.projector = {64, 48};
+  script.camera = {48, 36};
+  script.projectorCommand = "show {image}";
+  script.cameraCommand = "photograph {exposure} {output}";
+  CalibrateSettings settings;
+  settings.rig = script;
+  return settings;
+}
+
+}  // namespace
+
+Q_DECLARE_METATYPE(AlarmKind)
+
+class TestAcquirePage : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    folder_ = std::make_unique<QTemporaryDir>();
+    session_ = std::make_unique<Session>(std::filesystem::path(folder_->filePath("cache").toStdString()));
+  }
+
+  void devicesWithLightWaitUntilTheRoomIsLeft() {
+    session_->begin(folder_->filePath("venue").toStdString(), scripted());
+    session_->setRoomClear(true);
+    AcquirePage page(*session_);
+    page.setSecondsToLeave(60);
+    page.primary().run();
+    QVERIFY(page.isLeaving() && !page.isMeasuring());
+    QCOMPARE(session_->busy(), page.name());
+    QVERIFY(page.status().state == StepState::busy && page.hint().contains("60"));
+    // Not now: as if nothing had been pressed.
+    QCOMPARE(page.secondary().size(), std::size_t{1});
+    page.secondary().front().run();
+    QVERIFY(!page.isLeaving() && !page.isMeasuring() && session_->busy().isEmpty());
+    // And again, not waiting for the rest of it. The scripts do not exist: it fails, but it has begun.
+    page.primary().run();
+    QVERIFY(page.isLeaving());
+    QSignalSpy measured(&page, &AcquirePage::measured);
+    page.primary().run();
+    QVERIFY(!page.isLeaving());
+    QTRY_COMPARE_WITH_TIMEOUT(measured.size(), 1, patience);
+    // Going elsewhere calls it off.
+    page.primary().run();
+    QVERIFY(page.isLeaving());
+    session_->close();
+    QVERIFY(!page.isLeaving() && session_->busy().isEmpty());
+  }
+
+  /// Law: each level has four times the blocks of the one before; patterns are planned, then known, then
+  /// through; a rehearsal waits for nobody.
+  void thePlanBecomesWhatWasMeasured() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage page(*session_);
+    page.setSecondsToLeave(60);
+    QVERIFY(!page.expected(Fineness::usual) && page.floodlightNumber() == 0);
+    std::vector<BlockLevel> plan = page.levels();
+    QCOMPARE(plan.size(), std::size_t{6});  // 64 pixels hold 48: halves from 32 down
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      QCOMPARE(plan[i].block, 32 >> i);
+      QVERIFY(!plan[i].isKnown && plan[i].patterns.likely > 0.0);
+    }
+    page.primary().run();
+    QVERIFY(page.isMeasuring());
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(page.isDone());
+    std::vector<BlockLevel> levels = page.levels();
+    QVERIFY(!levels.empty() && levels.size() <= plan.size());
+    double patterns = 0.0;
+    for (const BlockLevel& level : levels) {
+      QVERIFY(level.isThrough());
+      patterns += level.through;
+    }
+    // References, checks and test patterns belong to no level.
+    QVERIFY(patterns > 0.0 && patterns < page.figure("patterns").value());
+    QVERIFY(page.floodlightNumber() > 0);
+    QCOMPARE(page.floodlight().size(), (Size{40, 30}));
+  }
+
+  /// Law: finer takes longer.
+  void everyFinenessHasItsTime() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    {
+      Progress progress;
+      SimulatedVenue venue(std::get<VenueSettings>(simulated().rig), {}, progress);
+      Rig rig = venue.rig();
+      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
+      measureLinearization(folder, rig, progress);
+    }
+    AcquirePage page(*session_);
+    session_->reload();
+    for (bool fineChosen : {false, true}) {
+      if (fineChosen) page.setFineness(Fineness::fine);
+      auto fast = page.expected(Fineness::fast), usual = page.expected(Fineness::usual),
+           fine = page.expected(Fineness::fine);
+      QVERIFY(fast && usual && fine);
+      QVERIFY2(fast->seconds < usual->seconds && usual->seconds < fine->seconds,
+               qPrintable(QString("%1 %2 %3").arg(fast->seconds).arg(usual->seconds).arg(fine->seconds)));
+      QCOMPARE(page.expected()->seconds, (fineChosen ? fine : usual)->seconds);
+    }
+  }
+
+  void whatMayPassIsTriedThreeTimes_data() {
+    QTest::addColumn<AlarmKind>("kind");
+    QTest::addColumn<int>("tries");
+    QTest::newRow("a door stood open") << AlarmKind::ambientChanged << 3;
+    QTest::newRow("somebody in the light") << AlarmKind::localChange << 3;
+    QTest::newRow("a lamp flickers") << AlarmKind::flicker << 0;
+    QTest::newRow("the tripod was pushed") << AlarmKind::moved << 0;
+    QTest::newRow("the lens is covered") << AlarmKind::coveredLens << 0;
+  }
+  void whatMayPassIsTriedThreeTimes() {
+    QFETCH(AlarmKind, kind);
+    QFETCH(int, tries);
+    AcquisitionObserver nobody;
+    auto asking = std::make_shared<Asking>();
+    Retrying retrying(nobody, asking, std::chrono::milliseconds(1));
+    Reading wrong;
+    wrong.alarm = kind;
+    auto tried = [&] {
+      retrying.checked(wrong);
+      return retrying.triesAgain(kind);
+    };
+    auto count = [&] {
+      int times = 0;
+      while (times < 10 && tried()) ++times;
+      return times;
+    };
+    QCOMPARE(count(), tries);
+    // Somebody was asked and wants it tried again.
+    QCOMPARE(count(), tries);
+    // Two tries, then it is well: the next time it has three again.
+    for (int i = 0; i < std::min(2, tries); ++i) QVERIFY(tried());
+    retrying.checked(Reading());
+    QCOMPARE(count(), tries);
+    // An alarm out of a log, of which nothing was told, is for somebody to decide.
+    retrying.checked(Reading());
+    QVERIFY(!retrying.triesAgain(kind));
+    asking->setClosed(true);
+    QVERIFY(!tried());
+  }
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  std::unique_ptr<Session> session_;
+};
+
+QTEST_GUILESS_MAIN(TestAcquirePage)
+#include "test_acquire_page.moc"

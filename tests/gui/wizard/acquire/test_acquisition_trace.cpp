@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// What is told while the light transport is measured, in order and in words, from the measuring thread.
+#include "wizard/acquire/acquisition_trace.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+#include <thread>
+
+#include "pipeline/measuring.h"
+#include "pipeline/stages.h"
+#include "venue/device_faults.h"
+#include "venue/venue.h"
+#include "views/number_text.h"
+#include "wizard/acquire/acquire_page.h"
+
+using namespace relucent;
+
+namespace {
+
+Reading readingAt(int shot, double roomLight = 0.003) {
+  Reading reading;
+  reading.shot = shot;
+  reading.roomLight = roomLight;
+  reading.roomLightAtFirst = reading.roomLightExpected = 0.003;
+  return reading;
+}
+
+}  // namespace
+
+Q_DECLARE_METATYPE(AlarmKind)
+Q_DECLARE_METATYPE(Retake)
+
+class TestAcquisitionTrace : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+
+ private slots:
+  void readingsArriveInOrderFromAnotherThread() {
+    AcquisitionTrace trace;
+    trace.begin();
+    std::thread measuring([&] {
+      for (int shot = 1; shot <= 100; ++shot) trace.checked(readingAt(shot));
+    });
+    measuring.join();
+    QVERIFY(trace.points().empty());  // it speaks on its own thread
+    QTRY_COMPARE(trace.points().size(), std::size_t{100});
+    double before = 0.0;
+    for (std::size_t i = 0; i < trace.points().size(); ++i) {
+      QCOMPARE(trace.points()[i].reading.shot, static_cast<int>(i) + 1);
+      QVERIFY(trace.points()[i].seconds >= before);
+      before = trace.points()[i].seconds;
+    }
+    QVERIFY(before <= trace.seconds());
+  }
+
+  void anAlarmIsCalledByWhatItIs_data() {
+    QTest::addColumn<AlarmKind>("kind");
+    for (AlarmKind kind : {AlarmKind::flicker, AlarmKind::ambientChanged, AlarmKind::lampChanged,
+                           AlarmKind::moved, AlarmKind::localChange, AlarmKind::mirroredScreen,
+                           AlarmKind::wrongScreen, AlarmKind::coveredLens, AlarmKind::projectorAsleep})
+      QTest::addRow("%d", static_cast<int>(kind)) << kind;
+  }
+  void anAlarmIsCalledByWhatItIs() {
+    QFETCH(AlarmKind, kind);
+    const QString heading = AcquisitionTrace::headingOf(kind);
+    QVERIFY(!heading.isEmpty() && !heading.endsWith('.'));
+  }
+
+  void theRoomLightIsKnownFromTheFirstCheckOn() {
+    AcquisitionTrace trace;
+    trace.begin();
+    QVERIFY(!trace.roomLight());
+    trace.checked(readingAt(1, 0.004));
+    QCoreApplication::processEvents();
+    QCOMPARE(trace.roomLight(), std::optional(RoomLight{0.004, true}));
+    Reading changed = readingAt(2, 0.02);
+    changed.alarm = AlarmKind::ambientChanged;
+    trace.checked(changed);
+    QCoreApplication::processEvents();
+    QCOMPARE(trace.roomLight(), std::optional(RoomLight{0.02, false}));
+  }
+
+  void whatTheMeasurementBeforeSaidIsForgotten() {
+    AcquisitionTrace trace;
+    trace.begin();
+    trace.checked(readingAt(1));
+    trace.takenAgain({0, 2, RetakeReason::overexposed});
+    QCoreApplication::processEvents();
+    QCOMPARE(trace.points().size() + trace.marks().size(), std::size_t{2});
+    trace.checked(readingAt(2));  // still on its way
+    trace.begin();
+    QCoreApplication::processEvents();
+    QVERIFY(trace.points().empty() && trace.marks().empty());
+    QVERIFY(!trace.states().front().isKnown);
+    // Nothing that is on its way belongs to another calibration.
+    trace.checked(readingAt(3));
+    trace.clear();
+    QCoreApplication::processEvents();
+    QVERIFY(trace.points().empty());
+  }
+
+  void timeStandsStillAtTheEnd() {
+    AcquisitionTrace trace;
+    QCOMPARE(trace.seconds(), 0.0);
+    trace.begin();
+    trace.end();
+    double end = trace.seconds();
+    trace.end();
+    QCOMPARE(trace.seconds(), end);
+  }
+
+  void anAlarmChangesOneState_data() {
+    QTest::addColumn<AlarmKind>("kind");
+    QTest::addColumn<int>("state");
+    QTest::newRow("room light") << AlarmKind::ambientChanged << 0;
+    QTest::newRow("moved") << AlarmKind::moved << 1;
+    QTest::newRow("something in the view") << AlarmKind::localChange << 1;
+    QTest::newRow("covered lens") << AlarmKind::coveredLens << 1;
+    QTest::newRow("lamp") << AlarmKind::lampChanged << 2;
+    QTest::newRow("asleep") << AlarmKind::projectorAsleep << 2;
+  }
+  void anAlarmChangesOneState() {
+    QFETCH(AlarmKind, kind);
+    QFETCH(int, state);
+    AcquisitionTrace trace;
+    trace.begin();
+    Reading reading = readingAt(40, 0.0085);
+    reading.alarm = kind;
+    trace.checked(reading);
+    QCoreApplication::processEvents();
+    auto states = trace.states();
+    for (int i = 0; i < 4; ++i) {
+      QVERIFY(states[static_cast<std::size_t>(i)].isKnown);
+      QCOMPARE(states[static_cast<std::size_t>(i)].isSteady, i != state);
+    }
+    QVERIFY2(
+        states[0].figure.contains(decimalText(0.85, 2)) && states[0].figure.contains(decimalText(0.55, 2)),
+        qPrintable(states[0].figure));
+    // Tried again, it is well.
+    trace.checked(readingAt(40));
+    QCoreApplication::processEvents();
+    for (const WatchState& watch : trace.states()) QVERIFY(watch.isSteady);
+  }
+
+  void flickerBeyondItsLimitIsAState() {
+    AcquisitionTrace trace;
+    trace.begin();
+    Reading reading = readingAt(40);
+    reading.flicker = 1.01 * reading_limit::flicker;
+    trace.checked(reading);
+    QCoreApplication::processEvents();
+    QVERIFY(trace.states()[0].isSteady && !trace.states()[3].isSteady);
+  }
+
+  void whatIsTakenAgainIsListedNewestFirst() {
+    AcquisitionTrace trace;
+    trace.begin();
+    trace.takenAgain({90, 2, RetakeReason::alarm, AlarmKind::ambientChanged});
+    trace.takenAgain({213, 1, RetakeReason::overexposed});
+    trace.takenAgain({240, 12, RetakeReason::contradiction});
+    QCoreApplication::processEvents();
+    std::vector<TakenAgain> lines = trace.takenAgain(2);
+    QCOMPARE(lines.size(), std::size_t{2});
+    QCOMPARE(lines[0].patterns, AcquisitionTrace::tr("No. %1 to %2").arg(241).arg(252));
+    QCOMPARE(lines[1].patterns, AcquisitionTrace::tr("No. %1").arg(214));
+    lines = trace.takenAgain(10);
+    QCOMPARE(lines.size(), std::size_t{3});
+    QCOMPARE(lines[2].reason, AcquisitionTrace::tr("the room light changed"));
+    QVERIFY(lines[0].reason != lines[1].reason && !lines[0].reason.isEmpty());
+  }
+
+  /// The lens is pushed and nobody minds: it is said beside the result.
+  void whatWasPutUpWithIsOnThePage() {
+    CalibrateSettings settings;
+    VenueSettings venue;
+    venue.name = "corner";
+    venue.projector = venue.camera = {48, 36};
+    venue.pathsPerPixel = 16;
+    settings.rig = venue;
+    settings.linearization.levels = 9;
+    settings.acquisition.checkInterval = 40;
+    Session session{std::filesystem::path(folder_.filePath("cache").toStdString())};
+    session.begin(folder_.filePath("pushed").toStdString(), settings);
+    AcquirePage page(session);
+    QVERIFY(page.findings().isEmpty());
+
+    Progress progress;
+    SimulatedVenue simulated(venue, {}, progress);
+    DeviceFault push;
+    push.kind = FaultKind::shiftedCamera;
+    push.stage = stage::acquisition;
+    push.first = 60;
+    push.last = 100000;
+    push.amount = 2.0;
+    auto faults = std::make_shared<FaultSchedule>();
+    faults->faults = {push};
+    Rig rig = simulated.rig(faults);
+    {
+      CalibrationFolder folder = CalibrationFolder::open(session.path(), CalibrationFolder::Access::write);
+      Linearization linearization = measureLinearization(folder, rig, progress);
+      AcquisitionObserver nobody;
+      measureAcquisition(
+          folder, rig, linearization, [](const Alarm&) { return Answer::skip; }, nobody, progress);
+    }
+    session.reload();
+    QCOMPARE(page.findings().filter("Put up with before pattern").size(), 1);
+  }
+
+  /// A rehearsal, measured through the page: nothing happens, and the trace says so.
+  void aMeasurementIsTraced() {
+    Session session{std::filesystem::path(folder_.filePath("cache").toStdString())};
+    AcquirePage page(session);
+    connect(&page, &PageModel::failed, this, [](const FailureReport& report) {
+      qWarning("%s %s", qPrintable(report.failure.what), qPrintable(report.failure.advice));
+    });
+    CalibrateSettings settings;
+    VenueSettings venue;
+    venue.name = "plain";
+    venue.projector = venue.camera = {48, 36};
+    venue.pathsPerPixel = 16;
+    settings.rig = venue;
+    settings.linearization.levels = 9;
+    settings.acquisition.checkInterval = 15;
+    session.begin(folder_.filePath("traced").toStdString(), settings);
+    QVERIFY(page.trace().points().empty());
+    page.primary().run();
+    QVERIFY(page.isMeasuring());
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), 120000);
+    QVERIFY(session.progress(Step::acquisition) == StepProgress::done);
+    const auto& points = page.trace().points();
+    QVERIFY2(points.size() > 5, qPrintable(QString::number(points.size())));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Reading& reading = points[i].reading;
+      QVERIFY(!reading.alarm &&
+              std::abs(reading.roomLight - reading.roomLightExpected) < reading_limit::roomLight);
+      if (i > 0) QVERIFY(reading.shot > points[i - 1].reading.shot);
+    }
+    for (const WatchState& state : page.trace().states()) QVERIFY(state.isKnown && state.isSteady);
+    session.open(session.path());
+    QVERIFY(page.trace().points().empty());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestAcquisitionTrace)
+#include "test_acquisition_trace.moc"

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The output of a venue with two projectors, on two screens, see tests/support/with-two-screens. DUMMY0 is
+// the operator's: it is given to a projector only when somebody asks for that.
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "gui/output/two_screens.h"
+#include "pipeline/calibrate.h"
+#include "wizard/output/output_page.h"
+
+using namespace relucent;
+
+namespace {
+
+constexpr int patience = 60000;  // milliseconds; what is waited for takes seconds
+constexpr QSize projectorSize(64, 48);
+
+QImage withoutAlpha(const QImage& image) {
+  return image.convertToFormat(QImage::Format_RGB32);
+}
+
+}  // namespace
+
+class TestTwoOutputs : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<OutputPage> page_;
+
+  std::filesystem::path path(const char* name) const { return folder_.filePath(name).toStdString(); }
+  std::size_t screen(const QString& connector) const {
+    std::size_t index = 0;
+    while (page_->screens().at(index).identity.connector != connector) ++index;
+    return index;
+  }
+  /// What stands in the middle of a screen, where a projector's pixels are.
+  static QImage inTheMiddle(const QString& connector) {
+    QImage seen = seenOn(connector);
+    QRect place(QPoint(), projectorSize);
+    place.moveTopLeft(
+        {(seen.width() - projectorSize.width()) / 2, (seen.height() - projectorSize.height()) / 2});
+    return seen.copy(place);
+  }
+
+ private slots:
+  void initTestCase() {
+    VenueSettings venue;
+    venue.name = "relief";
+    venue.projector = {projectorSize.width(), projectorSize.height()};
+    venue.camera = {40, 30};
+    venue.pathsPerPixel = 32;
+    CalibrateSettings settings;
+    settings.rig = venue;
+    settings.linearization.levels = 9;
+    Progress silent;
+    calibrate(path("relief"), settings, path("cache"), silent);
+    session_ = std::make_unique<Session>(path("cache"));
+    page_ = std::make_unique<OutputPage>(*session_);
+    session_->open(path("relief"));
+    QVERIFY(noise({320, 240}, 3).save(folder_.filePath("content.png")));
+    page_->addFiles({folder_.filePath("content.png")});
+  }
+  void cleanupTestCase() {
+    page_.reset();
+    session_.reset();
+  }
+
+  /// The operator's screen is not taken unasked.
+  void everyProjectorNeedsAScreen() {
+    QCOMPARE(page_->projectors(), std::size_t{2});
+    QCOMPARE(page_->screenOf(0), std::optional(screen("DUMMY1")));
+    QVERIFY(!page_->screenOf(1));
+    QVERIFY(!page_->primary().enabled);
+    QCOMPARE(page_->hint(), OutputPage::tr("Choose a screen for projector %1.").arg(2));
+    page_->open();
+    QVERIFY(!page_->projection().isOpening() && !page_->isOpen());
+  }
+
+  void tooFewScreensAreSaidToBe() {
+    unplug();
+    QTRY_COMPARE(page_->screens().size(), std::size_t{1});
+    QVERIFY(!page_->primary().enabled);
+    QCOMPARE(page_->hint(),
+             OutputPage::tr("Each of the %n projector(s) needs a screen of its own. Plug in another one.",
+                            nullptr, 2));
+    plug();
+    QTRY_COMPARE(page_->screens().size(), std::size_t{2});
+    QCOMPARE(page_->screenOf(0), std::optional(screen("DUMMY1")));
+  }
+
+  /// A screen is one projector's: whoever had it gets the other one's.
+  void screensAreExchanged() {
+    page_->showProjector(1);
+    page_->choose(screen("DUMMY0"));
+    QCOMPARE(page_->chosen(), std::optional(screen("DUMMY0")));
+    QVERIFY(page_->primary().enabled);
+    page_->choose(screen("DUMMY1"));
+    QCOMPARE(page_->screenOf(0), std::optional(screen("DUMMY0")));
+    QCOMPARE(page_->screenOf(1), std::optional(screen("DUMMY1")));
+  }
+
+  void eachScreenShowsItsProjectorsPicture() {
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen(), patience);
+    const OutputProjection& projection = page_->projection();
+    QTRY_VERIFY_WITH_TIMEOUT(!projection.onProjector(1).isNull(), patience);
+    QCOMPARE(projection.onProjector(0).size(), projectorSize);
+    QVERIFY(projection.onProjector(2).isNull());
+    QTRY_COMPARE_WITH_TIMEOUT(inTheMiddle("DUMMY0"), withoutAlpha(projection.onProjector(0)), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(inTheMiddle("DUMMY1"), withoutAlpha(projection.onProjector(1)), patience);
+    QVERIFY(inTheMiddle("DUMMY0") != inTheMiddle("DUMMY1"));
+  }
+
+  void theMirrorIsOfTheShownProjector() {
+    OutputProjection& projection = page_->projection();
+    projection.watch(projectorSize);
+    for (std::size_t projector : {std::size_t{0}, std::size_t{1}}) {
+      page_->showProjector(projector);
+      QVERIFY(projection.mirror().isNull() || projector == 1);
+      QTRY_COMPARE_WITH_TIMEOUT(withoutAlpha(projection.mirror()),
+                                withoutAlpha(projection.onProjector(projector)), patience);
+    }
+    projection.watch({});
+  }
+
+  void theInstalledShowKnowsBothScreens() {
+    QString config = folder_.filePath("config");
+    page_->setConfigFolder(config);
+    page_->install();
+    QDirIterator files(config, QDir::Files, QDirIterator::Subdirectories);
+    QVERIFY(files.hasNext());
+    QFile file(files.next());
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QString text = QString(file.readAll()).remove('"');
+    QVERIFY2(text.contains("--screen DUMMY0 --screen DUMMY1"), qPrintable(text));
+  }
+
+  void blackAndTheEndAreForBoth() {
+    page_->setBlack(true);
+    QTRY_VERIFY(allBlack(inTheMiddle("DUMMY0")) && allBlack(inTheMiddle("DUMMY1")));
+    page_->setBlack(false);
+    QTRY_VERIFY(!allBlack(inTheMiddle("DUMMY0")) && !allBlack(inTheMiddle("DUMMY1")));
+    page_->close();
+    QVERIFY(!page_->isOpen());
+    QTRY_VERIFY(allBlack(inTheMiddle("DUMMY0")) && allBlack(inTheMiddle("DUMMY1")));
+    QVERIFY(page_->projection().onProjector(1).isNull());
+  }
+};
+
+QTEST_MAIN(TestTwoOutputs)
+#include "test_two_outputs.moc"

@@ -3,7 +3,7 @@
 
 #include <QImage>
 
-#include "image/color.h"
+#include "image/colour.h"
 #include "image/picture_files.h"
 
 namespace relucent {

@@ -34,23 +34,21 @@ std::vector<std::string> problems(const AcquisitionSettings& settings) {
   return found;
 }
 
-const std::vector<std::string>& acquisitionModes() {
-  static const std::vector<std::string> names{"adaptive", "sen", "fast"};
-  return names;
-}
-
-AcquisitionSettings acquisitionMode(std::string_view name) {
+AcquisitionSettings settingsOf(AcquisitionMode mode) {
   AcquisitionSettings settings;
-  if (name == "sen") {
-    settings.scheme = AcquisitionScheme::sen;
-  } else if (name == "fast") {
-    settings.colours = LitColours::white;
-    settings.singleExposure = true;
-    settings.relativeThreshold = 0.02;
-    settings.references = 2;
-    settings.verificationPatterns = 4;
-  } else {
-    require(name == "adaptive", "there is no acquisition mode '{}'", name);
+  switch (mode) {
+    case AcquisitionMode::adaptive:
+      break;
+    case AcquisitionMode::sen:
+      settings.scheme = AcquisitionScheme::sen;
+      break;
+    case AcquisitionMode::fast:
+      settings.colours = LitColours::white;
+      settings.singleExposure = true;
+      settings.relativeThreshold = 0.02;
+      settings.references = 2;
+      settings.verificationPatterns = 4;
+      break;
   }
   return settings;
 }

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "base/enum_names.h"
 
 namespace relucent {
 
@@ -13,8 +14,19 @@ inline constexpr int verificationSizes = 4;
 
 /// What decides which nodes of the tree are divided and what is stored: see scheme.h.
 enum class AcquisitionScheme { adaptive, sen };
+inline constexpr EnumName<AcquisitionScheme> acquisitionSchemeNames[]{
+    {AcquisitionScheme::adaptive, "adaptive"}, {AcquisitionScheme::sen, "sen"}};
+constexpr EnumNames<AcquisitionScheme> namesOf(AcquisitionScheme) {
+  return {"acquisition scheme", acquisitionSchemeNames};
+}
+
 /// Light that patterns are shown in: red, green and blue in turn, or white, unmixed afterwards.
 enum class LitColours { rgb, white };
+inline constexpr EnumName<LitColours> litColoursNames[]{
+    {LitColours::rgb, "rgb", "red, green and blue in turn"}, {LitColours::white, "white", "at once"}};
+constexpr EnumNames<LitColours> namesOf(LitColours) {
+  return {"choice of colours", litColoursNames};
+}
 
 struct AcquisitionSettings {
   AcquisitionScheme scheme = AcquisitionScheme::adaptive;
@@ -35,10 +47,15 @@ struct AcquisitionSettings {
 /// Sentences about what is wrong with settings; empty: nothing.
 std::vector<std::string> problems(const AcquisitionSettings& settings);
 
-/// The names of the modes on offer: "adaptive", the default; "sen", the reference of the literature; "fast",
-/// a first look: adaptive, white, one exposure, a looser threshold, fewer references.
-const std::vector<std::string>& acquisitionModes();
-/// Contract: a name from acquisitionModes().
-AcquisitionSettings acquisitionMode(std::string_view name);
+/// Settings that go together. Fast is adaptive, white, one exposure, a looser threshold, fewer references.
+enum class AcquisitionMode { adaptive, sen, fast };
+inline constexpr EnumName<AcquisitionMode> acquisitionModeNames[]{
+    {AcquisitionMode::adaptive, "adaptive"},
+    {AcquisitionMode::sen, "sen", "the reference"},
+    {AcquisitionMode::fast, "fast", "a first look"}};
+constexpr EnumNames<AcquisitionMode> namesOf(AcquisitionMode) {
+  return {"acquisition mode", acquisitionModeNames};
+}
+AcquisitionSettings settingsOf(AcquisitionMode mode);
 
 }  // namespace relucent

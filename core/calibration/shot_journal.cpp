@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/fingerprint.h"
-#include "calibration/json.h"
+#include "calibration/enum_json.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
@@ -20,6 +20,14 @@ static_assert(std::endian::native == std::endian::little, "shot files hold littl
 
 constexpr const char* formatName = "relucent shot";
 constexpr int formatVersion = 1;
+
+/// How a frame's samples are stored: whole codes where those give back every bit.
+enum class SampleCoding { codes8, codes16, floats };
+constexpr EnumName<SampleCoding> sampleCodingNames[]{
+    {SampleCoding::codes8, "codes8"}, {SampleCoding::codes16, "codes16"}, {SampleCoding::floats, "float"}};
+constexpr EnumNames<SampleCoding> namesOf(SampleCoding) {
+  return {"coding of samples", sampleCodingNames};
+}
 
 double fullScale(int bits) {
   return static_cast<double>((1U << static_cast<unsigned>(bits)) - 1U);
@@ -42,14 +50,14 @@ bool appendCodes(std::string& samples, const std::vector<float>& signal, int bit
 }
 
 /// Appends the samples of a frame in the smallest form that loses nothing; its name goes into the header.
-std::string appendFrame(std::string& samples, const RawFrame& frame) {
+SampleCoding appendFrame(std::string& samples, const RawFrame& frame) {
   const std::vector<float>& signal = frame.signal.data();
   if (frame.bits >= 1 && frame.bits <= 8 && appendCodes<std::uint8_t>(samples, signal, frame.bits))
-    return "codes8";
+    return SampleCoding::codes8;
   if (frame.bits > 8 && frame.bits <= 16 && appendCodes<std::uint16_t>(samples, signal, frame.bits))
-    return "codes16";
+    return SampleCoding::codes16;
   samples.append(reinterpret_cast<const char*>(signal.data()), signal.size() * sizeof(float));
-  return "float";
+  return SampleCoding::floats;
 }
 
 template <typename Stored>
@@ -80,7 +88,7 @@ std::string serialise(const Shot& shot) {
   for (const auto& exposure : shot.frames) {
     Json cameras = Json::array();
     for (const RawFrame& frame : exposure) {
-      std::string coding = appendFrame(samples, frame);
+      SampleCoding coding = appendFrame(samples, frame);
       cameras.push_back({{"width", frame.signal.width()},
                          {"height", frame.signal.height()},
                          {"channels", frame.signal.channels()},
@@ -101,28 +109,43 @@ std::string serialise(const Shot& shot) {
   return header.dump() + "\n" + samples;
 }
 
+std::size_t bytesOf(SampleCoding coding) {
+  switch (coding) {
+    case SampleCoding::codes8:
+      return 1;
+    case SampleCoding::codes16:
+      return 2;
+    case SampleCoding::floats:
+      break;
+  }
+  return sizeof(float);
+}
+
 /// Bytes that the header says a frame takes; 0 if the header makes no sense.
 std::size_t bytesOf(const Json& frame) {
   auto width = frame.at("width").get<std::int64_t>();
   auto height = frame.at("height").get<std::int64_t>();
   auto channels = frame.at("channels").get<std::int64_t>();
-  std::string coding = frame.at("samples");
   std::int64_t most = 1 << 16;
   if (width < 1 || height < 1 || channels < 1 || width > most || height > most || channels > 64) return 0;
-  std::size_t each = coding == "codes8" ? 1 : coding == "codes16" ? 2 : coding == "float" ? 4 : 0;
-  return static_cast<std::size_t>(width * height * channels) * each;
+  return static_cast<std::size_t>(width * height * channels) *
+         bytesOf(frame.at("samples").get<SampleCoding>());
 }
 
 RawFrame frameFrom(const Json& description, const char*& from) {
   Size size{description.at("width"), description.at("height")};
   RawFrame frame{Image(size, description.at("channels")), description.at("bits"), description.at("seconds")};
-  std::string coding = description.at("samples");
-  if (coding == "codes8")
-    from = readSamples<std::uint8_t>(from, frame.signal.data(), fullScale(frame.bits));
-  else if (coding == "codes16")
-    from = readSamples<std::uint16_t>(from, frame.signal.data(), fullScale(frame.bits));
-  else
-    from = readSamples<float>(from, frame.signal.data(), 1.0);
+  switch (description.at("samples").get<SampleCoding>()) {
+    case SampleCoding::codes8:
+      from = readSamples<std::uint8_t>(from, frame.signal.data(), fullScale(frame.bits));
+      break;
+    case SampleCoding::codes16:
+      from = readSamples<std::uint16_t>(from, frame.signal.data(), fullScale(frame.bits));
+      break;
+    case SampleCoding::floats:
+      from = readSamples<float>(from, frame.signal.data(), 1.0);
+      break;
+  }
   return frame;
 }
 

@@ -94,8 +94,17 @@ struct Report {
   ReportSettings settings;
   std::filesystem::path cache;
 };
+/// What `bench` times: programs of their own, or single parts of core.
+enum class BenchSuite { parts, inverse, engine, acquisition };
+inline constexpr EnumName<BenchSuite> benchSuiteNames[]{{BenchSuite::inverse, "inverse"},
+                                                        {BenchSuite::engine, "engine"},
+                                                        {BenchSuite::acquisition, "acquisition"}};
+constexpr EnumNames<BenchSuite> namesOf(BenchSuite) {
+  return {"benchmark", benchSuiteNames};
+}
 struct Bench {
-  std::string name;
+  BenchSuite suite = BenchSuite::parts;
+  std::string name;  // of parts: only those that contain it
   AcquisitionBenchSettings acquisition;
   BackendChoice backend = BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "cli/options.h"
-#include "engine/fallback_backend.h"
 
 namespace relucent {
 namespace {
@@ -13,7 +12,7 @@ void addAcquisition(CLI::App* sub, AcquisitionBenchSettings& settings) {
       ->type_name("NAME");
   addSize(group, "--projector", settings.projector, "Size of the projector")->default_str("256x192");
   addSize(group, "--camera", settings.camera, "Size of the camera")->default_str("160x120");
-  group->add_option("--acquisition", settings.modes, "Only this way to measure; may be given several times")
+  addNamed(group, "--acquisition", "Only this way to measure; may be given several times", settings.modes)
       ->type_name("MODE");
   group->add_option("--threshold", settings.thresholds, "Only at this threshold; may be given several times")
       ->type_name("SHARE");
@@ -28,11 +27,13 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
       "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all ways to "
       "invert, and how well each compensates, beside the paper's figures; `acquisition` (an hour): every "
       "way to measure, what it costs and how near it comes to the truth");
-  sub->add_option("--backend", command->backend, "What `engine` runs on")
-      ->transform(CLI::CheckedTransformer(backendChoices()));
+  addNamed(sub, "--backend", "What `engine` runs on", command->backend);
   addAcquisition(sub, command->acquisition);
   addCache(sub, command->cache);
-  return [command] { return Command(*command); };
+  return [command] {
+    command->suite = valueNamed<BenchSuite>(command->name).value_or(BenchSuite::parts);
+    return Command(*command);
+  };
 }
 
 }  // namespace relucent

@@ -42,20 +42,14 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->type_name("N")
       ->capture_default_str();
   // Before all that changes single settings: a mode sets all of them.
-  sub->add_option_function<std::string>(
-         "--acquisition",
-         [&settings](const std::string& mode) { settings.acquisition = acquisitionMode(mode); },
-         "How the light transport is measured: adaptive; sen, the reference; fast, a first look")
-      ->check(CLI::IsMember(acquisitionModes()))
+  addNamed<AcquisitionMode>(sub, "--acquisition",
+                            "How the light transport is measured: " + listOfNames<AcquisitionMode>(),
+                            [&settings](AcquisitionMode mode) { settings.acquisition = settingsOf(mode); })
       ->type_name("MODE")
       ->default_str("adaptive");
-  sub->add_option_function<std::string>(
-         "--colour",
-         [&settings](const std::string& colour) {
-           settings.acquisition.colours = colour == "white" ? LitColours::white : LitColours::rgb;
-         },
-         "Colours that are lit: red, green and blue in turn (rgb) or at once (white); fast lights white")
-      ->check(CLI::IsMember({"rgb", "white"}))
+  addNamed<LitColours>(sub, "--colour",
+                       "Colours that are lit: " + listOfNames<LitColours>() + "; fast lights white",
+                       [&settings](LitColours colours) { settings.acquisition.colours = colours; })
       ->type_name("MODE");
   sub->add_flag("--mirrored", settings.acquisition.mayBeMirrored,
                 "Pictures are meant to appear mirrored: rear projection, a mirror");

@@ -129,11 +129,16 @@ struct Executor {
   }
 
   Outcome operator()(const Bench& command) const {
-    if (command.name == "inverse") return outcomeOf(benchInverse(command.cache, progress));
-    if (command.name == "engine") return outcomeOf(benchEngine(command.backend, progress));
-    if (command.name == "acquisition") {
-      refuse(problems(command.acquisition));
-      return outcomeOf(benchAcquisition(command.acquisition, command.cache, progress));
+    switch (command.suite) {
+      case BenchSuite::inverse:
+        return outcomeOf(benchInverse(command.cache, progress));
+      case BenchSuite::engine:
+        return outcomeOf(benchEngine(command.backend, progress));
+      case BenchSuite::acquisition:
+        refuse(problems(command.acquisition));
+        return outcomeOf(benchAcquisition(command.acquisition, command.cache, progress));
+      case BenchSuite::parts:
+        break;
     }
     return outcomeOf(bench(command.name, progress));
   }

@@ -15,12 +15,8 @@ void addTarget(CLI::App* sub, TargetSettings& target) {
          "Corners of the content in the camera's view, pixels: x y, clockwise from top left")
       ->expected(8)
       ->type_name("X Y ...");
-  sub->add_option_function<std::string>(
-         "--fit", [&target](const std::string& name) { target.fit = fitFromName(name).value(); },
-         "Content in corners of another shape: fill stretches, fit leaves bars, cover cuts off")
-      ->check(CLI::IsMember({"fill", "fit", "cover"}))
-      ->type_name("FIT")
-      ->default_str("fill");
+  addNamed(sub, "--fit", "Content in corners of another shape: " + listOfNames<Fit>(), target.fit)
+      ->type_name("FIT");
   sub->add_option("--dark-share", target.reachablePercentile,
                   "Percent of the pixels that may be too dark to show white: more is brighter")
       ->type_name("PERCENT")
@@ -30,20 +26,11 @@ void addTarget(CLI::App* sub, TargetSettings& target) {
       ->capture_default_str();
 }
 
-std::vector<std::string> methodNames() {
-  std::vector<std::string> names;
-  for (const MethodDescription& method : methodDescriptions) names.emplace_back(method.name);
-  return names;
-}
-
-void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, std::string& method) {
+void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, Method& method) {
   sub->add_option("--image", image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
       ->type_name("FILE")
       ->required();
-  sub->add_option("--method", method, "How to compensate")
-      ->check(CLI::IsMember(methodNames()))
-      ->type_name("METHOD")
-      ->capture_default_str();
+  addNamed(sub, "--method", "How to compensate", method)->type_name("METHOD");
 }
 
 }  // namespace
@@ -53,13 +40,9 @@ std::function<Command()> addCompensateOptions(CLI::App* sub) {
   CompensateSettings& settings = command->settings;
   addFolder(sub, command->calibration, "Folder of the calibration");
   addImageAndMethod(sub, settings.image, settings.method);
-  sub->add_option(
-         "--solver", settings.solver,
-         "How optimum is found: fista, spectral (Barzilai-Borwein), descent (the paper's five steps), "
-         "dense (small scale)")
-      ->check(CLI::IsMember({"fista", "spectral", "descent", "dense"}))
-      ->type_name("SOLVER")
-      ->capture_default_str();
+  addNamed(sub, "--solver", "How optimum is found: " + listOfNames<SolverSettings::Algorithm>(),
+           settings.solver)
+      ->type_name("SOLVER");
   sub->add_option("--out", settings.out, "Folder for pattern.png, pattern.exr, target.exr, predicted.exr")
       ->type_name("DIR")
       ->required();
@@ -88,8 +71,7 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration of a simulated venue");
   sub->add_option("--image", command->settings.images, "Content; may be given several times")
       ->type_name("FILE");
-  sub->add_option("--method", command->settings.methods, "Only these methods; may be given several times")
-      ->check(CLI::IsMember(methodNames()))
+  addNamed(sub, "--method", "Only these methods; may be given several times", command->settings.methods)
       ->type_name("METHOD");
   addTarget(sub, command->settings.target);
   addCache(sub, command->cache);

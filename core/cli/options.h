@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "base/enum_names.h"
 #include "cli/arguments.h"
 #include "devices/device_address.h"
 
@@ -29,6 +30,45 @@ inline CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const c
       ->add_option_function<std::string>(
           name, [&size](const std::string& text) { size = parseSize(text); }, what)
       ->type_name("WxH");
+}
+
+/// The names of an enumeration as help lists them: "fista (accelerated projected gradient), ...".
+template <NamedEnum Enum>
+std::string listOfNames() {
+  std::string list;
+  for (const EnumName<Enum>& entry : enumEntries<Enum>()) {
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", entry.name);
+    if (!entry.description.empty()) list += fmt::format(" ({})", entry.description);
+  }
+  return list;
+}
+
+/// An option that takes one of an enumeration's names, and nothing else.
+template <NamedEnum Enum>
+CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what,
+                      std::function<void(Enum)> use) {
+  return sub
+      ->add_option_function<std::string>(
+          option, [use](const std::string& name) { use(parsedName<Enum>(name, ErrorKind::usage)); }, what)
+      ->check(CLI::IsMember(allNames<Enum>()));
+}
+template <NamedEnum Enum>
+CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what, Enum& value) {
+  return addNamed<Enum>(sub, option, what, [&value](Enum chosen) { value = chosen; })
+      ->default_str(std::string(nameOf(value)));
+}
+/// The same for one that may be given several times.
+template <NamedEnum Enum>
+CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what, std::vector<Enum>& values) {
+  return sub
+      ->add_option_function<std::vector<std::string>>(
+          option,
+          [&values](const std::vector<std::string>& names) {
+            values.clear();
+            for (const std::string& name : names) values.push_back(parsedName<Enum>(name, ErrorKind::usage));
+          },
+          what)
+      ->check(CLI::IsMember(allNames<Enum>()));
 }
 
 /// What --camera says: a camera's address or a size. Throws: WrongUsage.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace relucent {
 namespace {
@@ -81,9 +82,11 @@ std::string textOf(const CompensateResult& result) {
       "Predicted: {:.1f} dB where it can be reached, which is {:.1f} % of the picture; colour error {:.1f} "
       "(CIEDE2000) over all of it; {:.1f} % of the drive values are at their limits.\n",
       result.psnrPredicted, 100.0 * result.reachable, result.deltaE, 100.0 * result.clipped);
-  for (const auto& [key, share] : result.uncorrectable) {
-    if (share < 0.0005) continue;
-    std::string reason = key;
+  std::map<std::string, double> shares;  // in the order of the alphabet
+  for (const auto& [reason, share] : result.uncorrectable)
+    if (share >= 0.0005) shares.emplace(nameOf(reason), share);
+  for (const auto& [name, share] : shares) {
+    std::string reason = name;
     std::replace(reason.begin(), reason.end(), '_', ' ');
     text += fmt::format("Cannot be corrected: {:.1f} % {}.\n", 100.0 * share, reason);
   }
@@ -97,7 +100,7 @@ std::string textOf(const EvaluateResult& result) {
     text += fmt::format("\n{:<12} {:>14} {:>9} {:>7} {:>7} {:>9}\n", image.name, "reachable dB", "all dB",
                         "SSIM", "dE2000", "seconds");
     for (const MethodScore& score : image.methods)
-      text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", score.method,
+      text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", nameOf(score.method),
                           score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
   }
   return text;
@@ -146,12 +149,11 @@ std::string textOf(const InverseBenchResult& result) {
         v.clusterSeconds, v.printed.largest, 100.0 * v.printed.errorMedian, v.cappedSeconds,
         100.0 * v.capped.errorMedian, v.truncatedSeconds, v.windowSeconds, v.ridge);
   text += fmt::format("\n{:<8}", "dB");
-  for (const MethodDescription& method : methodDescriptions) text += fmt::format(" {:>9}", method.name);
+  for (const std::string& method : allNames<Method>()) text += fmt::format(" {:>9}", method);
   text += fmt::format(" {:>9} {:>9}", "by svd", "3x3");
   for (const VenueInversion& v : result.venues) {
     text += fmt::format("\n{:<8}", v.venue);
-    for (const MethodDescription& method : methodDescriptions)
-      text += fmt::format(" {:>9.2f}", v.quality.at(std::string(method.name)));
+    for (Method method : allValues<Method>()) text += fmt::format(" {:>9.2f}", v.quality.at(method));
     text += fmt::format(" {:>9.2f} {:>9.2f}", v.truncatedQuality, v.fullColourQuality);
   }
   return text + "\n";
@@ -164,9 +166,9 @@ std::string textOf(const AcquisitionBenchResult& result) {
   for (const AcquisitionRun& run : result.runs)
     text += fmt::format(
         "{:<8} {:<9} {:>9.3g} {:>9} {:>9} {:>8.1f} {:>10.4f} {:>10.4f} {:>9.2f} {:>9.2f} {:>8.4f}\n",
-        run.venue, run.mode, run.threshold, run.patterns, run.exposures, run.seconds, run.transport.frobenius,
-        run.transport.rowMedian, 100.0 * run.transport.relightNatural, 100.0 * run.transport.relightRandom,
-        run.transport.energy);
+        run.venue, nameOf(run.mode), run.threshold, run.patterns, run.exposures, run.seconds,
+        run.transport.frobenius, run.transport.rowMedian, 100.0 * run.transport.relightNatural,
+        100.0 * run.transport.relightRandom, run.transport.energy);
   return text;
 }
 

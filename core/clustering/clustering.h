@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "clustering/connection_graph.h"
 
 namespace relucent {
@@ -16,8 +17,19 @@ enum class Rescaling {
   rows      // only the row to the flood image
 };
 
+inline constexpr EnumName<Rescaling> rescalingNames[]{{Rescaling::patches, "patches"},
+                                                      {Rescaling::rows, "rows"}};
+constexpr EnumNames<Rescaling> namesOf(Rescaling) {
+  return {"rescaling", rescalingNames};
+}
+
 /// Limits the size of clusters.
 enum class SizeCap { never, whenPercolated, always };
+inline constexpr EnumName<SizeCap> sizeCapNames[]{
+    {SizeCap::never, "never"}, {SizeCap::whenPercolated, "when_percolated"}, {SizeCap::always, "always"}};
+constexpr EnumNames<SizeCap> namesOf(SizeCap) {
+  return {"size cap", sizeCapNames};
+}
 
 struct ClusteringSettings {
   // Connections dimmer than either limit are left out before Algorithm 1, except the row's brightest.

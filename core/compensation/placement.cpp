@@ -14,9 +14,6 @@ namespace {
 
 constexpr double usableShare = 0.9;
 
-constexpr std::array<std::pair<Fit, std::string_view>, 3> fitNames{
-    {{Fit::fill, "fill"}, {Fit::fit, "fit"}, {Fit::cover, "cover"}}};
-
 /// Sums over rectangles of a mask in four look-ups.
 class MaskSums {
  public:
@@ -135,18 +132,6 @@ std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, S
     }
     if (bestCount >= 0) return uprightCorners(best.x, best.y, width, height);
   }
-  return std::nullopt;
-}
-
-std::string_view toString(Fit fit) {
-  for (const auto& [value, name] : fitNames)
-    if (value == fit) return name;
-  return {};
-}
-
-std::optional<Fit> fitFromName(std::string_view name) {
-  for (const auto& [value, text] : fitNames)
-    if (text == name) return value;
   return std::nullopt;
 }
 

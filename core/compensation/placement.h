@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "image/image.h"
 
 namespace relucent {
@@ -38,9 +38,11 @@ enum class Fit {
   fit,    // the whole content, with bars that are not content
   cover,  // the whole quadrilateral, content cropped on two sides
 };
-/// Names as on the command line: "fill", "fit", "cover".
-std::string_view toString(Fit fit);
-std::optional<Fit> fitFromName(std::string_view name);
+inline constexpr EnumName<Fit> fitNames[]{
+    {Fit::fill, "fill", "stretched"}, {Fit::fit, "fit", "leaves bars"}, {Fit::cover, "cover", "cuts off"}};
+constexpr EnumNames<Fit> namesOf(Fit) {
+  return {"fit", fitNames};
+}
 
 /// A part of an image, relative to its width and height.
 struct ImagePart {

@@ -12,12 +12,6 @@ namespace {
 
 using Algorithm = SolverSettings::Algorithm;
 
-constexpr std::array<std::pair<Algorithm, std::string_view>, 4> algorithmNames{
-    {{Algorithm::fista, "fista"},
-     {Algorithm::barzilaiBorwein, "spectral"},
-     {Algorithm::steepestDescent, "descent"},
-     {Algorithm::dense, "dense"}}};
-
 void checkShapes(const ConstrainedProblem& problem) {
   std::size_t cameras = problem.transport.cameras().count(),
               projectors = problem.transport.projectors().count();
@@ -49,18 +43,6 @@ std::vector<std::string> problems(const SolverSettings& settings) {
   if (settings.mostIterations < 1) found.push_back("the solver needs at least one iteration");
   if (!(settings.tolerance > 0.0)) found.push_back("the solver's tolerance must be above 0");
   return found;
-}
-
-std::string_view toString(SolverSettings::Algorithm algorithm) {
-  for (const auto& [value, name] : algorithmNames)
-    if (value == algorithm) return name;
-  return {};
-}
-
-std::optional<SolverSettings::Algorithm> algorithmFromName(std::string_view name) {
-  for (const auto& [value, text] : algorithmNames)
-    if (text == name) return value;
-  return std::nullopt;
 }
 
 SolverSettings defaultsOf(SolverSettings::Algorithm algorithm) {

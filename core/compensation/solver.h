@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "base/progress.h"
 #include "transport/transport_matrix.h"
 
@@ -34,9 +33,14 @@ struct SolverSettings {
 };
 std::vector<std::string> problems(const SolverSettings& settings);
 
-/// Names as on the command line: "fista", "spectral", "descent", "dense".
-std::string_view toString(SolverSettings::Algorithm algorithm);
-std::optional<SolverSettings::Algorithm> algorithmFromName(std::string_view name);
+inline constexpr EnumName<SolverSettings::Algorithm> algorithmNames[]{
+    {SolverSettings::Algorithm::fista, "fista", "accelerated projected gradient"},
+    {SolverSettings::Algorithm::barzilaiBorwein, "spectral", "Barzilai-Borwein"},
+    {SolverSettings::Algorithm::steepestDescent, "descent", "the paper's five steps"},
+    {SolverSettings::Algorithm::dense, "dense", "small scale"}};
+constexpr EnumNames<SolverSettings::Algorithm> namesOf(SolverSettings::Algorithm) {
+  return {"solver", algorithmNames};
+}
 
 /// Default options of an algorithm. Steepest descent: the five steps of Wetzstein & Bimber 2007, section 3.1,
 /// with the step length of Zhang & Nayar 2006. Dense: as many subproblems as needed.

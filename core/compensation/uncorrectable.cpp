@@ -62,12 +62,6 @@ Uncorrectable byBrightness(const MeasuredVenue& venue, const Target& target, std
 
 }  // namespace
 
-std::string_view toString(Uncorrectable reason) {
-  constexpr std::array<std::string_view, allReasons.size()> names{
-      "correctable", "outside", "unlit", "shadowed", "seen_twice", "too_dark", "too_bright"};
-  return names[static_cast<std::size_t>(reason)];
-}
-
 std::vector<std::string> problems(const UncorrectableSettings& settings) {
   std::vector<std::string> found = problems(settings.direct);
   auto share = [&](double value, const char* sentence) {

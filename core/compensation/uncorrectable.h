@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "base/progress.h"
 #include "compensation/direct_light.h"
 #include "compensation/target.h"
@@ -26,8 +26,14 @@ enum class Uncorrectable : std::uint8_t {
 inline constexpr std::array allReasons{
     Uncorrectable::none,      Uncorrectable::outside, Uncorrectable::unlit,    Uncorrectable::shadowed,
     Uncorrectable::seenTwice, Uncorrectable::tooDark, Uncorrectable::tooBright};
-/// "correctable", "outside", "unlit", "shadowed", "seen_twice", "too_dark", "too_bright".
-std::string_view toString(Uncorrectable reason);
+inline constexpr EnumName<Uncorrectable> uncorrectableNames[]{
+    {Uncorrectable::none, "correctable"},     {Uncorrectable::outside, "outside"},
+    {Uncorrectable::unlit, "unlit"},          {Uncorrectable::shadowed, "shadowed"},
+    {Uncorrectable::seenTwice, "seen_twice"}, {Uncorrectable::tooDark, "too_dark"},
+    {Uncorrectable::tooBright, "too_bright"}};
+constexpr EnumNames<Uncorrectable> namesOf(Uncorrectable) {
+  return {"reason", uncorrectableNames};
+}
 
 struct UncorrectableSettings {
   DirectLightSettings direct;

@@ -11,13 +11,6 @@
 
 namespace relucent {
 
-const std::map<std::string, BackendChoice>& backendChoices() {
-  static const std::map<std::string, BackendChoice> choices{{"automatic", BackendChoice::automatic},
-                                                            {"cpu", BackendChoice::cpu},
-                                                            {"opengl", BackendChoice::openGl}};
-  return choices;
-}
-
 FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Told told)
     : backend_(std::move(first)), makeOther_(std::move(makeOther)), told_(std::move(told)) {
   require(backend_ != nullptr && makeOther_ != nullptr, "a fallback needs two back ends");

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 
+#include "base/enum_names.h"
 #include "engine/backend.h"
 
 namespace relucent {
@@ -16,8 +16,11 @@ enum class BackendChoice {
   cpu,
   openGl,  // also a software renderer
 };
-/// As on the command line: automatic, cpu, opengl.
-const std::map<std::string, BackendChoice>& backendChoices();
+inline constexpr EnumName<BackendChoice> backendNames[]{
+    {BackendChoice::automatic, "automatic"}, {BackendChoice::cpu, "cpu"}, {BackendChoice::openGl, "opengl"}};
+constexpr EnumNames<BackendChoice> namesOf(BackendChoice) {
+  return {"back end", backendNames};
+}
 
 /// A back end that switches to another one when its device is lost: the frame in which that happens is
 /// rendered again by the other, so none is missing. It never switches back, because a device that was lost

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "devices/temporary_folder.h"
 #include "pipeline/calibrate.h"
@@ -14,12 +13,14 @@ namespace relucent {
 namespace {
 
 struct Trial {
-  const char* mode;
+  AcquisitionMode mode;
   double threshold;
 };
 // sen spends several times the patterns at the same threshold, so that it is tried at looser ones too.
-constexpr Trial trials[] = {{"adaptive", 0.006}, {"adaptive", 0.008}, {"adaptive", 0.02}, {"sen", 0.008},
-                            {"sen", 0.02},       {"sen", 0.05},       {"fast", 0.02}};
+constexpr Trial trials[] = {{AcquisitionMode::adaptive, 0.006}, {AcquisitionMode::adaptive, 0.008},
+                            {AcquisitionMode::adaptive, 0.02},  {AcquisitionMode::sen, 0.008},
+                            {AcquisitionMode::sen, 0.02},       {AcquisitionMode::sen, 0.05},
+                            {AcquisitionMode::fast, 0.02}};
 
 AcquisitionRun measured(const VenueSettings& venue, const Trial& trial, const std::filesystem::path& cache,
                         Progress& progress) {
@@ -27,7 +28,7 @@ AcquisitionRun measured(const VenueSettings& venue, const Trial& trial, const st
   std::filesystem::path path = temporary.path() / venue.name;
   CalibrateSettings settings;
   settings.rig = venue;
-  settings.acquisition = acquisitionMode(trial.mode);
+  settings.acquisition = settingsOf(trial.mode);
   settings.acquisition.relativeThreshold = trial.threshold;
   settings.chooseRidge = false;  // only T is judged
   Progress calibrating = progress.part(0.9, progress.stage());
@@ -61,7 +62,7 @@ bool among(const std::vector<Wanted>& wanted, const Value& value) {
 std::vector<Trial> trialsOf(const AcquisitionBenchSettings& settings) {
   std::vector<Trial> chosen;
   for (const Trial& trial : trials)
-    if (among(settings.modes, std::string_view(trial.mode)) && among(settings.thresholds, trial.threshold))
+    if (among(settings.modes, trial.mode) && among(settings.thresholds, trial.threshold))
       chosen.push_back(trial);
   return chosen;
 }
@@ -96,7 +97,8 @@ AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings
     venue.projector = settings.projector;
     venue.camera = settings.camera;
     for (const Trial& trial : chosen) {
-      Progress part = progress.part(share, fmt::format("{}: {} at {}", name, trial.mode, trial.threshold));
+      Progress part =
+          progress.part(share, fmt::format("{}: {} at {}", name, nameOf(trial.mode), trial.threshold));
       result.runs.push_back(measured(venue, trial, cache, part));
     }
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/settings.h"
 #include "base/progress.h"
 #include "base/raster.h"
 #include "pipeline/evaluate.h"
@@ -12,9 +13,9 @@
 namespace relucent {
 
 struct AcquisitionBenchSettings {
-  std::vector<std::string> venues;  // names; none: all of them
-  std::vector<std::string> modes;   // of those that are compared, only these; none: all of them
-  std::vector<double> thresholds;   // likewise
+  std::vector<std::string> venues;     // names; none: all of them
+  std::vector<AcquisitionMode> modes;  // of those that are compared, only these; none: all of them
+  std::vector<double> thresholds;      // likewise
   Size projector{256, 192};
   Size camera{160, 120};
 };
@@ -23,7 +24,7 @@ std::vector<std::string> problems(const AcquisitionBenchSettings& settings);
 /// One measurement of one venue, and how near T came to the truth.
 struct AcquisitionRun {
   std::string venue;
-  std::string mode;
+  AcquisitionMode mode = AcquisitionMode::adaptive;
   double threshold = 0.0;  // as a share of the flood image
   int patterns = 0;        // linearization, references and verification included
   int exposures = 0;

@@ -100,7 +100,6 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
   Image content = readLinearContent(settings.image);
-  Method method = methodFromName(settings.method).value();
 
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
   Progress loading = progress.part(0.4, "Reading the calibration");
@@ -109,11 +108,11 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
 
   Target target = fitTarget(content, venue, settings.target);
   CompensatorSettings compensatorSettings;
-  compensatorSettings.optimum = defaultsOf(algorithmFromName(settings.solver).value());
+  compensatorSettings.optimum = defaultsOf(settings.solver);
   Compensator compensator(venue, measured.inverse, compensatorSettings);
   Progress solving = progress.part(0.5, "Compensating");
   Stopwatch watch;
-  Compensation compensation = compensator.solve(method, target, solving);
+  Compensation compensation = compensator.solve(settings.method, target, solving);
 
   CompensateResult result;
   result.method = settings.method;
@@ -132,7 +131,7 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   auto shares = sharesOf(reasons);
   for (Uncorrectable reason : allReasons)
     if (reason != Uncorrectable::none && reason != Uncorrectable::outside)
-      result.uncorrectable.emplace(toString(reason), shares[static_cast<std::size_t>(reason)]);
+      result.uncorrectable.emplace(reason, shares[static_cast<std::size_t>(reason)]);
 
   Progress writing = progress.part(0.05, "Writing the results");
   const Rasters &cameras = venue.transport.cameras(), &projectors = venue.transport.projectors();

@@ -7,28 +7,31 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "compensation/method.h"
+#include "compensation/solver.h"
 #include "compensation/target.h"
+#include "compensation/uncorrectable.h"
 
 namespace relucent {
 
 struct CompensateSettings {
-  std::filesystem::path image;     // content, sRGB file or linear EXR
-  std::string method = "refined";  // a name from methodDescriptions
-  std::string solver = "fista";    // of `optimum`: a name of SolverSettings::Algorithm
+  std::filesystem::path image;  // content, sRGB file or linear EXR
+  Method method = Method::refined;
+  SolverSettings::Algorithm solver = SolverSettings::Algorithm::fista;  // of `optimum`
   TargetSettings target;
   std::filesystem::path out;  // folder; created; files of the same names are replaced
 };
 std::vector<std::string> problems(const CompensateSettings& settings);
 
 struct CompensateResult {
-  std::string method;
+  Method method = Method::refined;
   double psnrPredicted = 0.0;  // dB, prediction against target where reachable
   double clipped = 0.0;        // share of drive values at 0 or 1
   double reachable = 0.0;      // share of the content's camera pixels
   double seconds = 0.0;        // solving alone
   std::vector<std::filesystem::path> files;
   double deltaE = 0.0;  // mean CIEDE2000, prediction against target over the whole content
-  std::map<std::string, double> uncorrectable{};  // reason -> share of the content's pixels
+  std::map<Uncorrectable, double> uncorrectable{};  // shares of the content's pixels
 };
 
 /// Computes the pattern that makes the venue look like an image, and what the camera should then see.

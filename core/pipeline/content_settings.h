@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "compensation/method.h"
 #include "compensation/target.h"
 
 namespace relucent {
 
 /// What is shown in a calibrated venue, and how.
 struct ContentSettings {
-  std::string picture;                // a file; empty: the product's own
-  std::string method = "refined";     // a name from methodDescriptions
+  std::string picture;  // a file; empty: the product's own
+  Method method = Method::refined;
   double reachablePercentile = 15.0;  // as TargetSettings
   double blackLift = 0.0;
   Fit fit = Fit::fit;

@@ -15,7 +15,8 @@ namespace {
 
 /// Any picture as linear values; those of floating-point files as they are, negative ones too.
 Image readLinear(const fs::path& path) {
-  if (path.extension() != ".exr") return readLinearContent(path);
+  if (valueNamed<PictureFormat>(path.extension().string()) != PictureFormat::exr)
+    return readLinearContent(path);
   Image image = readRgbExr(path);
   checkFinite(image, path);
   return image;
@@ -52,7 +53,7 @@ std::vector<std::string> problems(const DifferenceSettings& settings) {
 DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
-  checkPictureName(settings.out);
+  const PictureFormat format = pictureFormatOf(settings.out);
   Image first = readLinear(settings.first);
   progress.report(0.3);
   Image second = readLinear(settings.second);
@@ -76,7 +77,7 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
   result.rms = std::sqrt(apart / static_cast<double>(difference.data().size()));
   result.relative = whole > 0.0 ? std::sqrt(apart / whole) : 0.0;
   result.gain = settings.gain ? *settings.gain : fullContrast(difference);
-  if (settings.out.extension() == ".exr") {
+  if (format == PictureFormat::exr) {
     for (float& value : difference.data())
       value = static_cast<float>(settings.gain.value_or(1.0) * static_cast<double>(value));
     if (!settings.gain) result.gain = 1.0;

@@ -97,7 +97,7 @@ class Judge {
     Image wantedImage = wanted(target);
 
     MethodScore result;
-    result.method = toString(method);
+    result.method = method;
     result.psnrReachable = psnr(seen, wantedImage, target.white, mask);
     result.psnrAll = psnr(seen, wantedImage, target.white, inside);
     Image seenEncoded = viewed(seen, target.white);
@@ -133,10 +133,7 @@ std::vector<NamedImage> contentOf(const EvaluateSettings& settings) {
 }
 
 std::vector<Method> methodsOf(const EvaluateSettings& settings) {
-  if (settings.methods.empty()) return {allMethods.begin(), allMethods.end()};
-  std::vector<Method> methods;
-  for (const std::string& name : settings.methods) methods.push_back(methodFromName(name).value());
-  return methods;
+  return settings.methods.empty() ? allValues<Method>() : settings.methods;
 }
 
 }  // namespace
@@ -169,7 +166,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
                                target.white, target.inside,        score.reachable};
     pictures.inside.resize(pixels);
     for (Method method : methods) {
-      Progress solving = judging.part(share, fmt::format("{}: {}", image.name, toString(method)));
+      Progress solving = judging.part(share, fmt::format("{}: {}", image.name, nameOf(method)));
       Stopwatch watch;
       Compensation compensation = compensator.solve(method, target, solving);
       double seconds = watch.seconds();

@@ -14,7 +14,7 @@ namespace relucent {
 
 struct EvaluateSettings {
   std::vector<std::filesystem::path> images;  // none: the product's own test pictures
-  std::vector<std::string> methods;           // none: all of them
+  std::vector<Method> methods;                // none: all of them
   TargetSettings target;
   CompensatorSettings compensator;
 };
@@ -22,7 +22,7 @@ std::vector<std::string> problems(const EvaluateSettings& settings);
 
 /// How well one method did on one image, through the venue's true transport.
 struct MethodScore {
-  std::string method;
+  Method method = Method::none;
   double psnrReachable = 0.0;  // dB, linear light, peak = the target's white
   double psnrAll = 0.0;
   double ssim = 0.0;

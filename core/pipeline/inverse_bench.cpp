@@ -55,10 +55,10 @@ void timeInversions(const MeasuredVenue& venue, VenueInversion& result, Progress
 }
 
 /// dB per method, mean over the product's pictures.
-std::map<std::string, double> qualityOf(const MeasuredCalibration& measured, const EvaluateSettings& settings,
-                                        const std::filesystem::path& cache, Progress& progress) {
+std::map<Method, double> qualityOf(const MeasuredCalibration& measured, const EvaluateSettings& settings,
+                                   const std::filesystem::path& cache, Progress& progress) {
   EvaluateResult scores = evaluated(measured, settings, cache, progress).result;
-  std::map<std::string, double> quality;
+  std::map<Method, double> quality;
   for (const ImageScore& image : scores.images)
     for (const MethodScore& score : image.methods)
       quality[score.method] += score.psnrReachable / static_cast<double>(scores.images.size());
@@ -67,7 +67,7 @@ std::map<std::string, double> qualityOf(const MeasuredCalibration& measured, con
 
 double clusterQuality(const MeasuredCalibration& measured, ClusterSolver solver, ClusterColour colour,
                       const std::filesystem::path& cache, Progress& progress) {
-  const std::string method = "clusters";
+  const Method method = Method::clusters;
   EvaluateSettings settings;
   settings.methods = {method};
   settings.compensator.clusterInverse.solver = solver;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/json.h"
 
-#include "compensation/method.h"
+#include <map>
 
 namespace relucent {
 namespace {
@@ -19,12 +19,20 @@ Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
 Json scoreToJson(const ImageScore& image) {
   Json methods = Json::object();
   for (const MethodScore& score : image.methods)
-    methods[score.method] = {{"psnr_reachable", score.psnrReachable},
-                             {"psnr_all", score.psnrAll},
-                             {"ssim", score.ssim},
-                             {"delta_e", score.deltaE},
-                             {"seconds", score.seconds}};
+    methods[std::string(nameOf(score.method))] = {{"psnr_reachable", score.psnrReachable},
+                                                  {"psnr_all", score.psnrAll},
+                                                  {"ssim", score.ssim},
+                                                  {"delta_e", score.deltaE},
+                                                  {"seconds", score.seconds}};
   return {{"name", image.name}, {"reachable", image.reachable}, {"methods", std::move(methods)}};
+}
+
+Json sharesToJson(const std::map<Uncorrectable, double>& shares) {
+  std::map<std::string_view, double> byName;  // documents list them in the order of the alphabet
+  for (const auto& [reason, share] : shares) byName.emplace(nameOf(reason), share);
+  Json json = Json::object();
+  for (const auto& [name, share] : byName) json[std::string(name)] = share;
+  return json;
 }
 
 Json clustersToJson(double seconds, const ClusteringStatistics& clusters) {
@@ -93,17 +101,17 @@ Json toJson(const ProveResult& result) {
                 {"delta_e_measured", proved.measured.deltaE},
                 {"surprise", proved.surprise}};
   };
-  return {{"method", result.method},           {"before", projection(result.before)},
+  return {{"method", nameOf(result.method)},   {"before", projection(result.before)},
           {"after", projection(result.after)}, {"reachable", result.reachable},
           {"exposures", result.exposures},     {"seconds", result.seconds},
           {"files", pathsToJson(result.files)}};
 }
 
 Json toJson(const CompensateResult& result) {
-  return {{"method", result.method},       {"psnr_predicted", result.psnrPredicted},
-          {"delta_e", result.deltaE},      {"clipped", result.clipped},
-          {"reachable", result.reachable}, {"uncorrectable", result.uncorrectable},
-          {"seconds", result.seconds},     {"files", pathsToJson(result.files)}};
+  return {{"method", nameOf(result.method)}, {"psnr_predicted", result.psnrPredicted},
+          {"delta_e", result.deltaE},        {"clipped", result.clipped},
+          {"reachable", result.reachable},   {"uncorrectable", sharesToJson(result.uncorrectable)},
+          {"seconds", result.seconds},       {"files", pathsToJson(result.files)}};
 }
 
 Json toJson(const EvaluateResult& result) {
@@ -137,9 +145,7 @@ Json toJson(const InverseBenchResult& result) {
   Json list = Json::array();
   for (const VenueInversion& venue : result.venues) {
     Json quality = Json::object();
-    for (const MethodDescription& method : methodDescriptions)
-      if (auto found = venue.quality.find(std::string(method.name)); found != venue.quality.end())
-        quality[found->first] = found->second;
+    for (const auto& [method, decibels] : venue.quality) quality[std::string(nameOf(method))] = decibels;
     list.push_back(
         {{"venue", venue.venue},
          {"leaves", venue.leaves},
@@ -165,7 +171,7 @@ Json toJson(const AcquisitionBenchResult& result) {
   Json runs = Json::array();
   for (const AcquisitionRun& run : result.runs)
     runs.push_back({{"venue", run.venue},
-                    {"mode", run.mode},
+                    {"mode", nameOf(run.mode)},
                     {"threshold", run.threshold},
                     {"patterns", run.patterns},
                     {"exposures", run.exposures},

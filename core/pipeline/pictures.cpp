@@ -28,19 +28,20 @@ fs::path numbered(const fs::path& path, std::size_t device) {
       fmt::format("{}-{}{}", path.stem().string(), device + 1, path.extension().string()));
 }
 
-void checkPictureName(const fs::path& path) {
+PictureFormat pictureFormatOf(const fs::path& path) {
   std::string extension = path.extension().string();
-  if (extension == ".exr" || extension == ".png") return;
+  if (std::optional<PictureFormat> format = valueNamed<PictureFormat>(extension)) return *format;
   throw Error(ErrorKind::input, fmt::format("pictures are not written as \"{}\"", extension),
               "choose a name that ends in .exr (linear values) or .png (to look at)", path.string());
 }
 
 void writePicture(const fs::path& path, const Image& linear, const std::string& units, float white) {
-  checkPictureName(path);
-  if (path.extension() == ".exr")
-    writeExr(path, linear, ExrType::floatType, {{exr_attribute::units, units}});
-  else
-    writePng(path, viewed(linear, {white, white, white}), 8);
+  switch (pictureFormatOf(path)) {
+    case PictureFormat::exr:
+      return writeExr(path, linear, ExrType::floatType, {{exr_attribute::units, units}});
+    case PictureFormat::png:
+      return writePng(path, viewed(linear, {white, white, white}), 8);
+  }
 }
 
 WrittenFiles writePictures(const fs::path& out, const Stack& stack, const Rasters& rasters,

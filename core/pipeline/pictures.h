@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/enum_names.h"
 #include "base/raster.h"
 #include "image/image.h"
 #include "pipeline/written_files.h"
@@ -16,11 +17,21 @@ float displayWhite(const Image& linear);
 /// "pattern.exr" for the only or first device, "pattern-2.exr" for the second.
 std::filesystem::path numbered(const std::filesystem::path& path, std::size_t device);
 
+/// How a result is written as a picture: as its name ends.
+enum class PictureFormat {
+  exr,  // linear values with their units
+  png   // to look at
+};
+inline constexpr EnumName<PictureFormat> pictureFormatNames[]{{PictureFormat::exr, ".exr", "linear values"},
+                                                              {PictureFormat::png, ".png", "to look at"}};
+constexpr EnumNames<PictureFormat> namesOf(PictureFormat) {
+  return {"format of pictures", pictureFormatNames};
+}
 /// Throws: Error{input} unless the name ends in .exr or .png.
-void checkPictureName(const std::filesystem::path& path);
+PictureFormat pictureFormatOf(const std::filesystem::path& path);
 
 /// Linear values as .exr with their units; as .png what somebody sees who is used to `white`.
-/// Throws: as checkPictureName(); Error{disk}.
+/// Throws: as pictureFormatOf(); Error{disk}.
 void writePicture(const std::filesystem::path& path, const Image& linear, const std::string& units,
                   float white);
 

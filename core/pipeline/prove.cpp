@@ -170,11 +170,9 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   Compensator compensator(measured.venue, measured.inverse);
   Progress solving = progress.part(0.2, "Compensating");
   Projection plain = projectionOf(compensator.solve(Method::none, target, solving), measured);
-  Projection compensated =
-      settings.shown.empty()
-          ? projectionOf(compensator.solve(methodFromName(settings.method).value(), target, solving),
-                         measured)
-          : shownProjection(settings.shown, measured);
+  Projection compensated = settings.shown.empty()
+                               ? projectionOf(compensator.solve(settings.method, target, solving), measured)
+                               : shownProjection(settings.shown, measured);
   ProveResult result;
   result.method = settings.method;
   result.reachable = predict(measured.venue, target, compensated.light).reachable;

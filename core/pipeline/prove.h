@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "compensation/method.h"
 #include "compensation/target.h"
 #include "pipeline/rig_settings.h"
 #include "rig/rig.h"
@@ -14,8 +15,8 @@
 namespace relucent {
 
 struct ProveSettings {
-  std::filesystem::path image;     // content, sRGB file or linear EXR
-  std::string method = "refined";  // a name from methodDescriptions
+  std::filesystem::path image;  // content, sRGB file or linear EXR
+  Method method = Method::refined;
   /// What stands on the projectors' displays already, one picture of drive values a projector, whatever made
   /// it: proved in place of what `method` computes. Empty: that.
   std::vector<std::filesystem::path> shown{};
@@ -40,7 +41,7 @@ struct ProvedProjection {
 };
 
 struct ProveResult {
-  std::string method;
+  Method method = Method::refined;
   ProvedProjection before;  // the content as it is, in its place: method none
   ProvedProjection after;   // compensated, or what was shown
   double reachable = 0.0;   // share of the content's camera pixels

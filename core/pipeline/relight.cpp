@@ -22,7 +22,7 @@ struct Opened {
 Opened opened(const fs::path& path, const RelightSettings& settings, Progress& progress) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "name the file to write");
-  checkPictureName(settings.out);
+  pictureFormatOf(settings.out);
   Opened result;
   if (!settings.image.empty()) result.content = readLinearContent(settings.image);
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);

@@ -70,7 +70,7 @@ std::string comparison(const ReportComparison& shown) {
   body += figure(viewed(shown.wanted, shown.white), "Wanted", "the picture as it should appear.");
   body += figure(viewed(shown.uncompensated, shown.white), "Uncompensated", "only placed, " + how + ".");
   body += figure(viewed(shown.compensated, shown.white), "Compensated",
-                 fmt::format("method {}, {}.", shown.method, how));
+                 fmt::format("method {}, {}.", nameOf(shown.method), how));
   body += figure(painted(before, ColorMap::cividis, 0.0, deltaEScale), "Error uncompensated",
                  fmt::format("mean colour error ΔE {:.1f}.", meanOf(before)), bar);
   body += figure(painted(after, ColorMap::cividis, 0.0, deltaEScale), "Error compensated",
@@ -117,21 +117,15 @@ std::string verification(const ReportVerification& shown) {
                  body);
 }
 
-std::string explained(const std::string& method) {
-  for (const MethodDescription& known : methodDescriptions)
-    if (known.name == method) return std::string(known.sentence);
-  return {};
-}
-
 std::string methodTable(const std::vector<MethodScore>& scores, double best) {
   std::string rows;
   for (const MethodScore& score : scores)
     rows += fmt::format(
         "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.1f}</td><td>{}</td><td "
         "style=\"text-align:left;white-space:normal\">{}</td></tr>",
-        score.psnrReachable == best ? " class=\"best\"" : "", escaped(score.method),
+        score.psnrReachable == best ? " class=\"best\"" : "", nameOf(score.method),
         decibels(score.psnrReachable), decibels(score.psnrAll), score.ssim, score.deltaE,
-        duration(score.seconds), escaped(explained(score.method)));
+        duration(score.seconds), escaped(std::string(descriptionOf(score.method))));
   return "<div class=\"scroll\"><table><caption>Mean over the pictures</caption><thead><tr><th "
          "scope=\"col\">Method</th><th scope=\"col\">PSNR, reachable</th><th scope=\"col\">PSNR, all</th><th "
          "scope=\"col\">SSIM</th><th scope=\"col\">Colour error ΔE</th><th scope=\"col\">Time a "
@@ -146,8 +140,8 @@ std::string methodComparison(const EvaluateResult& evaluation) {
   for (const MethodScore& score : scores) best = std::max(best, score.psnrReachable);
   std::vector<Bar> bars;
   for (const MethodScore& score : scores)
-    bars.push_back(
-        {score.method, score.psnrReachable, decibels(score.psnrReachable), score.psnrReachable == best});
+    bars.push_back({std::string(nameOf(score.method)), score.psnrReachable, decibels(score.psnrReachable),
+                    score.psnrReachable == best});
   return section(
       "Methods compared",
       "Through the true light transport of the simulated venue, in linear light, where the picture can be "

@@ -22,8 +22,8 @@ namespace relucent {
 
 /// One image before and after, as the first camera sees it. Linear, camera signal per second, one size.
 struct ReportComparison {
-  std::string name;    // "Evening hills"
-  std::string method;  // of `compensated`
+  std::string name;                 // "Evening hills"
+  Method method = Method::refined;  // of `compensated`
   Image wanted;
   Image uncompensated;
   Image compensated;

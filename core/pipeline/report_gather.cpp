@@ -39,7 +39,7 @@ std::vector<std::uint64_t> leavesPerLevel(const TransportMatrix& transport) {
 
 ReportComparison comparisonOf(const EvaluatedPictures& pictures) {
   return {pictures.name,
-          "refined",
+          Method::refined,
           pictures.wanted,
           pictures.seen.at(Method::none),
           pictures.seen.at(Method::refined),
@@ -71,7 +71,7 @@ ReportComparison predictedComparison(const NamedImage& image, const MeasuredCali
     reachable += target.reachable[i];
   }
   return {image.name,
-          "refined",
+          Method::refined,
           imageFromStack(target.wanted, cameras, 0),
           predicted(Method::none),
           predicted(Method::refined),

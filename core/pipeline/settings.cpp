@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "compensation/solver.h"
 #include "devices/device_address.h"
 #include "pipeline/calibrate_settings.h"
 #include "pipeline/compensate.h"
@@ -101,14 +100,6 @@ void checkTarget(Problems& problems, const TargetSettings& target) {
   append(problems, relucent::problems(target));
 }
 
-void checkMethod(Problems& problems, const std::string& name) {
-  if (methodFromName(name)) return;
-  std::string names;
-  for (const MethodDescription& method : methodDescriptions)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
-  problems.push_back(fmt::format("there is no method '{}': there are {}", name, names));
-}
-
 }  // namespace
 
 Problems problems(const CalibrateSettings& settings) {
@@ -123,7 +114,6 @@ Problems problems(const CalibrateSettings& settings) {
 
 Problems problems(const ContentSettings& settings) {
   Problems found;
-  checkMethod(found, settings.method);
   checkTarget(found, targetOf(settings));
   return found;
 }
@@ -154,10 +144,6 @@ Problems problems(const CompensateSettings& settings) {
   Problems found;
   if (settings.image.empty()) found.push_back("no image is given");
   if (settings.out.empty()) found.push_back("no folder for the results is given");
-  checkMethod(found, settings.method);
-  if (!algorithmFromName(settings.solver))
-    found.push_back(
-        fmt::format("there is no solver '{}': there are fista, spectral, descent, dense", settings.solver));
   checkTarget(found, settings.target);
   return found;
 }
@@ -166,14 +152,12 @@ Problems problems(const ProveSettings& settings) {
   Problems found;
   if (settings.image.empty()) found.push_back("no image is given");
   if (settings.out.empty()) found.push_back("no folder for the results is given");
-  checkMethod(found, settings.method);
   checkTarget(found, settings.target);
   return found;
 }
 
 Problems problems(const EvaluateSettings& settings) {
   Problems found;
-  for (const std::string& method : settings.methods) checkMethod(found, method);
   checkTarget(found, settings.target);
   append(found, problems(settings.compensator));
   return found;

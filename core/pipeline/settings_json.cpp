@@ -3,28 +3,21 @@
 
 #include "base/error.h"
 #include "base/fingerprint.h"
+#include "calibration/enum_json.h"
 
 namespace relucent {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Size, width, height)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(LinearizationSettings, levels, shadowPower, noisePairs,
                                                 additivityLimit, seed)
-NLOHMANN_JSON_SERIALIZE_ENUM(AcquisitionScheme,
-                             {{AcquisitionScheme::adaptive, "adaptive"}, {AcquisitionScheme::sen, "sen"}})
-NLOHMANN_JSON_SERIALIZE_ENUM(LitColours, {{LitColours::rgb, "rgb"}, {LitColours::white, "white"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, scheme, colours, singleExposure,
                                                 relativeThreshold, absoluteThreshold, dimShare, noiseSigmas,
                                                 references, checkInterval, mayBeMirrored,
                                                 verificationPatterns, flagRelative, flagSigmas, seed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax, energyKept)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
-NLOHMANN_JSON_SERIALIZE_ENUM(Rescaling, {{Rescaling::patches, "patches"}, {Rescaling::rows, "rows"}})
-NLOHMANN_JSON_SERIALIZE_ENUM(SizeCap, {{SizeCap::always, "always"},
-                                       {SizeCap::whenPercolated, "when_percolated"},
-                                       {SizeCap::never, "never"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ClusteringSettings, leastLuminance, leastShare, patchRadius,
                                                 patchCut, rescaling, cap, mostUnknowns)
-NLOHMANN_JSON_SERIALIZE_ENUM(Fit, {{Fit::fit, "fit"}, {Fit::fill, "fill"}, {Fit::cover, "cover"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContentSettings, picture, method, reachablePercentile,
                                                 blackLift, fit)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,
@@ -34,6 +27,15 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(VenueSettings, name, projector, 
                                                 devices)
 
 namespace {
+
+/// What a manifest's rig is made of.
+enum class RigKind { simulated, commands, devices, screen, replay, imported };
+constexpr EnumName<RigKind> rigKindNames[]{
+    {RigKind::simulated, "simulated"}, {RigKind::commands, "commands"}, {RigKind::devices, "devices"},
+    {RigKind::screen, "screen"},       {RigKind::replay, "replay"},     {RigKind::imported, "imported"}};
+constexpr EnumNames<RigKind> namesOf(RigKind) {
+  return {"kind of devices", rigKindNames};
+}
 
 // The macros above speak the library's own sorted kind of JSON.
 using Sorted = nlohmann::json;
@@ -142,19 +144,21 @@ ImportedRigSettings importedRigFromJson(const Sorted& json) {
 
 Json rigToJson(const RigSettings& settings) {
   struct Writer {
-    Sorted operator()(const VenueSettings& venue) const { return {{"kind", "simulated"}, {"venue", venue}}; }
+    Sorted operator()(const VenueSettings& venue) const {
+      return {{"kind", RigKind::simulated}, {"venue", venue}};
+    }
     Sorted operator()(const ImportedRigSettings& imported) const {
-      return {{"kind", "imported"}, {"imported", importedRigToJson(imported)}};
+      return {{"kind", RigKind::imported}, {"imported", importedRigToJson(imported)}};
     }
     Sorted operator()(const ReplayRigSettings& replay) const {
-      return {{"kind", "replay"}, {"folder", replay.folder}};
+      return {{"kind", RigKind::replay}, {"folder", replay.folder}};
     }
     Sorted operator()(const ScreenRigSettings& screen) const {
-      return {{"kind", "screen"}, {"screen", screenRigToJson(screen)}};
+      return {{"kind", RigKind::screen}, {"screen", screenRigToJson(screen)}};
     }
     Sorted operator()(const CommandRigSettings& commands) const {
       // Versions that know commands only say so instead of running an empty one.
-      const char* kind = commands.cameraAddress.empty() ? "commands" : "devices";
+      const RigKind kind = commands.cameraAddress.empty() ? RigKind::commands : RigKind::devices;
       return {{"kind", kind}, {"commands", commandRigToJson(commands)}};
     }
   };
@@ -164,20 +168,23 @@ Json rigToJson(const RigSettings& settings) {
 RigSettings rigFromJson(const Json& json) {
   try {
     Sorted sorted(json);
-    std::string kind = sorted.at("kind");
-    if (kind == "simulated") return sorted.at("venue").get<VenueSettings>();
-    if (kind == "replay") return ReplayRigSettings{sorted.at("folder")};
-    if (kind == "screen") return screenRigFromJson(sorted.at("screen"));
-    if (kind == "commands" || kind == "devices") {
-      const Sorted& commands = sorted.at("commands");
-      if (std::string folder = replayAmongCommands(commands); !folder.empty())
-        return ReplayRigSettings{std::move(folder)};
-      return commandRigFromJson(commands);
+    switch (sorted.at("kind").get<RigKind>()) {
+      case RigKind::simulated:
+        return sorted.at("venue").get<VenueSettings>();
+      case RigKind::replay:
+        return ReplayRigSettings{sorted.at("folder")};
+      case RigKind::screen:
+        return screenRigFromJson(sorted.at("screen"));
+      case RigKind::imported:
+        return importedRigFromJson(sorted.at("imported"));
+      case RigKind::commands:
+      case RigKind::devices:
+        break;
     }
-    if (kind == "imported") return importedRigFromJson(sorted.at("imported"));
-    throw Error(ErrorKind::format,
-                fmt::format("the calibration was made with devices of the kind \"{}\"", kind),
-                "open it with the version of Relucent that made it");
+    const Sorted& commands = sorted.at("commands");
+    if (std::string folder = replayAmongCommands(commands); !folder.empty())
+      return ReplayRigSettings{std::move(folder)};
+    return commandRigFromJson(commands);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

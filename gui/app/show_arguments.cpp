@@ -79,9 +79,9 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
     if (!settings.hours)
       throw WrongArguments("the schedule must be HH:MM-HH:MM with two different times, as 09:30-18:00");
   }
-  auto chosen = backendChoices().find(parser.value(backend).toStdString());
-  if (chosen == backendChoices().end()) throw WrongArguments("the backend must be cpu, opengl or automatic");
-  settings.backend = chosen->second;
+  std::optional<BackendChoice> chosen = valueNamed<BackendChoice>(parser.value(backend).toStdString());
+  if (!chosen) throw WrongArguments("the backend must be cpu, opengl or automatic");
+  settings.backend = *chosen;
   settings.calibration = parser.positionalArguments()[1].toStdString();
   settings.content = contentOf(parser.value(content));
   settings.content.loop = settings.content.loop || parser.isSet(loop);

@@ -33,7 +33,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   backend_ = makeBackend(*venue_, choice, told);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
-  Method method = methodFromName(chosen.content.method).value_or(Method::refined);
+  const Method method = chosen.content.method;
   // Brightness that follows the content is the engine's.
   if (!adaptiveRange || method != Method::refined)
     still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);

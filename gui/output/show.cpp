@@ -7,7 +7,6 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -17,7 +16,6 @@
 namespace relucent {
 namespace {
 
-constexpr std::string_view playing = "playing", resting = "resting";
 constexpr std::chrono::seconds noticed{1};  // of sleep
 constexpr int healthInterval = 10'000;      // milliseconds
 constexpr int shortestPause = 1'000;        // before it is tried again, doubled with every failure ...
@@ -101,13 +99,13 @@ bool Show::isTime() const {
 void Show::play() {
   player_->start();
   log_.tell(QString("playing %1 items on %2").arg(settings_.content.items.size()).arg(renderer_));
-  tellHealth("playing");
+  tellHealth(ShowState::playing);
 }
 
 void Show::rest() {
   player_->stop();
   log_.tell("black until " + settings_.hours->from.toString("HH:mm"));
-  tellHealth("resting");
+  tellHealth(ShowState::resting);
 }
 
 void Show::look() {
@@ -120,8 +118,8 @@ void Show::look() {
   }
   slept_ = slept;
   wakeDisplays();
-  if (state_ == playing && !isTime()) return rest();
-  if (state_ == resting && isTime()) return play();
+  if (state_ == ShowState::playing && !isTime()) return rest();
+  if (state_ == ShowState::resting && isTime()) return play();
   tellHealth(state_);
 }
 
@@ -130,7 +128,7 @@ void Show::tryAgain(const QString& sentence) {
   int pause = std::min(longestPause, shortestPause << std::min(failures_, 10));
   ++failures_;
   log_.tell(QString("trying again in %1 s").arg(pause / 1000));
-  tellHealth("failed");
+  tellHealth(ShowState::failed);
   again_.start(pause);
 }
 
@@ -139,12 +137,12 @@ void Show::stop() {
   health_.stop();
   if (player_) player_->stop();
   for (const auto& window : windows_) window->stop();
-  if (state_ == "stopped") return;
+  if (state_ == ShowState::stopped) return;
   log_.tell("stopped");
-  tellHealth("stopped");
+  tellHealth(ShowState::stopped);
 }
 
-void Show::tellHealth(std::string_view state) {
+void Show::tellHealth(ShowState state) {
   state_ = state;
   Playlist::Status content = content_->status();
   const QStringList& skipped = content.skipped;
@@ -156,7 +154,7 @@ void Show::tellHealth(std::string_view state) {
                                 {"shining", window->isShining()},
                                 {"drawn_by", window->surface().name()}});
   PlayerStatistics statistics = player_ ? player_->statistics() : PlayerStatistics{};
-  QJsonObject health{{"state", QString::fromUtf8(state.data(), static_cast<qsizetype>(state.size()))},
+  QJsonObject health{{"state", QString::fromStdString(std::string(nameOf(state)))},
                      {"updated", QDateTime::currentDateTime().toString(Qt::ISODate)},
                      {"renderer", renderer_},
                      {"frames", static_cast<qint64>(statistics.frames)},

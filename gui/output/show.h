@@ -5,7 +5,6 @@
 #include <QTimer>
 #include <functional>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "output/awake.h"
@@ -15,6 +14,17 @@
 #include "output/show_settings.h"
 
 namespace relucent {
+
+/// As health.json names it.
+enum class ShowState { starting, playing, resting, failed, stopped };
+inline constexpr EnumName<ShowState> showStateNames[]{{ShowState::starting, "starting"},
+                                                      {ShowState::playing, "playing"},
+                                                      {ShowState::resting, "resting"},
+                                                      {ShowState::failed, "failed"},
+                                                      {ShowState::stopped, "stopped"}};
+constexpr EnumNames<ShowState> namesOf(ShowState) {
+  return {"state of a show", showStateNames};
+}
 
 /// An unattended show: opens the displays, plays during its hours and shows black outside them, writes a log
 /// and a health file, and starts again after a failure. After a suspend content continues where it was.
@@ -43,7 +53,7 @@ class Show : public QObject {
   void wakeDisplays();
   bool isTime() const;
   void tryAgain(const QString& sentence);
-  void tellHealth(std::string_view state);
+  void tellHealth(ShowState state);
 
   ShowSettings settings_;
   MakeRenderer make_;
@@ -58,7 +68,7 @@ class Show : public QObject {
   QTimer health_, again_;
   int failures_ = 0;
   qsizetype toldSkipped_ = 0;
-  std::string_view state_ = "starting";
+  ShowState state_ = ShowState::starting;
 };
 
 }  // namespace relucent

@@ -70,8 +70,13 @@ int main(int argc, char** argv) {
   CLI::App app("Times the real-time engine and prints JSON.");
   EngineBenchSettings settings;
   bool noReferences = false;
-  app.add_option("--backend", settings.backend, "automatic, cpu or opengl")
-      ->transform(CLI::CheckedTransformer(backendChoices()));
+  app.add_option_function<std::string>(
+         "--backend",
+         [&settings](const std::string& name) {
+           settings.backend = parsedName<BackendChoice>(name, ErrorKind::usage);
+         },
+         "What it runs on")
+      ->check(CLI::IsMember(allNames<BackendChoice>()));
   addSize(app, "--projector", settings.projector, "WxH");
   addSize(app, "--camera", settings.camera, "WxH");
   addSize(app, "--content", settings.content, "WxH");

@@ -190,7 +190,8 @@ void AcquirePage::keep(const AcquisitionSettings& acquisition) {
 
 AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
   if (fineness == this->fineness()) return session_.settings().acquisition;
-  AcquisitionSettings settings = acquisitionMode(fineness == Fineness::fast ? "fast" : "adaptive");
+  AcquisitionSettings settings =
+      relucent::settingsOf(fineness == Fineness::fast ? AcquisitionMode::fast : AcquisitionMode::adaptive);
   if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
   return settings;
 }

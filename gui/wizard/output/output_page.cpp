@@ -167,8 +167,8 @@ void OutputPage::setFade(double seconds) {
 }
 
 QString OutputPage::stillMethod() const {
-  const std::string& method = session_.settings().content.method;
-  return method == toString(Method::refined) ? QString() : methodName(method);
+  const Method method = session_.settings().content.method;
+  return method == Method::refined ? QString() : methodName(method);
 }
 
 void OutputPage::open() {

@@ -52,7 +52,7 @@ void saveProof(const Proof& proof, const fs::path& folder) {
   const Json json{{"taken", proof.taken.toUTC().toString(Qt::ISODate).toStdString()},
                   {"measurement", proof.measured},
                   {"settings", toJson(proof.content)},
-                  {"method", proof.figures.method},
+                  {"method", nameOf(proof.figures.method)},
                   {"before", toJson(proof.figures.before)},
                   {"after", toJson(proof.figures.after)},
                   {"reachable", proof.figures.reachable}};
@@ -67,7 +67,7 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
     proof->taken = QDateTime::fromString(QString::fromStdString(json.at("taken")), Qt::ISODate).toLocalTime();
     proof->measured = json.at("measurement").get<std::string>();
     proof->content = contentFrom(json.at("settings"));
-    proof->figures.method = json.at("method").get<std::string>();
+    proof->figures.method = parsedName<Method>(json.at("method").get<std::string>(), ErrorKind::format);
     proof->figures.before = projectionFrom(json.at("before"));
     proof->figures.after = projectionFrom(json.at("after"));
     proof->figures.reachable = json.at("reachable").get<double>();

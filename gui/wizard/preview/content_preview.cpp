@@ -69,8 +69,7 @@ std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine, con
   const MeasuredVenue& venue = engine.measured.venue;
   const Rasters& cameras = venue.transport.cameras();
   Target target = fitTarget(*content, venue, targetOf(settings));
-  auto method = methodFromName(settings.method).value_or(Method::refined);
-  Prediction with = predict(venue, target, engine.compensator->solve(method, target, quiet));
+  Prediction with = predict(venue, target, engine.compensator->solve(settings.method, target, quiet));
   Prediction without = predict(venue, target, engine.compensator->solve(Method::none, target, quiet));
   auto preview = std::make_shared<ContentPreview>();
   preview->content = content;

@@ -111,7 +111,7 @@ class PreviewStage : public QWidget {
   void choose(int row) {
     if (row < 0 || static_cast<std::size_t>(row) >= page_.table().size()) return;
     ContentSettings settings = page_.settings();
-    settings.method = toString(page_.table()[static_cast<std::size_t>(row)].method);
+    settings.method = page_.table()[static_cast<std::size_t>(row)].method;
     page_.setSettings(settings, PreviewPage::tr("Method"));
   }
   static QString noteOf(Method method) {
@@ -131,7 +131,7 @@ class PreviewStage : public QWidget {
     table_->setRowCount(static_cast<int>(rows.size()));
     for (int row = 0; row < table_->rowCount(); ++row) {
       const MethodPreview& method = rows[static_cast<std::size_t>(row)];
-      QStringList cells{methodName(toString(method.method)),
+      QStringList cells{methodName(method.method),
                         PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
                         decimalText(method.ssim, 3),
                         isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
@@ -140,7 +140,7 @@ class PreviewStage : public QWidget {
                             ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
                             : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1)),
                         noteOf(method.method)};
-      bool chosen = toString(method.method) == page_.settings().method;
+      bool chosen = method.method == page_.settings().method;
       for (int cell = 0; cell < cells.size(); ++cell) {
         auto* item = new QTableWidgetItem(cells[cell]);
         item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
@@ -163,7 +163,7 @@ class PreviewStage : public QWidget {
     Size size = preview->with.size();
     views_[picture]->setPicture(pictureOf(preview->without, preview->white));
     views_[picture]->setCompared(pictureOf(preview->with, preview->white), PreviewPage::tr("Uncorrected"),
-                                 page_.settings().method == toString(Method::none)
+                                 page_.settings().method == Method::none
                                      ? PreviewPage::tr("Uncorrected, too")
                                      : PreviewPage::tr("Corrected, predicted"));
     ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};

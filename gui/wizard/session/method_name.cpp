@@ -3,8 +3,6 @@
 
 #include <QCoreApplication>
 
-#include "compensation/methods.h"
-
 namespace relucent {
 namespace {
 
@@ -14,8 +12,8 @@ struct Names {
 
 }  // namespace
 
-QString methodName(std::string_view name) {
-  switch (methodFromName(name).value_or(Method::refined)) {
+QString methodName(Method method) {
+  switch (method) {
     case Method::none:
       return Names::tr("No correction");
     case Method::scalar:

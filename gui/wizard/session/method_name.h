@@ -2,11 +2,12 @@
 #pragma once
 
 #include <QString>
-#include <string_view>
+
+#include "compensation/method.h"
 
 namespace relucent {
 
-/// A way to compensate, in the user's language. `name`: core's, see methodFromName().
-QString methodName(std::string_view name);
+/// A way to compensate, in the user's language.
+QString methodName(Method method);
 
 }  // namespace relucent

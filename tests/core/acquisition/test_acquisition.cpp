@@ -216,8 +216,8 @@ class TestAcquisition : public QObject {
     wrong.absoluteThreshold = -1.0;
     wrong.checkInterval = 0;
     QCOMPARE(problems(wrong).size(), std::size_t{8});
-    for (const std::string& mode : acquisitionModes()) QVERIFY(problems(acquisitionMode(mode)).empty());
-    QVERIFY_EXCEPTION_THROWN(acquisitionMode("slow"), std::logic_error);
+    for (AcquisitionMode mode : allValues<AcquisitionMode>()) QVERIFY(problems(settingsOf(mode)).empty());
+    QVERIFY_EXCEPTION_THROWN(parsedName<AcquisitionMode>("slow", ErrorKind::usage), Error);
     Venue venue = smallVenue();
     venue.settings = wrong;
     Run run(venue);

@@ -12,7 +12,7 @@ namespace {
 Venue venueFor(const QString& mode) {
   Venue venue = smallVenue();
   std::uint64_t seed = venue.settings.seed;
-  venue.settings = acquisitionMode(mode.toStdString());
+  venue.settings = settingsOf(parsedName<AcquisitionMode>(mode.toStdString(), ErrorKind::usage));
   venue.settings.seed = seed;
   return venue;
 }
@@ -26,7 +26,7 @@ class TestSchemes : public QObject {
   void everySchemeRecoversANoiselessTransport_data() {
     QTest::addColumn<QString>("mode");
     QTest::addColumn<bool>("white");
-    for (const std::string& mode : acquisitionModes())
+    for (const std::string& mode : allNames<AcquisitionMode>())
       for (bool white : {false, true})
         QTest::addRow("%s %s", mode.c_str(), white ? "white" : "rgb")
             << QString::fromStdString(mode) << white;

@@ -47,8 +47,8 @@ class TestMethods : public QObject {
 
  private slots:
   void namesAndMethodsMatch() {
-    for (Method method : allMethods) QVERIFY(methodFromName(toString(method)) == method);
-    QVERIFY(!methodFromName("magic"));
+    for (Method method : allValues<Method>()) QVERIFY(valueNamed<Method>(nameOf(method)) == method);
+    QVERIFY(!valueNamed<Method>("magic"));
   }
 
   void moreKnowledgeIsBetter_data() {
@@ -73,10 +73,10 @@ class TestMethods : public QObject {
     std::map<Method, double> mean;
     for (Content kind : {Content::natural, Content::text, Content::saturated}) {
       Target target = fitTarget(makeContent(kind, {80, 60}, s.seed), prepared.venue, {});
-      for (Method method : allMethods) mean[method] += prepared.psnr(method, target) / 3.0;
+      for (Method method : allValues<Method>()) mean[method] += prepared.psnr(method, target) / 3.0;
     }
     QString all;
-    for (Method method : allMethods) all += QString::number(mean[method], 'f', 2) + " ";
+    for (Method method : allValues<Method>()) all += QString::number(mean[method], 'f', 2) + " ";
     qInfo().noquote() << "none scalar mix sharpen clusters windows refined optimum:" << all;
     QVERIFY(mean[Method::none] < mean[Method::scalar]);
     QVERIFY(mean[Method::scalar] <= mean[Method::mix]);
@@ -97,7 +97,7 @@ class TestMethods : public QObject {
   void perPixelMethodsAreExactWithoutSpread_data() {
     QTest::addColumn<int>("method");
     for (Method method : {Method::mix, Method::sharpen, Method::windows, Method::refined, Method::optimum})
-      QTest::addRow("%s", std::string(toString(method)).c_str()) << static_cast<int>(method);
+      QTest::addRow("%s", std::string(nameOf(method)).c_str()) << static_cast<int>(method);
   }
   /// Where every camera pixel sees one projector pixel of its own, nothing is lost.
   void perPixelMethodsAreExactWithoutSpread() {
@@ -154,7 +154,7 @@ class TestMethods : public QObject {
     settings.corners = Corners{{{8, 6}, {30, 9}, {28, 24}, {10, 22}}};
     Target target = fitTarget(Image({16, 12}, 3, 0.8f), prepared.venue, settings);
     Compensator compensator(prepared.venue, prepared.inverse);
-    for (Method method : allMethods) {
+    for (Method method : allValues<Method>()) {
       Compensation c = compensator.solve(method, target, quiet);
       std::size_t lit = 0;
       for (std::size_t j = 0; j < c.projector.size(); ++j) {

@@ -113,7 +113,7 @@ class TestSolver : public QObject {
     QTest::addColumn<int>("seed");
     for (Algorithm algorithm : {Algorithm::fista, Algorithm::barzilaiBorwein, Algorithm::steepestDescent})
       for (int seed = 1; seed <= 3; ++seed)
-        QTest::addRow("%s, seed %d", toString(algorithm).data(), seed) << static_cast<int>(algorithm) << seed;
+        QTest::addRow("%s, seed %d", nameOf(algorithm).data(), seed) << static_cast<int>(algorithm) << seed;
   }
   SolverSettings exact(int algorithm) {
     SolverSettings settings;
@@ -131,7 +131,7 @@ class TestSolver : public QObject {
     QVERIFY(!cases.empty());
     for (Algorithm algorithm : allAlgorithms)
       for (std::size_t i = 0; i < cases.size(); ++i)
-        QTest::addRow("%s, %s", toString(algorithm).data(), qPrintable(cases[i].name))
+        QTest::addRow("%s, %s", nameOf(algorithm).data(), qPrintable(cases[i].name))
             << static_cast<int>(algorithm) << static_cast<int>(i);
   }
   void agreesWithScipy() {
@@ -158,7 +158,7 @@ class TestSolver : public QObject {
   void nothingToSolveHasAResult_data() {
     QTest::addColumn<int>("algorithm");
     for (Algorithm algorithm : allAlgorithms)
-      QTest::newRow(toString(algorithm).data()) << static_cast<int>(algorithm);
+      QTest::newRow(nameOf(algorithm).data()) << static_cast<int>(algorithm);
   }
   void nothingToSolveHasAResult() {
     QFETCH(int, algorithm);
@@ -213,11 +213,11 @@ class TestSolver : public QObject {
 
   void everyAlgorithmHasAName() {
     for (Algorithm algorithm : allAlgorithms) {
-      QVERIFY(algorithmFromName(toString(algorithm)) == algorithm);
+      QVERIFY(valueNamed<SolverSettings::Algorithm>(nameOf(algorithm)) == algorithm);
       QVERIFY(defaultsOf(algorithm).algorithm == algorithm);
       QVERIFY(problems(defaultsOf(algorithm)).empty());
     }
-    QVERIFY(!algorithmFromName("magic"));
+    QVERIFY(!valueNamed<SolverSettings::Algorithm>("magic"));
   }
 
   /// The paper's five steps: each goes down, and they get the larger part of what there is to gain.

@@ -238,8 +238,8 @@ class TestTarget : public QObject {
   }
 
   void fitsHaveNames() {
-    for (Fit fit : {Fit::fill, Fit::fit, Fit::cover}) QVERIFY(fitFromName(toString(fit)) == fit);
-    QVERIFY(!fitFromName("stretch"));
+    for (Fit fit : {Fit::fill, Fit::fit, Fit::cover}) QVERIFY(valueNamed<Fit>(nameOf(fit)) == fit);
+    QVERIFY(!valueNamed<Fit>("stretch"));
   }
 
   void greyStaysGreyAndWhiteIsReachable_data() {

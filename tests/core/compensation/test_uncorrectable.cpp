@@ -147,7 +147,7 @@ class TestUncorrectable : public QObject {
   void checksSettings() {
     QVERIFY(problems(UncorrectableSettings{}).empty());
     QCOMPARE(problems(UncorrectableSettings{{0.0}, -1.0, 2.0, std::nan("")}).size(), std::size_t{4});
-    for (Uncorrectable reason : allReasons) QVERIFY(!toString(reason).empty());
+    for (Uncorrectable reason : allReasons) QVERIFY(!nameOf(reason).empty());
   }
 };
 

@@ -35,7 +35,7 @@ CalibrateSettings smallVenue() {
   CalibrateSettings settings;
   settings.rig = venue;
   settings.linearization.levels = 9;
-  settings.acquisition = acquisitionMode("fast");
+  settings.acquisition = settingsOf(AcquisitionMode::fast);
   return settings;
 }
 

@@ -205,7 +205,7 @@ class TestRecording : public QObject {
     CalibrateSettings settings;
     settings.rig = simulated;
     settings.linearization.levels = 9;
-    settings.acquisition = acquisitionMode("fast");
+    settings.acquisition = settingsOf(AcquisitionMode::fast);
 
     auto measure = [&](Rig rig, const fs::path& path) {
       Progress silent;

@@ -119,7 +119,7 @@ class TestImportPictures : public QObject {
     QCOMPARE(relight(studio.calibration(), relighting, progress).files.size(), std::size_t{1});
     CompensateSettings compensation;
     compensation.image = studio.written.files.at(1);
-    compensation.method = "windows";
+    compensation.method = Method::windows;
     compensation.out = studio.calibration() / "compensated";
     QVERIFY(compensate(studio.calibration(), compensation, progress).psnrPredicted > 10.0);
     QVERIFY_EXCEPTION_THROWN(evaluate(studio.calibration(), {}, {}, progress), Error);

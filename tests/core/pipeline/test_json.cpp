@@ -24,7 +24,7 @@ class TestJson : public QObject {
 
   void proveDocument() {
     ProveResult result;
-    result.method = "refined";
+    result.method = Method::refined;
     result.before = {{20.0, 8.0}, {19.5, 8.5}, 0.25};
     result.after = {{30.0, 2.0}, {29.5, 2.5}, 0.125};
     result.reachable = 0.75;
@@ -63,7 +63,7 @@ class TestJson : public QObject {
 
   void evaluateDocument() {
     EvaluateResult result{"corner", {256, 192}, {160, 120}, 0.9, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {}};
-    result.images = {{"hills", 0.8, {{"none", 14.0, 13.0, 0.4, 18.0, 0.001}}}};
+    result.images = {{"hills", 0.8, {{Method::none, 14.0, 13.0, 0.4, 18.0, 0.001}}}};
     QCOMPARE(
         toJson(result).dump(),
         std::string(
@@ -74,7 +74,8 @@ class TestJson : public QObject {
   }
 
   void compensateDocument() {
-    CompensateResult result{"mix", 20.0, 0.1, 0.9, 0.5, {"out/pattern.png"}, 4.5, {{"unlit", 0.25}}};
+    CompensateResult result{
+        Method::mix, 20.0, 0.1, 0.9, 0.5, {"out/pattern.png"}, 4.5, {{Uncorrectable::unlit, 0.25}}};
     QCOMPARE(
         toJson(result).dump(),
         std::string(R"({"method":"mix","psnr_predicted":20.0,"delta_e":4.5,"clipped":0.1,"reachable":0.9,)"
@@ -107,7 +108,7 @@ class TestJson : public QObject {
     venue.ridge = 0.4;
     venue.printed.percolated = true;
     venue.printed.errorMedian = 0.75;
-    venue.quality = {{"refined", 31.0}, {"none", 17.0}};
+    venue.quality = {{Method::refined, 31.0}, {Method::none, 17.0}};
     Json document = toJson(InverseBenchResult{{venue}});
     QCOMPARE(document["paper"]["error"].dump(), std::string("[0.7,0.8]"));
     const Json& corner = document["venues"][0];

@@ -103,6 +103,31 @@ class TestSettingsJson : public QObject {
     }
   }
 
+  /// Another value in the place of a name that is not known would go unnoticed.
+  void unknownNamesAreErrorsThatListTheKnownOnes_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QByteArray>("known");
+    QTest::newRow("method") << QByteArray(R"({"content":{"method":"magic"}})") << QByteArray("refined");
+    QTest::newRow("fit") << QByteArray(R"({"content":{"fit":"stretch"}})") << QByteArray("cover");
+    QTest::newRow("scheme") << QByteArray(R"({"acquisition":{"scheme":"magic"}})") << QByteArray("adaptive");
+    QTest::newRow("colours") << QByteArray(R"({"acquisition":{"colours":"blue"}})") << QByteArray("white");
+    QTest::newRow("rescaling") << QByteArray(R"({"clustering":{"rescaling":"columns"}})")
+                               << QByteArray("patches");
+    QTest::newRow("cap") << QByteArray(R"({"clustering":{"cap":"often"}})") << QByteArray("when_percolated");
+  }
+  void unknownNamesAreErrorsThatListTheKnownOnes() {
+    QFETCH(QByteArray, text);
+    QFETCH(QByteArray, known);
+    CalibrateSettings settings;
+    try {
+      stagesFromJson(Json::parse(text.toStdString()), settings);
+      QFAIL("was read");
+    } catch (const Error& error) {
+      QVERIFY(error.kind() == ErrorKind::format);
+      QVERIFY2(QByteArray(error.what()).contains(known), error.what());
+    }
+  }
+
   /// A manifest of the first version: keys that came later keep their defaults, those that went are ignored.
   void manifestsOfOlderVersionsOpen() {
     CalibrateSettings settings;

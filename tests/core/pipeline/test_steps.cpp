@@ -173,10 +173,10 @@ class TestSteps : public QObject {
     settings["later"] = 7;
     folder.setSettings(settings);
     CalibrateSettings changed = settingsOf(folder);
-    changed.content.method = "windows";
+    changed.content.method = Method::windows;
     changeSettings(folder, changed);
     QCOMPARE(folder.settings()["later"].get<int>(), 7);
-    QCOMPARE(settingsOf(folder).content.method, std::string("windows"));
+    QVERIFY(settingsOf(folder).content.method == Method::windows);
   }
 
   void shotsThatAreSetAsideAreTakenAnew() {
@@ -196,7 +196,7 @@ class TestSteps : public QObject {
 
   void wrongSettingsBeginNothing() {
     CalibrateSettings settings = tiny();
-    settings.content.method = "magic";
+    settings.content.reachablePercentile = -1.0;
     QVERIFY_EXCEPTION_THROWN((void)beginCalibration(path("wrong"), settings), Error);
     QVERIFY(!fs::exists(path("wrong")));
   }

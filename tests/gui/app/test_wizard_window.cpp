@@ -306,7 +306,7 @@ class TestWizardWindow : public QObject {
     auto* methods = find<QTableWidget>("methods");
     QTest::mouseClick(methods->viewport(), Qt::LeftButton, {},
                       methods->visualItemRect(methods->item(4, 0)).center());
-    QCOMPARE(wizard_->preview().settings().method, std::string("optimum"));
+    QVERIFY(wizard_->preview().settings().method == Method::optimum);
   }
 
   void theContentIsPlacedByMouseAndKeyboard() {
@@ -437,7 +437,7 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
     const Proof& proof = *output.proof().proof();
     // What was chosen at Preview reaches the projector.
-    QCOMPARE(proof.figures.method, std::string("optimum"));
+    QVERIFY(proof.figures.method == Method::optimum);
     QVERIFY(find<QWidget>("method-note")->isVisible());
     QVERIFY(!proof.photograph.isNull() && proof.photograph.size() == proof.wanted.size());
     QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);

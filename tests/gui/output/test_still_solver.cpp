@@ -50,7 +50,7 @@ class TestStillSolver : public QObject {
     QTest::addColumn<quint64>("seed");
     for (Method method : {Method::mix, Method::clusters, Method::windows, Method::refined, Method::optimum})
       for (quint64 seed : {1u, 7u})
-        QTest::addRow("%s, %llu", toString(method).data(), static_cast<unsigned long long>(seed))
+        QTest::addRow("%s, %llu", nameOf(method).data(), static_cast<unsigned long long>(seed))
             << static_cast<int>(method) << seed;
   }
   void itIsThePipelinesSolution() {

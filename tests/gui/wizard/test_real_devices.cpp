@@ -62,7 +62,7 @@ CalibrateSettings simulatedSettings() {
   settings.rig = venue;
   if (venue.projector.width < 64) {
     settings.linearization.levels = 9;
-    settings.acquisition = acquisitionMode("fast");
+    settings.acquisition = settingsOf(AcquisitionMode::fast);
   }
   return settings;
 }
@@ -255,7 +255,7 @@ class TestRealDevices : public QObject {
 
   EvaluateResult quality(const std::string& name) const {
     EvaluateSettings settings;
-    settings.methods = {"none", "mix", "windows"};
+    settings.methods = {Method::none, Method::mix, Method::windows};
     Progress silent;
     return evaluate(root() / name, settings, cache(), silent);
   }
@@ -295,7 +295,7 @@ class TestRealDevices : public QObject {
         const MethodScore& a = direct.images[image].methods[method];
         const MethodScore& b = real.images[image].methods[method];
         qInfo("%s, %s: %.2f dB directly, %.2f dB through devices", direct.images[image].name.c_str(),
-              a.method.c_str(), a.psnrReachable, b.psnrReachable);
+              nameOf(a.method).data(), a.psnrReachable, b.psnrReachable);
         QVERIFY(std::abs(a.psnrReachable - b.psnrReachable) < 0.3);  // less than anybody could see
       }
   }
@@ -397,7 +397,7 @@ class TestRealDevices : public QObject {
 
     CalibrateSettings quick = session.settings();
     quick.linearization.levels = 9;
-    quick.acquisition = acquisitionMode("fast");
+    quick.acquisition = settingsOf(AcquisitionMode::fast);
     session.changeSettings(quick);
     linearize.primary().run();
     QTRY_VERIFY_WITH_TIMEOUT(session.progress(Step::linearization) == StepProgress::done, 60000);

@@ -18,7 +18,7 @@ class TestProofFile : public QObject {
 
   static Proof proof() {
     Proof proof;
-    proof.figures.method = "refined";
+    proof.figures.method = Method::refined;
     proof.figures.before = {{18.5, 15.25}, {18.25, 15.5}, 0.03};
     proof.figures.after = {{38.0, 2.25}, {36.5, 2.75}, 0.05};
     proof.figures.reachable = 0.968;

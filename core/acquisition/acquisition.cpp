@@ -8,9 +8,9 @@
 
 #include "acquisition/forecast.h"
 #include "acquisition/growth.h"
-#include "acquisition/observer.h"
 #include "acquisition/repair.h"
 #include "base/error.h"
+#include "sentinels/observer.h"
 
 namespace relucent {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/alarm.h"
 #include "acquisition/settings.h"
 #include "hdr/hdr.h"
 #include "linearization/linearization.h"
+#include "sentinels/alarm.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {

@@ -8,7 +8,7 @@
 #include "acquisition/estimate.h"
 #include "acquisition/frames.h"
 #include "acquisition/tree.h"
-#include "acquisition/watch.h"
+#include "sentinels/watch.h"
 
 namespace relucent {
 

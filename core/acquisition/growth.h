@@ -5,7 +5,7 @@
 
 #include "acquisition/refinement.h"
 #include "acquisition/tree.h"
-#include "acquisition/watch.h"
+#include "sentinels/watch.h"
 
 namespace relucent {
 

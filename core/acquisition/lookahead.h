@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "acquisition/photographer.h"
+#include "photography/photographer.h"
 
 namespace relucent {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "acquisition/photographer.h"
 #include "acquisition/verification.h"
 #include "base/error.h"
+#include "photography/photographer.h"
 
 namespace relucent {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "acquisition/references.h"
+#include "photography/references.h"
 
 namespace relucent {
 

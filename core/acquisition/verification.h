@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "acquisition/watch.h"
+#include "sentinels/watch.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {

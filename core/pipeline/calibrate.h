@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/alarm.h"
+#include "sentinels/alarm.h"
 #include "base/progress.h"
 #include "pipeline/calibrate_settings.h"
 
@@ -36,7 +36,7 @@ struct CalibrateResult {
 CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
                           const std::filesystem::path& cache, Progress& progress);
 /// The same with somebody to ask when a sentinel finds something wrong while the light transport is measured
-/// (acquisition/alarm.h); with nobody, that is Error{device}, and resume() goes on from what is safe.
+/// (sentinels/alarm.h); with nobody, that is Error{device}, and resume() goes on from what is safe.
 CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
                           const std::filesystem::path& cache, const AlarmHandler& handler,
                           Progress& progress);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/import.h"
+#include "importing/import.h"
 #include "base/progress.h"
 #include "base/raster.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/observer.h"
 #include "calibration/calibration_folder.h"
 #include "linearization/linearization.h"
 #include "pipeline/calibrate_settings.h"
 #include "pipeline/measured_venue.h"
 #include "rig/rig.h"
+#include "sentinels/observer.h"
 
 /// The stages of calibrate() one by one, for whoever looks at each result before the next is begun. Every one
 /// takes its settings from the folder, is read from there where it is done already, and goes on where an

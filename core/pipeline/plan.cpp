@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/plan.h"
 
-#include "acquisition/pattern_plan.h"
+#include "importing/pattern_plan.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "calibration/json.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "acquisition/pattern_plan.h"
+#include "importing/pattern_plan.h"
 #include "base/progress.h"
 #include "pipeline/written_files.h"
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "acquisition/photographer.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/stopwatch.h"
@@ -14,6 +13,7 @@
 #include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
+#include "photography/photographer.h"
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/projection.h"

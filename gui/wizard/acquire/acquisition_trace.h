@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "acquisition/observer.h"
+#include "sentinels/observer.h"
 #include "wizard/session/session.h"
 
 namespace relucent {

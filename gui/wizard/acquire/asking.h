@@ -7,7 +7,7 @@
 #include <chrono>
 #include <optional>
 
-#include "acquisition/alarm.h"
+#include "sentinels/alarm.h"
 
 namespace relucent {
 

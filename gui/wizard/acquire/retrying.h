@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "acquisition/observer.h"
+#include "sentinels/observer.h"
 #include "wizard/acquire/asking.h"
 
 namespace relucent {

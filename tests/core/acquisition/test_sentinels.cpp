@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "acquisition/observer.h"
 #include "acquisition_run.h"
 #include "base/error.h"
+#include "sentinels/observer.h"
 #include "venue/device_faults.h"
 #include "venue/venue.h"
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "importing/colour.h"
+#include "importing/import.h"
+
+namespace relucent {
+
+/// Predictions of the simpler models, and what all are judged by.
+struct HeldOutInput {
+  const PictureSequence& patterns;
+  const PictureSequence& photographs;
+  const ImportFrames& frames;
+  const std::vector<std::uint8_t>& lit;
+  const std::vector<Decoded>& decoded;
+  const std::vector<PixelColour>& oneToOne;
+  const std::vector<PixelColour>& mix;
+};
+
+struct HeldOutScore {
+  HeldOutError error;
+  double relative = 0.0;  // of T: root of the residuals' over the photographs' energy less e, lit pixels
+};
+
+/// Predicts every held-out photograph with each model.  Same bits for every number of threads.
+HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisition, const DriveTable& drive,
+                          Progress& progress);
+
+}  // namespace relucent

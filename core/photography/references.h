@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "acquisition/settings.h"
+#include "photography/photographer.h"
+#include "transport/block_sparse.h"
+
+namespace relucent {
+
+/// What is measured before the tree: black, and every projector's floods in red, green and blue, which are
+/// the root of its tree.
+struct References {
+  HdrFrame black;                              // e
+  std::vector<std::vector<ColourBlock>> root;  // [projector][row]: flood less e, camera x projector channel
+  std::vector<std::vector<ColourBlock>> rootVariance;
+  std::vector<std::uint8_t> usable;  // per row: 0 where even the shortest exposure was saturated
+  std::vector<float>
+      strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest
+  double flicker = 0.0;  // deviation of equal patterns' total light, relative, drift taken out
+  float typical = 0.0f;  // the F above which half of all light lies
+  std::vector<float> fullScale;  // per row: the largest magnitude that T may hold there
+};
+
+/// `rounds` shots of each, black and floods in turn, so that slow drift is the same in all of them.
+/// `dimShare`: see AcquisitionSettings.
+References measureReferences(Photographer& photographer, int rounds, double dimShare, Progress& progress);
+
+}  // namespace relucent

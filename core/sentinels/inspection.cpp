@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "sentinels/inspection.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "sentinels/movement.h"
+
+namespace relucent {
+namespace {
+
+constexpr std::uint64_t referenceKey = 0x7265666572ULL;
+
+// Beyond what drift does between two checks; more of them in observer.h.
+constexpr double darkShare = 0.2;     // of the light expected: less is no lamp's drift
+constexpr double localLimit = 0.25;   // of a pixel's own and the typical light: something is in the way
+constexpr double localShare = 0.003;  // of the camera pixels
+constexpr double sigmas = 6.0;
+
+struct Sum {
+  double value = 0.0, variance = 0.0;
+  bool isSignificant() const { return std::abs(value) > sigmas * std::sqrt(variance); }
+};
+
+Sum sumOf(const Stack& values, const Stack& variance, const References& references) {
+  Sum sum;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!references.usable[i / 3]) continue;
+    sum.value += static_cast<double>(values[i]);
+    sum.variance += static_cast<double>(variance[i]);
+  }
+  return sum;
+}
+
+Alarm alarm(AlarmKind kind, std::string what, std::string advice) {
+  return {kind, std::move(what), "every photograph up to the check before is safe", std::move(advice)};
+}
+
+std::optional<Alarm> inspectDarkness(const Check& now, const References& references, double power) {
+  if (power > darkShare) return std::nullopt;
+  Stack seen = now.light.radiance;
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += now.black.radiance[i];
+  Sum black = sumOf(references.black.radiance, references.black.variance, references);
+  Sum all = sumOf(seen, now.light.variance, references);
+  if (black.isSignificant() && all.value > 0.5 * black.value)
+    return alarm(AlarmKind::projectorAsleep,
+                 "the projector shows nothing, the room's own light is still seen",
+                 "wake the projector, switch off its and the screen's power saving, then retry");
+  return alarm(AlarmKind::coveredLens, "the camera sees nothing at all",
+               "uncover the lens, check that the projector is on, then retry");
+}
+
+/// In units of the typical flood.
+double roomLight(const HdrFrame& black, const References& references) {
+  double light = sumOf(black.radiance, black.variance, references).value;
+  double whole = static_cast<double>(references.typical) * static_cast<double>(black.radiance.size());
+  return whole > 0.0 ? light / whole : 0.0;
+}
+
+std::optional<Alarm> inspectAmbient(const Check& now, const References& references) {
+  Sum change;
+  for (std::size_t i = 0; i < now.black.radiance.size(); ++i) {
+    if (!references.usable[i / 3]) continue;
+    change.value += static_cast<double>(now.black.radiance[i] - references.black.radiance[i]);
+    change.variance += static_cast<double>(now.black.variance[i] + references.black.variance[i]);
+  }
+  double limit = reading_limit::roomLight * static_cast<double>(references.typical) *
+                 static_cast<double>(now.black.radiance.size());
+  if (std::abs(change.value) < limit || !change.isSignificant()) return std::nullopt;
+  return alarm(AlarmKind::ambientChanged,
+               fmt::format("the light of the room became {}", change.value > 0.0 ? "brighter" : "darker"),
+               "switch it back, keep doors and curtains closed, then retry");
+}
+
+/// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
+struct Views {
+  Image before, after;
+  double apart = 0.0, whole = 0.0, noise = 0.0;  // squared
+  std::size_t changed = 0;                       // pixels off by a share of their own light
+};
+
+Views viewsOf(std::size_t camera, const Check& now, const Check& first, const References& references,
+              const Rasters& cameras, double power) {
+  Size size = cameras.size(camera);
+  Views views{Image(size, 1), Image(size, 1)};
+  for (std::size_t i = 0; i < size.count(); ++i) {
+    std::size_t row = cameras.offset(camera) + i;
+    if (!references.usable[row]) continue;
+    double was = 0.0, is = 0.0, variance = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      was += static_cast<double>(first.light.radiance[3 * row + c]);
+      is += static_cast<double>(now.light.radiance[3 * row + c]) / power;
+      variance += static_cast<double>(now.light.variance[3 * row + c] + first.light.variance[3 * row + c]);
+    }
+    views.before.data()[i] = static_cast<float>(was);
+    views.after.data()[i] = static_cast<float>(is);
+    views.apart += (is - was) * (is - was);
+    views.whole += was * was;
+    views.noise += variance;
+    double large = localLimit * std::max(was, static_cast<double>(references.typical));
+    if (std::abs(is - was) > std::max(large, sigmas * std::sqrt(variance))) ++views.changed;
+  }
+  return views;
+}
+
+std::optional<Alarm> inspectView(const Check& now, const Check& first, const References& references,
+                                 const Rasters& cameras, double power) {
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    Size size = cameras.size(camera);
+    Views views = viewsOf(camera, now, first, references, cameras, power);
+    bool different = views.apart > reading_limit::view * reading_limit::view * views.whole &&
+                     views.apart > 4.0 * views.noise;
+    bool local = static_cast<double>(views.changed) > localShare * static_cast<double>(size.count());
+    if (!different && !local) continue;
+
+    Movement movement = movementBetween(views.before, views.after);
+    if (movement.explains)
+      return alarm(AlarmKind::moved,
+                   fmt::format("a camera or projector has moved: the view of camera {} is shifted by "
+                               "{:.1f}, {:.1f} pixels and turned by {:.1f} degrees",
+                               camera + 1, movement.x, movement.y, movement.degrees),
+                   "put it back to within half a pixel, then retry");
+    if (local)
+      return alarm(AlarmKind::localChange,
+                   fmt::format("{:.1f} % of the view of camera {} look different than before",
+                               100.0 * static_cast<double>(views.changed) / static_cast<double>(size.count()),
+                               camera + 1),
+                   "take away what is in the light or in the view, then retry");
+  }
+  return std::nullopt;
+}
+
+/// Light-weighted centres of what is lit in one colour of the reference picture, and of what is not.
+struct Halves {
+  Eigen::Vector2d lit = Eigen::Vector2d::Zero(), dark = Eigen::Vector2d::Zero();
+  double litWeight = 0.0, darkWeight = 0.0;
+
+  void add(const Eigen::Vector2d& place, double weight, double drive) {
+    lit += weight * drive * place;
+    litWeight += weight * drive;
+    dark += weight * (1.0 - drive) * place;
+    darkWeight += weight * (1.0 - drive);
+  }
+  Eigen::Vector2d fromLitToDark() const {
+    if (litWeight <= 0.0 || darkWeight <= 0.0) return Eigen::Vector2d::Zero();
+    return dark / darkWeight - lit / litWeight;
+  }
+};
+
+}  // namespace
+
+Stack referencePattern(const Rasters& projectors, std::size_t projector) {
+  Stack pattern(3 * projectors.count(), 0.0f);
+  Size size = projectors.size(projector);
+  int side = std::max(2, std::min(size.width, size.height) / 12);
+  for (std::size_t i = 0; i < size.count(); ++i) {
+    Pixel at = pixelAt(size, i);
+    Random random{referenceKey, projector, static_cast<std::uint64_t>(at.x / side),
+                  static_cast<std::uint64_t>(at.y / side)};
+    float* value = &pattern[3 * (projectors.offset(projector) + i)];
+    value[0] = static_cast<float>(random.next() >> 63);
+    value[1] = 2 * at.x < size.width ? 1.0f : 0.0f;
+    value[2] = 2 * at.y < size.height ? 1.0f : 0.0f;
+  }
+  return pattern;
+}
+
+Stack referencePattern(const Rasters& projectors) {
+  Stack all(3 * projectors.count(), 0.0f);
+  for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
+    Stack one = referencePattern(projectors, projector);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += one[i];
+  }
+  return all;
+}
+
+double lampPower(const Check& now, const Check& first, const References& references) {
+  double before = 0.0, after = 0.0;
+  for (std::size_t i = 0; i < now.light.radiance.size(); ++i) {
+    if (!references.usable[i / 3] || !now.light.valid[i] || !first.light.valid[i]) continue;
+    before += static_cast<double>(first.light.radiance[i]);
+    after += static_cast<double>(now.light.radiance[i]);
+  }
+  return before > 0.0 ? after / before : 1.0;
+}
+
+Reading readingOf(const Check& now, const Check& first, const References& references, const Rasters& cameras,
+                  double expectedPower) {
+  Reading reading;
+  reading.roomLight = roomLight(now.black, references);
+  reading.roomLightAtFirst = roomLight(first.black, references);
+  reading.roomLightExpected = roomLight(references.black, references);
+  reading.lamp = lampPower(now, first, references);
+  reading.lampExpected = expectedPower;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    Views views = viewsOf(camera, now, first, references, cameras, reading.lamp);
+    if (views.whole > 0.0)
+      reading.view =
+          std::max(reading.view, std::sqrt(std::max(0.0, views.apart - views.noise) / views.whole));
+  }
+  return reading;
+}
+
+std::optional<Alarm> inspect(const Check& now, const Check& first, const References& references,
+                             const Rasters& cameras, double expectedPower, const AcquisitionSettings&) {
+  double power = lampPower(now, first, references);
+  if (auto dark = inspectDarkness(now, references, power)) return dark;
+  if (auto ambient = inspectAmbient(now, references)) return ambient;
+  if (auto view = inspectView(now, first, references, cameras, power)) return view;
+  if (std::abs(power / expectedPower - 1.0) > reading_limit::lamp)
+    return alarm(AlarmKind::lampChanged,
+                 fmt::format("the projector's light changed by {:.0f} % within a few photographs",
+                             100.0 * (power / expectedPower - 1.0)),
+                 "switch off its automatic brightness and eco modes, let it warm up, then retry");
+  return std::nullopt;
+}
+
+std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t projector,
+                                        const References& references, const Rasters& cameras,
+                                        const AcquisitionSettings& settings) {
+  Halves leftRight, upperLower;
+  double turned = 0.0, span = 0.0;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    Size size = cameras.size(camera);
+    for (std::size_t i = 0; i < size.count(); ++i) {
+      std::size_t row = cameras.offset(camera) + i;
+      const ColourBlock& flood = references.root[projector][row];
+      double weight = static_cast<double>(flood.sum());
+      if (!references.usable[row] || !(weight > static_cast<double>(references.typical))) continue;
+      Eigen::Vector3f seen(light.radiance[3 * row], light.radiance[3 * row + 1], light.radiance[3 * row + 2]);
+      Eigen::Vector3f drive = flood.colPivHouseholderQr().solve(seen);
+      Pixel at = pixelAt(size, i);
+      Eigen::Vector2d place(at.x, at.y);
+      leftRight.add(place, weight, static_cast<double>(std::clamp(drive[1], 0.0f, 1.0f)));
+      upperLower.add(place, weight, static_cast<double>(std::clamp(drive[2], 0.0f, 1.0f)));
+    }
+    Eigen::Vector2d across = leftRight.fromLitToDark(), down = upperLower.fromLitToDark();
+    turned += across.x() * down.y() - across.y() * down.x();
+    span += across.norm() * down.norm();
+    leftRight = upperLower = {};
+  }
+  double view = static_cast<double>(cameras.count()) / 1600.0;  // (2.5 % of the camera's width and height)^2
+  if (span < view)
+    return alarm(AlarmKind::wrongScreen,
+                 fmt::format("projector {} does not show the picture that it is given", projector + 1),
+                 "check that the right screen is chosen and nothing covers the picture, then retry");
+  if (turned < -0.3 * span && !settings.mayBeMirrored)
+    return alarm(AlarmKind::mirroredScreen,
+                 fmt::format("the picture of projector {} appears mirrored", projector + 1),
+                 "switch off the projector's rear or ceiling mode, or allow a mirrored picture, then retry");
+  return std::nullopt;
+}
+
+}  // namespace relucent

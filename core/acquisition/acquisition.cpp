@@ -10,7 +10,6 @@
 #include "acquisition/growth.h"
 #include "acquisition/repair.h"
 #include "base/error.h"
-#include "sentinels/observer.h"
 
 namespace relucent {
 namespace {
@@ -92,7 +91,8 @@ class Measurement {
         shotsBefore_(shots.shots()),
         observer_(observer),
         photographer_(shots, linearization),
-        watch_(photographer_, shots, references_, settings, decisions, observer) {}
+        watch_(photographer_, shots, references_, {settings.checkInterval, settings.mayBeMirrored}, decisions,
+               observer) {}
 
   Acquisition run(Progress& progress) {
     expect(progress, {});
@@ -173,36 +173,26 @@ class Measurement {
 
 }  // namespace
 
-Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-                    const AlarmHandler& handler, AcquisitionObserver& observer, Progress& progress) {
-  std::vector<std::string> wrong = problems(settings);
+Acquisition acquire(const AcquisitionRun& run, Progress& progress) {
+  std::vector<std::string> wrong = problems(run.settings);
   require(wrong.empty(), "{}", fmt::join(wrong, "; "));
-  Linearization used = linearization;
-  if (settings.singleExposure) used.exposures = {used.exposures.back()};
-  int shotsBefore = shots.shots(), exposuresBefore = shots.exposures();
-  Decisions decisions{handler, {}};
+  Linearization used = run.linearization;
+  if (run.settings.singleExposure) used.exposures = {used.exposures.back()};
+  AcquisitionObserver nobody;
+  AcquisitionObserver& observer = run.observer ? *run.observer : nobody;
+  int shotsBefore = run.shots.shots(), exposuresBefore = run.shots.exposures();
+  Decisions decisions{run.handler, {}};
   while (true) {
     try {
-      Acquisition result = Measurement(shots, used, settings, decisions, observer).run(progress);
-      result.patterns = shots.shots() - shotsBefore;
-      result.exposures = shots.exposures() - exposuresBefore;
+      Acquisition result = Measurement(run.shots, used, run.settings, decisions, observer).run(progress);
+      result.patterns = run.shots.shots() - shotsBefore;
+      result.exposures = run.shots.exposures() - exposuresBefore;
       addPutUpWith(result, decisions);
       return result;
     } catch (const BeginAgain&) {
-      shots.goBackTo(shotsBefore);
+      run.shots.goBackTo(shotsBefore);
     }
   }
-}
-
-Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-                    const AlarmHandler& handler, Progress& progress) {
-  AcquisitionObserver nobody;
-  return acquire(shots, linearization, settings, handler, nobody, progress);
-}
-
-Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-                    Progress& progress) {
-  return acquire(shots, linearization, settings, {}, progress);
 }
 
 }  // namespace relucent

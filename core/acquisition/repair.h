@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/acquisition.h"
 #include "acquisition/growth.h"
 #include "acquisition/verification.h"
+#include "transport/acquisition.h"
 
 namespace relucent {
 

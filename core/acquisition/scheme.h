@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "acquisition/settings.h"
 #include "photography/references.h"
 
 namespace relucent {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "acquisition/settings.h"
 #include "sentinels/watch.h"
 #include "transport/transport_matrix.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/acquisition.h"
 #include "calibration/calibration_folder.h"
 #include "linearization/linearization.h"
+#include "transport/acquisition.h"
 
 namespace relucent {
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "importing/colour.h"
-#include "importing/import.h"
+#include "importing/held_out.h"
+#include "transport/acquisition.h"
 
 namespace relucent {
 

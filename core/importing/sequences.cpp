@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importing/import.h"
-
 namespace relucent {
 
 bool isBinary(const PictureSequence& patterns, int picture) {

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "acquisition/settings.h"
 #include "photography/photographer.h"
 #include "transport/block_sparse.h"
 

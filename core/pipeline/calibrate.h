@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sentinels/alarm.h"
 #include "base/progress.h"
 #include "pipeline/calibrate_settings.h"
+#include "sentinels/alarm.h"
 
 namespace relucent {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "importing/import.h"
 #include "base/progress.h"
 #include "base/raster.h"
+#include "importing/import.h"
 
 namespace relucent {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/acquisition.h"
 #include "calibration/calibration_folder.h"
 #include "compensation/ridge_choice.h"
 #include "compensation/target.h"
 #include "inverse/windows.h"
 #include "linearization/linearization.h"
 #include "pipeline/calibrate.h"
+#include "transport/acquisition.h"
 
 namespace relucent {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/measuring.h"
 
+#include "acquisition/acquisition.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/stopwatch.h"
@@ -64,7 +65,7 @@ Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linear
   ShotJournal journal(folder.shotFolder());
   ShotTaker shots(rig, journal, stage::acquisition);
   Acquisition acquisition =
-      acquire(shots, linearization, settingsOf(folder).acquisition, handler, observer, progress);
+      acquire({shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
   storeAcquisition(folder, inputs, acquisition, cost(watch, &shots));
   return acquisition;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/plan.h"
 
-#include "importing/pattern_plan.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "calibration/json.h"
 #include "image/picture_files.h"
+#include "importing/pattern_plan.h"
 
 namespace relucent {
 namespace fs = std::filesystem;

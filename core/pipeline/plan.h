@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "importing/pattern_plan.h"
 #include "base/progress.h"
+#include "importing/pattern_plan.h"
 #include "pipeline/written_files.h"
 
 namespace relucent {

@@ -207,7 +207,7 @@ Reading readingOf(const Check& now, const Check& first, const References& refere
 }
 
 std::optional<Alarm> inspect(const Check& now, const Check& first, const References& references,
-                             const Rasters& cameras, double expectedPower, const AcquisitionSettings&) {
+                             const Rasters& cameras, double expectedPower) {
   double power = lampPower(now, first, references);
   if (auto dark = inspectDarkness(now, references, power)) return dark;
   if (auto ambient = inspectAmbient(now, references)) return ambient;
@@ -222,7 +222,7 @@ std::optional<Alarm> inspect(const Check& now, const Check& first, const Referen
 
 std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t projector,
                                         const References& references, const Rasters& cameras,
-                                        const AcquisitionSettings& settings) {
+                                        bool mayBeMirrored) {
   Halves leftRight, upperLower;
   double turned = 0.0, span = 0.0;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
@@ -249,7 +249,7 @@ std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t proje
     return alarm(AlarmKind::wrongScreen,
                  fmt::format("projector {} does not show the picture that it is given", projector + 1),
                  "check that the right screen is chosen and nothing covers the picture, then retry");
-  if (turned < -0.3 * span && !settings.mayBeMirrored)
+  if (turned < -0.3 * span && !mayBeMirrored)
     return alarm(AlarmKind::mirroredScreen,
                  fmt::format("the picture of projector {} appears mirrored", projector + 1),
                  "switch off the projector's rear or ceiling mode, or allow a mirrored picture, then retry");

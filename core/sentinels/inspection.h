@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "acquisition/settings.h"
 #include "photography/references.h"
 #include "sentinels/observer.h"
 
@@ -31,13 +30,12 @@ Reading readingOf(const Check& now, const Check& first, const References& refere
 /// Compares a check with the first one and with what is expected now: e as in `references`, the lamp at
 /// `expectedPower`. The most fundamental finding only.
 std::optional<Alarm> inspect(const Check& now, const Check& first, const References& references,
-                             const Rasters& cameras, double expectedPower,
-                             const AcquisitionSettings& settings);
+                             const Rasters& cameras, double expectedPower);
 
 /// Whether the reference picture on one projector appears at all, and the right way round. Its colours are
 /// unmixed per camera pixel by the floods; the halves' centres of light span a frame, whose handedness tells.
 std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t projector,
                                         const References& references, const Rasters& cameras,
-                                        const AcquisitionSettings& settings);
+                                        bool mayBeMirrored);
 
 }  // namespace relucent

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "acquisition/acquisition.h"
+#include "sentinels/alarm.h"
 
 namespace relucent {
 
@@ -59,9 +59,5 @@ class AcquisitionObserver {
   /// how many of the last one's are through.
   virtual void grew(const std::vector<int>& /*levels*/, int /*through*/) {}
 };
-
-/// acquire() with somebody who looks on.  Throws: as that.
-Acquisition acquire(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-                    const AlarmHandler& handler, AcquisitionObserver& observer, Progress& progress);
 
 }  // namespace relucent

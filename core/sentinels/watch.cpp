@@ -71,7 +71,7 @@ void join(HdrFrame& into, const HdrFrame& other) {
 }  // namespace
 
 Watch::Watch(Photographer& photographer, ShotTaker& shots, References& references,
-             const AcquisitionSettings& settings, Decisions& decisions, AcquisitionObserver& observer)
+             const WatchSettings& settings, Decisions& decisions, AcquisitionObserver& observer)
     : photographer_(photographer),
       shots_(shots),
       references_(references),
@@ -95,7 +95,7 @@ void Watch::begin(const Progress& progress) {
   for (std::size_t projector = 0; projector < projectors().devices(); ++projector) {
     Stack pattern = referencePattern(projectors(), projector);
     HdrFrame light = lessBlack(photographer_.takeAll(pattern, progress), references_.black);
-    if (auto alarm = inspectOrientation(light, projector, references_, cameras(), settings_))
+    if (auto alarm = inspectOrientation(light, projector, references_, cameras(), settings_.mayBeMirrored))
       handle(*alarm, 0);
   }
   first_ = photographCheck(progress);
@@ -114,7 +114,7 @@ void Watch::check(const Progress& progress) {
 }
 
 void Watch::inspectCheck(const Check& now, double expectedPower, int doubtful) {
-  std::optional<Alarm> alarm = inspect(now, first_, references_, cameras(), expectedPower, settings_);
+  std::optional<Alarm> alarm = inspect(now, first_, references_, cameras(), expectedPower);
   if (isNew()) {
     Reading reading = readingOf(now, first_, references_, cameras(), expectedPower);
     reading.shot = shots_.shots();

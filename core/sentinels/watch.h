@@ -16,6 +16,11 @@ struct Decisions {
   std::map<int, std::string> putUpWith;  // alarms put up with, by the shot that they came before
 };
 
+struct WatchSettings {
+  int checkInterval = 40;      // shots between two checks of e, the lamp and the view
+  bool mayBeMirrored = false;  // pictures are meant to appear mirrored: rear projection, a mirror
+};
+
 /// Thrown out of a measurement whose doubtful shots have been forgotten: it is to begin again.
 struct BeginAgain {};
 /// Thrown out of a measurement that is to end with what was safe before the level under way.
@@ -32,8 +37,8 @@ struct KeepAndStop {};
 class Watch {
  public:
   /// Keeps references; e in `references` follows the checks.
-  Watch(Photographer& photographer, ShotTaker& shots, References& references,
-        const AcquisitionSettings& settings, Decisions& decisions, AcquisitionObserver& observer);
+  Watch(Photographer& photographer, ShotTaker& shots, References& references, const WatchSettings& settings,
+        Decisions& decisions, AcquisitionObserver& observer);
 
   const Rasters& cameras() const { return photographer_.cameras(); }
   const Rasters& projectors() const { return photographer_.projectors(); }
@@ -80,7 +85,7 @@ class Watch {
   Photographer& photographer_;
   ShotTaker& shots_;
   References& references_;
-  const AcquisitionSettings& settings_;
+  WatchSettings settings_;
   Decisions& decisions_;
   AcquisitionObserver& observer_;
   Check first_;  // its light that of a later one whose view was put up with, at the power of the first one's

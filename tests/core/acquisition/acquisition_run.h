@@ -50,7 +50,7 @@ class Run {
   }
   Acquisition operator()(ShotLog& log, Progress progress = {}) {
     ShotTaker shots(rig_, log, "acquisition");
-    return acquire(shots, linearization_, settings_, progress);
+    return acquire({shots, linearization_, settings_}, progress);
   }
   Acquisition operator()() {
     NoShotLog log;

@@ -68,7 +68,7 @@ class Measurements {
     for (double seconds : {longExposure, shortExposure})
       linearization.exposures.push_back(std::clamp(seconds, range.shortest, range.longest));
     ShotTaker shots(rig.rig(), log, "acquisition");
-    return acquire(shots, linearization, acquisition_, progress_);
+    return acquire({shots, linearization, acquisition_}, progress_);
   }
   static VenueSettings settings() {
     VenueSettings settings;

@@ -20,7 +20,7 @@ class MeasuredVenue {
     fewer.levels = 9;
     linearization_ = linearize(first, fewer, progress_);
     ShotTaker second(rig, log, "acquisition");
-    acquisition_ = acquire(second, linearization_, settings_, progress_);
+    acquisition_ = acquire({second, linearization_, settings_}, progress_);
   }
 
   Reverification lookAgain(std::vector<DeviceFault> faults = {}) {

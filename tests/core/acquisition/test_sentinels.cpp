@@ -39,7 +39,7 @@ class FaultyVenue {
   Acquisition run(const AlarmHandler& handler, ShotLog& log, AcquisitionObserver& observer) {
     Rig rig = venue_.rig(faults);
     ShotTaker shots(rig, log, stage);
-    return acquire(shots, linearization_, acquisition_, handler, observer, progress_);
+    return acquire({shots, linearization_, acquisition_, handler, &observer}, progress_);
   }
   /// Without faults, once.
   const Acquisition& sound() {

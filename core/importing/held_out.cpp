@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "importing/held_out.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
-#include "importing/import.h"
 #include "importing/sequences.h"
 
 namespace relucent {

@@ -206,7 +206,8 @@ class TestCoreSentences : public QObject {
   void everyFailureAndAlarmIsInTheTable_data() {
     QTest::addColumn<QString>("folder");
     QTest::addColumn<int>("least");
-    QTest::newRow("acquisition") << "core/acquisition" << 20;
+    QTest::newRow("importing") << "core/importing" << 4;
+    QTest::newRow("sentinels") << "core/sentinels" << 14;
     QTest::newRow("base") << "core/base" << 5;
     QTest::newRow("calibration") << "core/calibration" << 8;
     QTest::newRow("devices") << "core/devices" << 100;
@@ -256,7 +257,8 @@ class TestCoreSentences : public QObject {
     QTest::addColumn<QString>("folder");
     QTest::addColumn<int>("least");
     QTest::newRow("linearization") << "linearization" << 15;
-    QTest::newRow("acquisition") << "acquisition" << 12;
+    QTest::newRow("acquisition") << "acquisition" << 4;
+    QTest::newRow("importing") << "importing" << 5;
     QTest::newRow("pipeline") << "pipeline" << 3;
   }
   void everyFindingIsInTheTable() {

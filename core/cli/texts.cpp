@@ -163,7 +163,7 @@ std::string textOf(const AcquisitionBenchResult& result) {
   std::string text = fmt::format("{:<8} {:<9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>10} {:>9} {:>9} {:>8}\n",
                                  "venue", "mode", "threshold", "patterns", "exposures", "s", "frobenius",
                                  "median row", "natural %", "random %", "energy");
-  for (const AcquisitionRun& run : result.runs)
+  for (const AcquisitionBenchRun& run : result.runs)
     text += fmt::format(
         "{:<8} {:<9} {:>9.3g} {:>9} {:>9} {:>8.1f} {:>10.4f} {:>10.4f} {:>9.2f} {:>9.2f} {:>8.4f}\n",
         run.venue, nameOf(run.mode), run.threshold, run.patterns, run.exposures, run.seconds,

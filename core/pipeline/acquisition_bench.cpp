@@ -22,8 +22,8 @@ constexpr Trial trials[] = {{AcquisitionMode::adaptive, 0.006}, {AcquisitionMode
                             {AcquisitionMode::sen, 0.02},       {AcquisitionMode::sen, 0.05},
                             {AcquisitionMode::fast, 0.02}};
 
-AcquisitionRun measured(const VenueSettings& venue, const Trial& trial, const std::filesystem::path& cache,
-                        Progress& progress) {
+AcquisitionBenchRun measured(const VenueSettings& venue, const Trial& trial,
+                             const std::filesystem::path& cache, Progress& progress) {
   TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / venue.name;
   CalibrateSettings settings;

@@ -22,7 +22,7 @@ struct AcquisitionBenchSettings {
 std::vector<std::string> problems(const AcquisitionBenchSettings& settings);
 
 /// One measurement of one venue, and how near T came to the truth.
-struct AcquisitionRun {
+struct AcquisitionBenchRun {
   std::string venue;
   AcquisitionMode mode = AcquisitionMode::adaptive;
   double threshold = 0.0;  // as a share of the flood image
@@ -36,7 +36,7 @@ struct AcquisitionRun {
 struct AcquisitionBenchResult {
   Size projector;
   Size camera;
-  std::vector<AcquisitionRun> runs;
+  std::vector<AcquisitionBenchRun> runs;
 };
 
 /// Measures simulated venues in every mode, `adaptive` and `sen` at several thresholds, and holds T against

@@ -169,7 +169,7 @@ Json toJson(const InverseBenchResult& result) {
 
 Json toJson(const AcquisitionBenchResult& result) {
   Json runs = Json::array();
-  for (const AcquisitionRun& run : result.runs)
+  for (const AcquisitionBenchRun& run : result.runs)
     runs.push_back({{"venue", run.venue},
                     {"mode", nameOf(run.mode)},
                     {"threshold", run.threshold},

@@ -61,7 +61,7 @@ ReportData fullData() {
   std::vector<std::uint8_t> inside(size.count(), 1);
   inside[0] = 0;
   data.comparisons = {{"Evening",
-                       "refined",
+                       Method::refined,
                        waves(0.0, 0.5),
                        waves(0.8, 0.4),
                        waves(0.05, 0.5),
@@ -70,9 +70,10 @@ ReportData fullData() {
                        0.961,
                        true}};
   EvaluateResult evaluation{"corner", {256, 192}, {160, 120}, 0.961, {0.03, 0.02, 0.1, 0.009, 0.02}, {}};
-  evaluation.images = {{"Evening",
-                        0.961,
-                        {{"none", 14.2, 13.0, 0.41, 18.9, 0.001}, {"refined", 28.2, 26.0, 0.92, 2.6, 0.03}}}};
+  evaluation.images = {
+      {"Evening",
+       0.961,
+       {{Method::none, 14.2, 13.0, 0.41, 18.9, 0.001}, {Method::refined, 28.2, 26.0, 0.92, 2.6, 0.03}}}};
   data.evaluation = evaluation;
   data.verification = {waves(0.0, 0.5), waves(0.8, 0.4), waves(0.1, 0.5), 18.5, 3.25, "2026-01-02T04:05:06Z"};
   data.libraries = {{"Eigen", "3.4.0"}, {"A & B", "1"}};

@@ -6,12 +6,8 @@
 namespace relucent {
 
 std::function<Command()> addDevicesOptions(CLI::App* sub) {
-  sub->footer(
-      "A camera's address, KIND:PLACE, is what `calibrate --camera` takes:\n"
-      "  genicam:SERIAL   GigE Vision or USB3 Vision; also its network address\n"
-      "  gphoto2:MODEL    DSLR or mirrorless camera; also the port it is plugged in at\n"
-      "  v4l2:PATH        a webcam with manual exposure, /dev/v4l/by-id/...\n"
-      "  command:CMD      a program that photographs {exposure} seconds into {output}");
+  sub->footer("A camera's address, KIND:PLACE, is what `calibrate --camera` takes:\n" +
+              cameraRegistry().help());
   return [] { return Command(ListDevices{}); };
 }
 

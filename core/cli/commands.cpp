@@ -55,7 +55,7 @@ struct Executor {
     return {toJson(venues()), text};
   }
 
-  Outcome operator()(const ListDevices&) const { return outcomeOf(listDevices()); }
+  Outcome operator()(const ListDevices&) const { return outcomeOf(cameraRegistry().list()); }
 
   Outcome operator()(const CheckRig& command) const {
     refuse(problems(command.settings));

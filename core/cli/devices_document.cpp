@@ -5,9 +5,9 @@
 
 namespace relucent {
 
-Json toJson(const DeviceList& devices) {
+Json toJson(const CameraList& devices) {
   Json support = Json::array();
-  for (const DeviceSupport& kind : devices.support)
+  for (const CameraSupport& kind : devices.support)
     support.push_back({{"kind", kind.kind}, {"available", kind.available}, {"sentence", kind.sentence}});
   Json cameras = Json::array();
   for (const ListedCamera& camera : devices.cameras) {
@@ -28,7 +28,7 @@ Json toJson(const DeviceList& devices) {
   return {{"support", std::move(support)}, {"cameras", std::move(cameras)}};
 }
 
-std::string textOf(const DeviceList& devices) {
+std::string textOf(const CameraList& devices) {
   std::string text;
   for (const ListedCamera& camera : devices.cameras) {
     const CameraTraits& traits = camera.traits;
@@ -44,7 +44,7 @@ std::string textOf(const DeviceList& devices) {
   }
   if (devices.cameras.empty()) text += "No cameras answer.\n";
   text += "\nKinds of cameras:\n";
-  for (const DeviceSupport& kind : devices.support)
+  for (const CameraSupport& kind : devices.support)
     text += fmt::format("  {:<8} {} {}\n", kind.kind, kind.available ? "  " : "no", kind.sentence);
   return text;
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "calibration/json.h"
-#include "devices/device_list.h"
+#include "devices/camera_registry.h"
 #include "pipeline/check.h"
 
 namespace relucent {
@@ -12,10 +12,10 @@ namespace relucent {
 /// {"support": [{"kind", "available", "sentence"}],
 ///  "cameras": [{"address", "model", "usable", then "problem" or "size": [w, h], "format", "bits",
 ///               "exposures": [shortest, longest], "gain", "software_trigger", "remarks"}]}
-Json toJson(const DeviceList& devices);
+Json toJson(const CameraList& devices);
 
 /// The same for people.
-std::string textOf(const DeviceList& devices);
+std::string textOf(const CameraList& devices);
 
 /// {"latency_frames", "latency_seconds", "step", "flicker", "verdicts",
 ///  "screen": {"seen", "share", "late", "mirrored"},

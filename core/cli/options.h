@@ -9,7 +9,7 @@
 
 #include "base/enum_names.h"
 #include "cli/arguments.h"
-#include "devices/device_address.h"
+#include "devices/camera_registry.h"
 
 /// Options that several subcommands share; met inside the parser only.
 namespace relucent {
@@ -73,10 +73,10 @@ CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what
 
 /// What --camera says: a camera's address or a size. Throws: WrongUsage.
 inline void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
-  if (deviceAddressFrom(text))
+  if (cameraRegistry().addressFrom(text))
     commands.cameraAddress = text;
   else if (text.find(':') != std::string::npos)
-    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, deviceAddressForms));
+    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, cameraRegistry().addressForms()));
   else
     size = parseSize(text);
 }

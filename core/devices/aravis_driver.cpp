@@ -197,10 +197,6 @@ class AravisDriver : public CameraDriver {
 
 }  // namespace
 
-bool hasGenicam() {
-  return true;
-}
-
 std::vector<GenicamCamera> findGenicamCameras() {
   std::lock_guard guard(listLock());
   arv_update_device_list();

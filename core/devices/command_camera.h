@@ -30,6 +30,9 @@ std::vector<std::string> problems(const CommandCameraSettings& settings);
 /// never taken for a new one. The exposure time is reported as it was asked for.
 class CommandCamera : public Camera {
  public:
+  /// Of its addresses, "command:./photograph {exposure} {output}".
+  static constexpr const char* kind = "command";
+
   /// Throws: std::logic_error if problems(settings) finds any; as capture() if a first photograph is taken.
   explicit CommandCamera(CommandCameraSettings settings);
 

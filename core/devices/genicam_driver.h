@@ -27,11 +27,8 @@ struct GenicamCamera {
   std::string address;   // "192.168.1.20"
 };
 
-/// Whether this build can speak to GenICam cameras (GigE Vision and USB3 Vision): it was made with Aravis.
-bool hasGenicam();
-/// All cameras that answer within a second. None without Aravis.
+/// All cameras that answer within a second.
 std::vector<GenicamCamera> findGenicamCameras();
-/// Throws: Error{device} in a build without Aravis.
 std::unique_ptr<CameraDriver> makeGenicamDriver(const GenicamSettings& settings);
 
 }  // namespace relucent

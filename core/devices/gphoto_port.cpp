@@ -277,10 +277,6 @@ class LibraryPort : public GphotoPort {
 
 }  // namespace
 
-bool hasGphoto() {
-  return true;
-}
-
 std::unique_ptr<GphotoPort> makeGphotoPort() {
   return std::make_unique<LibraryPort>();
 }

@@ -82,9 +82,6 @@ class GphotoPort {
   virtual void wait(std::chrono::microseconds time) = 0;
 };
 
-/// Whether this build can speak to still cameras: it was made with libgphoto2 and LibRaw.
-bool hasGphoto();
-/// Throws: Error{device} in a build without them.
 std::unique_ptr<GphotoPort> makeGphotoPort();
 
 }  // namespace relucent

@@ -2,31 +2,33 @@
 #include "pipeline/devices.h"
 
 #include "base/error.h"
+#include "devices/camera_registry.h"
+#include "devices/command_camera.h"
 #include "devices/command_projector.h"
 #include "devices/latency.h"
-#include "devices/open_camera.h"
 #include "devices/recording.h"
 #include "devices/whole_frames.h"
 
 namespace relucent {
 namespace {
 
-DeviceAddress addressFrom(const std::string& text) {
-  const std::optional<DeviceAddress> address = deviceAddressFrom(text);
+CameraAddress addressFrom(const std::string& text) {
+  const std::optional<CameraAddress> address = cameraRegistry().addressFrom(text);
   if (!address)
     throw Error(ErrorKind::usage, fmt::format("'{}' is no camera", text),
-                fmt::format("write {}", deviceAddressForms));
+                fmt::format("write {}", cameraRegistry().addressForms()));
   return *address;
 }
 
-DeviceAddress cameraOf(const CommandRigSettings& settings) {
-  if (settings.cameraAddress.empty()) return {DeviceAddress::Kind::command, settings.cameraCommand};
+CameraAddress cameraOf(const CommandRigSettings& settings) {
+  if (settings.cameraAddress.empty()) return {CommandCamera::kind, settings.cameraCommand};
   return addressFrom(settings.cameraAddress);
 }
 
 template <typename Settings>
-std::unique_ptr<Camera> cameraFor(const Settings& settings, const DeviceAddress& address) {
-  return openCamera(address, {settings.camera, {settings.shortestExposure, settings.longestExposure}});
+std::unique_ptr<Camera> cameraFor(const Settings& settings, const CameraAddress& address) {
+  return cameraRegistry().open(address,
+                               {settings.camera, {settings.shortestExposure, settings.longestExposure}});
 }
 
 /// One overload a kind of rig.

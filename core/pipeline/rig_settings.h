@@ -21,7 +21,7 @@ struct CommandRigSettings {
   std::optional<Size> camera;      // none: the size of the first photograph
   double shortestExposure = 1e-3;  // seconds
   double longestExposure = 4.0;    // seconds
-  /// A camera that Relucent drives itself, by its address (devices/device_address.h), in place of the
+  /// A camera that Relucent drives itself, by its address (devices/camera_address.h), in place of the
   /// camera's command and exposures.
   std::string cameraAddress{};
   double latency = 0.0;  // seconds from the end of the projector's command until its picture is out
@@ -44,7 +44,7 @@ struct ScreenRigSettings {
   Display display;
   Size projector;                  // the screen's own pixels
   double frameRate = 60.0;         // pictures a second: exposures are whole pictures
-  std::string cameraAddress{};     // devices/device_address.h; empty: not chosen yet
+  std::string cameraAddress{};     // devices/camera_address.h; empty: not chosen yet
   std::optional<Size> camera{};    // none: all that it has
   double shortestExposure = 1e-3;  // seconds; of external programs, which cannot be asked
   double longestExposure = 4.0;

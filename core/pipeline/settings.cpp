@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "devices/device_address.h"
+#include "devices/camera_registry.h"
 #include "pipeline/calibrate_settings.h"
 #include "pipeline/compensate.h"
 #include "pipeline/evaluate.h"
@@ -46,8 +46,8 @@ void checkCommand(Problems& problems, const char* device, const std::string& com
 }
 
 void checkAddress(Problems& problems, const std::string& camera) {
-  if (!deviceAddressFrom(camera))
-    problems.push_back(fmt::format("'{}' is no camera: write {}", camera, deviceAddressForms));
+  if (!cameraRegistry().addressFrom(camera))
+    problems.push_back(fmt::format("'{}' is no camera: write {}", camera, cameraRegistry().addressForms()));
 }
 
 template <typename Settings>

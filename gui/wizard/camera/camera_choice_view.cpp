@@ -65,14 +65,14 @@ class CameraChoice : public Card {
       delete item->widget();
       delete item;
     }
-    const DeviceList& devices = model_.cameras();
+    const CameraList& devices = model_.cameras();
     for (const ListedCamera& camera : devices.cameras) body()->addWidget(new CameraRow(model_, camera));
     if (devices.cameras.empty())
       body()->addWidget(labelOf(model_.isListing()
                                     ? CameraPage::tr("Looking for cameras")
                                     : CameraPage::tr("No camera answers. Check its cable and its power."),
                                 "secondary"));
-    for (const DeviceSupport& kind : devices.support)
+    for (const CameraSupport& kind : devices.support)
       if (!kind.available) body()->addWidget(labelOf(fullSentence(kind.sentence), "note"));
     static_cast<QBoxLayout*>(body())->addStretch(1);
   }

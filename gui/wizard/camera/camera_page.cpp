@@ -40,7 +40,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     : PageModel(parent),
       session_(session),
       listing_(
-          [this](DeviceList found) {
+          [this](CameraList found) {
             cameras_ = std::move(found);
             Q_EMIT camerasListed();
             Q_EMIT changed();

@@ -3,7 +3,7 @@
 
 #include <QMutex>
 
-#include "devices/device_list.h"
+#include "devices/camera_registry.h"
 #include "image/photograph_check.h"
 #include "jobs/job.h"
 #include "jobs/latest.h"
@@ -44,13 +44,13 @@ class CameraPage : public PageModel {
   /// A screen of the desktop is the projector, and no camera is chosen for it yet.
   bool needsCamera() const;
   /// What is there to choose from, as it was when it was looked for.
-  const DeviceList& cameras() const { return cameras_; }
+  const CameraList& cameras() const { return cameras_; }
   bool isListing() const { return listing_.isBusy(); }
   void listCameras();
   /// `size`: of the photographs; none: all that the camera has.
   void chooseCamera(const std::string& address, std::optional<Size> size = std::nullopt);
   /// Who looks for cameras; for tests.
-  void setLister(std::function<DeviceList()> lister) { lister_ = std::move(lister); }
+  void setLister(std::function<CameraList()> lister) { lister_ = std::move(lister); }
   /// How projector and camera work together, where the projector is a screen; none before it was measured.
   const std::optional<RigCheck>& check() const { return check_; }
 
@@ -96,9 +96,9 @@ class CameraPage : public PageModel {
   std::optional<double> tooBright_, tooDark_;
   Region area_;
   double best_ = 0.0;
-  std::function<DeviceList()> lister_ = listDevices;
-  DeviceList cameras_;
-  Latest<DeviceList> listing_;
+  std::function<CameraList()> lister_ = [] { return cameraRegistry().list(); };
+  CameraList cameras_;
+  Latest<CameraList> listing_;
   std::optional<RigCheck> check_;
   bool goOn_ = false;  // the next step was asked for while looking
 };

@@ -7,8 +7,8 @@ using namespace relucent;
 
 namespace {
 
-DeviceList twoCameras() {
-  DeviceList devices;
+CameraList twoCameras() {
+  CameraList devices;
   devices.support = {{"genicam", true, "cameras of machines"}, {"v4l2", false, "not built in"}};
   ListedCamera good{"genicam:7", "Maker Model", true};
   good.traits.size = {1024, 768};
@@ -48,8 +48,8 @@ class TestDevicesDocument : public QObject {
   }
 
   void noCamerasAreNoError() {
-    QVERIFY(textOf(DeviceList{}).starts_with("No cameras answer."));
-    QCOMPARE(toJson(DeviceList{}).dump(), std::string(R"({"support":[],"cameras":[]})"));
+    QVERIFY(textOf(CameraList{}).starts_with("No cameras answer."));
+    QCOMPARE(toJson(CameraList{}).dump(), std::string(R"({"support":[],"cameras":[]})"));
   }
 };
 

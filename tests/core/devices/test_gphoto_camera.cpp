@@ -3,9 +3,9 @@
 #include <QtTest>
 
 #include "core/devices/scripted_gphoto.h"
-#include "devices/device_list.h"
 #include "devices/gphoto_failure.h"
 #include "devices/gphoto_setup.h"
+#include "devices/listed_camera.h"
 #include "support/sentences.h"
 
 using namespace relucent;

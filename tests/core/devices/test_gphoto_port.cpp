@@ -19,10 +19,6 @@ class TestGphotoPort : public QObject {
   Q_OBJECT
 
  private slots:
-  void initTestCase() {
-    if (!hasGphoto()) QSKIP("this build lacks libgphoto2 or LibRaw");
-  }
-
   void aCameraThatIsNotThereIsTold() {
     const auto port = makeGphotoPort();
     try {

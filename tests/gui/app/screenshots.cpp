@@ -60,7 +60,7 @@ class Photographs {
 };
 
 /// Cameras as a desk with three of them would list them.
-DeviceList someCameras() {
+CameraList someCameras() {
   ListedCamera industrial, webcam, taken;
   industrial.address = "genicam:40012345";
   industrial.model = "Industrial camera, 12 bit";

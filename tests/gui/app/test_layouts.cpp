@@ -264,7 +264,7 @@ class TestLayouts : public QObject {
     good.usable = true;
     bad.model = "Another camera";
     bad.problem = "it sends no frames";
-    wizard_->camera().setLister([good, bad] { return DeviceList{{}, {good, bad}}; });
+    wizard_->camera().setLister([good, bad] { return CameraList{{}, {good, bad}}; });
     CalibrateSettings settings;
     ScreenRigSettings rig;
     rig.display.connector = "HDMI-1";

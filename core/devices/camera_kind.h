@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/listed_camera.h"
+#include "rig/rig.h"
+
+namespace relucent {
+
+/// What whoever opens a camera wants of it.
+struct CameraWishes {
+  std::optional<Size> size;            // of photographs; none: all that the camera has
+  ExposureRange exposures{1e-3, 4.0};  // of kinds that cannot be asked (CameraKind::takesExposureRange)
+};
+
+/// One kind of camera: all that the rest of the program knows about it.
+struct CameraKind {
+  std::string prefix;     // "genicam": what stands before the colon in its addresses
+  std::string place;      // "SERIAL": what stands behind it, for sentences
+  std::string help;       // what a place may be, one line for help texts
+  std::string support;    // what cameras these are; of a kind that is not built in: what this build lacks
+  bool isBuiltIn = true;  // false: open() throws Error{device} with advice, and there is nothing to list
+  bool takesExposureRange = false;  // its cameras cannot be asked for it: it comes from the settings
+
+  /// The camera at a place, ready for use. Throws: Error{device} if it is not there or cannot be used;
+  /// Error{usage} if there can be no such place.
+  std::function<std::unique_ptr<Camera>(const std::string& place, const CameraWishes& wishes)> open;
+  /// Cameras that answer now, each opened for a moment. Empty: such cameras cannot be looked for.
+  std::function<std::vector<ListedCamera>()> list = {};
+};
+
+}  // namespace relucent

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "devices/camera_registry.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace relucent {
+namespace {
+
+std::string formOf(const CameraKind& kind) {
+  return kind.prefix + ":" + kind.place;
+}
+
+}  // namespace
+
+std::string toString(const CameraAddress& address) {
+  return address.kind + ":" + address.place;
+}
+
+CameraRegistry::CameraRegistry(std::vector<CameraKind> kinds) : kinds_(std::move(kinds)) {
+  for (const CameraKind& kind : kinds_) {
+    require(!kind.prefix.empty() && kind.open, "a camera kind '{}' that cannot be opened", kind.prefix);
+    require(find(kind.prefix) == &kind, "two camera kinds '{}'", kind.prefix);
+  }
+}
+
+const CameraKind* CameraRegistry::find(std::string_view prefix) const {
+  const auto found =
+      std::ranges::find_if(kinds_, [&](const CameraKind& kind) { return kind.prefix == prefix; });
+  return found == kinds_.end() ? nullptr : &*found;
+}
+
+std::optional<CameraAddress> CameraRegistry::addressFrom(std::string_view text) const {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos || colon + 1 == text.size()) return std::nullopt;
+  const CameraKind* kind = find(text.substr(0, colon));
+  if (kind == nullptr) return std::nullopt;
+  return CameraAddress{kind->prefix, std::string(text.substr(colon + 1))};
+}
+
+std::string CameraRegistry::addressForms() const {
+  std::string forms;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    if (i > 0) forms += i + 1 < kinds_.size() ? ", " : " or ";
+    forms += formOf(kinds_[i]);
+  }
+  return forms;
+}
+
+std::string CameraRegistry::help() const {
+  std::size_t width = 0;
+  for (const CameraKind& kind : kinds_) width = std::max(width, formOf(kind).size());
+  std::string lines;
+  for (const CameraKind& kind : kinds_)
+    lines += fmt::format("{}  {:<{}}  {}", lines.empty() ? "" : "\n", formOf(kind), width, kind.help);
+  return lines;
+}
+
+std::unique_ptr<Camera> CameraRegistry::open(const CameraAddress& address, const CameraWishes& wishes) const {
+  const CameraKind* kind = find(address.kind);
+  require(kind != nullptr, "no camera kind '{}'", address.kind);
+  return kind->open(address.place, wishes);
+}
+
+CameraList CameraRegistry::list() const {
+  CameraList found;
+  for (const CameraKind& kind : kinds_) {
+    found.support.push_back({kind.prefix, kind.isBuiltIn, kind.support});
+    if (!kind.list) continue;
+    for (ListedCamera& camera : kind.list()) found.cameras.push_back(std::move(camera));
+  }
+  return found;
+}
+
+}  // namespace relucent

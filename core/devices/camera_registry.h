@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/camera_address.h"
+#include "devices/camera_kind.h"
+
+namespace relucent {
+
+/// Whether this build can speak to a kind of camera.
+struct CameraSupport {
+  std::string kind;  // "genicam"
+  bool available = false;
+  std::string sentence;  // what it is, or what is missing
+};
+
+struct CameraList {
+  std::vector<CameraSupport> support;
+  std::vector<ListedCamera> cameras;
+};
+
+/// The kinds of cameras that the program knows, in the order in which they are listed.
+class CameraRegistry {
+ public:
+  /// Throws: std::logic_error if two kinds have one prefix, or one has none or cannot be opened.
+  explicit CameraRegistry(std::vector<CameraKind> kinds);
+
+  const std::vector<CameraKind>& kinds() const { return kinds_; }
+  /// None if there is no such kind.
+  const CameraKind* find(std::string_view prefix) const;
+
+  /// None unless the text begins with a kind and a colon, and names a place.
+  std::optional<CameraAddress> addressFrom(std::string_view text) const;
+  /// "genicam:SERIAL, gphoto2:MODEL, ... or command:CMD", for sentences.
+  std::string addressForms() const;
+  /// A line a kind with its form and its help, for help texts.
+  std::string help() const;
+
+  /// The camera at an address, ready for use. Throws: as CameraKind::open; std::logic_error for a kind that
+  /// is not here, which addressFrom() never gives.
+  std::unique_ptr<Camera> open(const CameraAddress& address, const CameraWishes& wishes) const;
+  /// Looks for cameras of all kinds and opens each of them for a moment to learn what it can do and what is
+  /// wrong with it. Takes a second for the network and up to some seconds for a camera that does not answer.
+  CameraList list() const;
+
+ private:
+  std::vector<CameraKind> kinds_;
+};
+
+/// The kinds that core/devices/CMakeLists.txt names.
+const CameraRegistry& cameraRegistry();
+
+}  // namespace relucent

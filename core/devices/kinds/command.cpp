@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "base/error.h"
+#include "devices/camera_kind.h"
+#include "devices/command_camera.h"
+
+namespace relucent {
+namespace {
+
+std::unique_ptr<Camera> openCommand(const std::string& command, const CameraWishes& wishes) {
+  CommandCameraSettings settings;
+  settings.command = command;
+  settings.size = wishes.size;
+  settings.exposures = wishes.exposures;
+  const std::vector<std::string> found = problems(settings);
+  if (!found.empty())
+    throw Error(ErrorKind::usage, found.front(), "write it so: command:./photograph {exposure} {output}");
+  return std::make_unique<CommandCamera>(std::move(settings));
+}
+
+}  // namespace
+
+CameraKind commandKind() {
+  return {.prefix = CommandCamera::kind,
+          .place = "CMD",
+          .help = "a program that photographs {exposure} seconds into {output}",
+          .support = "anything that a program of yours can drive",
+          .takesExposureRange = true,
+          .open = openCommand};
+}
+
+}  // namespace relucent

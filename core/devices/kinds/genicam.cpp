@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "devices/camera_kind.h"
+#include "devices/genicam_driver.h"
+
+namespace relucent {
+namespace {
+
+std::unique_ptr<Camera> openGenicam(const std::string& place, const CameraWishes& wishes) {
+  GenicamSettings settings;
+  settings.camera = place;
+  settings.photograph = wishes.size;
+  return std::make_unique<DrivenCamera>(makeGenicamDriver(settings));
+}
+
+std::vector<ListedCamera> listGenicam() {
+  std::vector<ListedCamera> cameras;
+  for (const GenicamCamera& found : findGenicamCameras()) {
+    GenicamSettings settings;
+    settings.camera = found.serial.empty() ? found.address : found.serial;
+    cameras.push_back(
+        judged("genicam:" + settings.camera, found.model, [&] { return makeGenicamDriver(settings); }, {}));
+  }
+  return cameras;
+}
+
+}  // namespace
+
+CameraKind genicamKind() {
+  return {.prefix = "genicam",
+          .place = "SERIAL",
+          .help = "GigE Vision or USB3 Vision; also its network address",
+          .support = "GigE Vision and USB3 Vision cameras",
+          .open = openGenicam,
+          .list = listGenicam};
+}
+
+}  // namespace relucent

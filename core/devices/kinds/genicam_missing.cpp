@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Stands in for genicam.cpp where Aravis is not installed.
+#include "base/error.h"
+#include "devices/camera_kind.h"
+
+namespace relucent {
+namespace {
+
+std::unique_ptr<Camera> openGenicam(const std::string& place, const CameraWishes&) {
+  throw Error(ErrorKind::device, "this build of Relucent does not know GenICam cameras",
+              "install Aravis (libaravis-dev) and build again, or use another kind of camera", place);
+}
+
+}  // namespace
+
+CameraKind genicamKind() {
+  return {.prefix = "genicam",
+          .place = "SERIAL",
+          .help = "GigE Vision or USB3 Vision; not in this build",
+          .support =
+              "GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build "
+              "again",
+          .isBuiltIn = false,
+          .open = openGenicam};
+}
+
+}  // namespace relucent

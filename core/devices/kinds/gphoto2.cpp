@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "devices/camera_kind.h"
+#include "devices/gphoto_driver.h"
+
+namespace relucent {
+namespace {
+
+std::unique_ptr<Camera> openGphoto(const std::string& place, const CameraWishes& wishes) {
+  GphotoCameraSettings settings;
+  settings.camera = place;
+  settings.photograph = wishes.size;
+  return std::make_unique<DrivenCamera>(makeGphotoDriver(makeGphotoPort(), settings), gphotoPatience());
+}
+
+std::vector<ListedCamera> listGphoto() {
+  const std::vector<GphotoCamera> found = makeGphotoPort()->list();
+  const std::vector<std::string> places = gphotoPlaces(found);
+  std::vector<ListedCamera> cameras;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    GphotoCameraSettings settings;
+    settings.camera = places[i];
+    cameras.push_back(judged(
+        "gphoto2:" + settings.camera, found[i].model,
+        [&] { return makeGphotoDriver(makeGphotoPort(), settings); }, gphotoPatience()));
+  }
+  return cameras;
+}
+
+}  // namespace
+
+CameraKind gphoto2Kind() {
+  return {.prefix = "gphoto2",
+          .place = "MODEL",
+          .help = "DSLR or mirrorless camera; also the port it is plugged in at",
+          .support = "DSLR and mirrorless cameras with raw files",
+          .open = openGphoto,
+          .list = listGphoto};
+}
+
+}  // namespace relucent

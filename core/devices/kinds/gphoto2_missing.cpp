@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Stands in for gphoto2.cpp where libgphoto2 or LibRaw is not installed.
+#include "base/error.h"
+#include "devices/camera_kind.h"
+
+namespace relucent {
+namespace {
+
+std::unique_ptr<Camera> openGphoto(const std::string& place, const CameraWishes&) {
+  throw Error(ErrorKind::device, "this build of Relucent does not know DSLR and mirrorless cameras",
+              "install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command",
+              place);
+}
+
+}  // namespace
+
+CameraKind gphoto2Kind() {
+  return {.prefix = "gphoto2",
+          .place = "MODEL",
+          .help = "DSLR or mirrorless camera; not in this build",
+          .support =
+              "DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev "
+              "and libraw-dev and build again",
+          .isBuiltIn = false,
+          .open = openGphoto};
+}
+
+}  // namespace relucent

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "devices/listed_camera.h"
+
+#include <utility>
+
+#include "base/error.h"
+
+namespace relucent {
+
+ListedCamera judged(std::string address, std::string model,
+                    const std::function<std::unique_ptr<CameraDriver>()>& open,
+                    const DrivenCameraSettings& settings) {
+  ListedCamera camera{std::move(address), std::move(model), false};
+  try {
+    camera.traits = DrivenCamera(open(), settings).traits();
+    camera.usable = true;
+  } catch (const Error& error) {
+    camera.problem = error.summary() + "; " + error.advice();
+  }
+  return camera;
+}
+
+}  // namespace relucent

@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "base/file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 
-#include "base/descriptor.h"
 #include "base/error.h"
+#include "platform/files.h"
+#include "platform/process.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
-std::string adviceFor(int code) {
-  switch (code) {
-    case ENOSPC:
-    case EDQUOT:
-      return "free some space there or choose another disk, then try again";
+std::string adviceFor(const std::error_code& code) {
+  if (isDiskFull(code)) return "free some space there or choose another disk, then try again";
+  switch (code.value()) {
     case EACCES:
     case EPERM:
     case EROFS:
@@ -35,20 +31,17 @@ std::string adviceFor(int code) {
   }
 }
 
-[[noreturn]] void failDisk(const std::string& action, const fs::path& path, int code) {
-  throw Error(ErrorKind::disk, fmt::format("cannot {} ({})", action, std::strerror(code)), adviceFor(code),
+[[noreturn]] void failDisk(const std::string& action, const fs::path& path, const std::error_code& code) {
+  throw Error(ErrorKind::disk, fmt::format("cannot {} ({})", action, code.message()), adviceFor(code),
               path.string());
 }
 
-int openFile(const fs::path& path, int flags) {
-  return ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+[[noreturn]] void failDisk(const std::string& action, const fs::path& path, int code) {
+  failDisk(action, path, std::error_code(code, std::generic_category()));
 }
 
-void syncToDisk(const fs::path& path, int flags) {
-  Descriptor file(openFile(path, flags));
-  if (!file.ok()) failDisk("open", path, errno);
-  // Some file systems cannot sync a folder; the rename is still atomic there.
-  if (::fsync(file.get()) != 0 && errno != EINVAL) failDisk("write", path, errno);
+void checkSynced(const FileOutcome& outcome, const fs::path& path) {
+  if (outcome.code) failDisk(outcome.opened ? "write" : "open", path, outcome.code);
 }
 
 }  // namespace
@@ -66,29 +59,22 @@ std::string readFile(const fs::path& path) {
 
 void writeFileAtomically(const fs::path& path, std::string_view content) {
   writeFileAtomically(path, [&](const fs::path& temporary) {
-    Descriptor file(openFile(temporary, O_WRONLY | O_CREAT | O_TRUNC));
-    if (!file.ok()) failDisk("write", path, errno);
-    const char* data = content.data();
-    std::size_t left = content.size();
-    while (left > 0) {
-      ssize_t written = ::write(file.get(), data, left);
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) failDisk("write", path, errno);
-      data += written;
-      left -= static_cast<std::size_t>(written);
-    }
+    if (const FileOutcome outcome = writeContent(temporary, content); outcome.code)
+      failDisk("write", path, outcome.code);
   });
 }
 
 void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  fs::path temporary = path.parent_path() / fmt::format(".{}.part{}{}", path.stem().string(), ::getpid(),
+  fs::path temporary = path.parent_path() / fmt::format(".{}.part{}{}", path.stem().string(), processNumber(),
                                                         path.extension().string());
   try {
     write(temporary);
-    syncToDisk(temporary, O_RDONLY);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) failDisk("write", path, errno);
+    checkSynced(syncFile(temporary), temporary);
+    std::error_code code;
+    fs::rename(temporary, path, code);
+    if (code) failDisk("write", path, code);
     fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    syncToDisk(folder, O_RDONLY | O_DIRECTORY);
+    checkSynced(syncFolder(folder), folder);
   } catch (...) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
@@ -99,7 +85,7 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
 void createFolder(const fs::path& path) {
   std::error_code code;
   fs::create_directories(path, code);
-  if (code) failDisk("create the folder", path, code.value());
+  if (code) failDisk("create the folder", path, code);
   if (!fs::is_directory(path)) failDisk("create the folder", path, ENOTDIR);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 
 namespace relucent {
 
@@ -15,8 +14,5 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   Clock::time_point begin_ = Clock::now();
 };
-
-/// The most memory that this program has had resident so far.
-std::uint64_t peakMemoryBytes();
 
 }  // namespace relucent

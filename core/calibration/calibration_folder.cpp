@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "calibration/calibration_folder.h"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "platform/files.h"
 
 #ifndef RELUCENT_VERSION
 #define RELUCENT_VERSION "development"
@@ -63,14 +60,21 @@ bool holdsAnything(const fs::path& folder) {
   });
 }
 
-void sync(const fs::path& path, int flags) {
-  int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  int result = descriptor < 0 ? -1 : ::fsync(descriptor);
-  int code = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  // Some file systems cannot sync a folder; the rename is still atomic there.
-  if (result != 0 && code != EINVAL)
-    throw Error(ErrorKind::disk, fmt::format("cannot write ({})", std::strerror(code)),
+/// Throws: Error{input} if another program holds a lock that excludes this one; Error{disk} if the folder
+/// cannot be opened.
+FolderLock locked(const fs::path& folder, CalibrationFolder::Access access) try {
+  return {folder, access};
+} catch (const std::system_error& failure) {
+  if (failure.code() == std::errc::operation_would_block)
+    throw Error(ErrorKind::input, "another program is working on this calibration",
+                "wait until it has finished, or close it, then try again", folder.string());
+  throw Error(ErrorKind::disk, fmt::format("cannot open the folder ({})", failure.code().message()),
+              "check the path and that you may read it", folder.string());
+}
+
+void checkSynced(const FileOutcome& outcome, const fs::path& path) {
+  if (outcome.code)
+    throw Error(ErrorKind::disk, fmt::format("cannot write ({})", outcome.code.message()),
                 "free some space there or check the disk, then try again", path.string());
 }
 
@@ -121,7 +125,7 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
     throw Error(ErrorKind::input, "there is a file of this name", "choose another name for the calibration",
                 path.string());
   createFolder(path);
-  FolderLock lock(path, Access::write);
+  FolderLock lock = locked(path, Access::write);
   if (fs::exists(path / manifestName, code))
     throw Error(ErrorKind::input, "there is a calibration already",
                 "go on with it by `resume`, or choose another name", path.string());
@@ -149,7 +153,7 @@ CalibrationFolder CalibrationFolder::open(const fs::path& given, Access access) 
     throw Error(ErrorKind::input, fmt::format("this folder is no calibration: it holds no {}", manifestName),
                 "check the name, or make one by `calibrate`", path.string());
 
-  FolderLock lock(path, access);
+  FolderLock lock = locked(path, access);
   Json manifest = readManifest(path / manifestName);
   if (access == Access::write) {
     removeLeftovers(path, isManifestLeftover);
@@ -196,12 +200,12 @@ StageResult CalibrationFolder::store(const std::string& stage, const std::string
       createFolder(temporary);
       writeFiles(temporary);
       for (const fs::directory_entry& entry : fs::directory_iterator(temporary)) {
-        sync(entry.path(), O_RDONLY);
+        checkSynced(syncFile(entry.path()), entry.path());
         files[entry.path().filename().string()] = entry.file_size();
       }
-      sync(temporary, O_RDONLY | O_DIRECTORY);
+      checkSynced(syncFolder(temporary), temporary);
       fs::rename(temporary, results / name);
-      sync(results, O_RDONLY | O_DIRECTORY);
+      checkSynced(syncFolder(results), results);
     } catch (const fs::filesystem_error& error) {
       removeLeftovers(results, isResultLeftover);
       throw Error(ErrorKind::disk, fmt::format("cannot write ({})", error.code().message()),

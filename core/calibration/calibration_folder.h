@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/folder_lock.h"
+#include "platform/folder_lock.h"
 #include "calibration/json.h"
 
 namespace relucent {

@@ -1,40 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "cli/interruption.h"
 
-#include <signal.h>
-#include <unistd.h>
-
-#include <array>
 #include <atomic>
+#include <cstdlib>
 
 #include "base/error.h"
 
 namespace relucent {
 namespace {
 
-constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
-std::array<struct sigaction, signals.size()> before;
 std::atomic<StopRequest*> asked{nullptr};
 
-void interrupt(int) {
+void interrupt() {
   StopRequest* stop = asked.load();
-  if (stop == nullptr || stop->asked() == StopRequest::Kind::cancel) ::_exit(130);
+  if (stop == nullptr || stop->asked() == StopRequest::Kind::cancel) std::_Exit(130);
   stop->ask(StopRequest::Kind::cancel);
+}
+
+/// Before the signals, which may come at once.
+StopRequest& onlyOne(StopRequest& stop) {
+  require(asked.exchange(&stop) == nullptr, "interruptions are handled already");
+  return stop;
 }
 
 }  // namespace
 
-Interruption::Interruption() {
-  require(asked.exchange(&stop_) == nullptr, "interruptions are handled already");
-  struct sigaction action {};
-  action.sa_handler = interrupt;
-  action.sa_flags = SA_RESTART;  // files that are being written are written to the end
-  ::sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &action, &before[i]);
-}
+Interruption::Interruption() : signals_((onlyOne(stop_), interrupt)) {}
 
 Interruption::~Interruption() {
-  for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &before[i], nullptr);
   asked = nullptr;
 }
 

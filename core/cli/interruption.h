@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "platform/interruption_signals.h"
 
 namespace relucent {
 
@@ -19,6 +20,7 @@ class Interruption {
 
  private:
   StopRequest stop_;
+  InterruptionSignals signals_;
 };
 
 }  // namespace relucent

@@ -2,12 +2,12 @@
 #include "cli/terminal_progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+
+#include "platform/terminal.h"
 
 namespace relucent {
 
@@ -103,14 +103,8 @@ std::string barLine(std::string_view stage, double fraction, std::string_view ti
 }
 
 TerminalProgress::Terminal TerminalProgress::standardError() {
-  auto width = [] {
-    if (::isatty(STDERR_FILENO) == 0) return 0;
-    winsize size{};
-    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-    return static_cast<int>(size.ws_col);
-  };
   auto now = [] { return Seconds(std::chrono::steady_clock::now().time_since_epoch()); };
-  return {&std::cerr, width, now};
+  return {&std::cerr, errorTerminalWidth, now};
 }
 
 TerminalProgress::TerminalProgress(Terminal terminal) : terminal_(std::move(terminal)) {}

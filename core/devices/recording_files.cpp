@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "devices/recording_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/descriptor.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/fingerprint.h"
 #include "devices/recording.h"
+#include "platform/files.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
@@ -114,10 +110,8 @@ void appendPhotograph(const fs::path& folder, const RecordedPhotograph& photogra
   // Begins a new line, in case the last one was cut short.
   const std::string line = fmt::format("\n{}", json.dump());
   const fs::path file = folder / photographsName;
-  const Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-  if (!descriptor.ok() ||
-      ::write(descriptor.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()))
-    throw Error(ErrorKind::disk, fmt::format("the recording cannot be written ({})", std::strerror(errno)),
+  if (const FileOutcome outcome = appendContent(file, line); outcome.code)
+    throw Error(ErrorKind::disk, fmt::format("the recording cannot be written ({})", outcome.code.message()),
                 "free some space, or record elsewhere", file.string());
 }
 

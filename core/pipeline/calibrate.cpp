@@ -7,6 +7,7 @@
 #include "pipeline/measured_venue.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stages.h"
+#include "platform/process.h"
 
 namespace relucent {
 namespace fs = std::filesystem;

@@ -17,6 +17,7 @@
 #include "pipeline/photograph_sequence.h"
 #include "pipeline/settings_json.h"
 #include "pipeline/stages.h"
+#include "platform/process.h"
 
 namespace relucent {
 namespace fs = std::filesystem;

@@ -2,38 +2,21 @@
 #include "pipeline/support_bundle.h"
 
 #include <fmt/format.h>
-#include <sys/utsname.h>
 #include <zip.h>
 
 #include <map>
-#include <sstream>
-#include <thread>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "calibration/calibration_folder.h"
 #include "pipeline/versions.h"
+#include "platform/system_description.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
 using Entries = std::map<std::string, std::string>;  // names within the archive, contents
-
-std::string computer() {
-  utsname name{};
-  uname(&name);
-  std::string text = fmt::format("{} {} {}\n{} cores\n", name.sysname, name.release, name.machine,
-                                 std::thread::hardware_concurrency());
-  for (const char* file : {"/etc/os-release", "/proc/meminfo"}) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) continue;
-    std::istringstream lines(readFile(file));
-    for (std::string line; std::getline(lines, line);)
-      if (line.rfind("PRETTY_NAME", 0) == 0 || line.rfind("MemTotal", 0) == 0) text += line + '\n';
-  }
-  return text;
-}
 
 bool isPictureOfTheVenue(const fs::path& file) {
   std::string name = file.filename().string();
@@ -95,7 +78,7 @@ void writeSupportBundle(const fs::path& calibration, const ReportData& data, con
   entries["calibration.relucent"] = readFile(calibration / CalibrationFolder::manifestName);
   entries["report.html"] = reportHtml(settings.photographs ? data : withoutPhotographs(data));
   entries["versions.txt"] = versionText("Relucent", data.libraries);
-  entries["computer.txt"] = computer();
+  entries["computer.txt"] = systemDescription();
   if (settings.photographs) {
     addFolder(entries, calibration, "verification", [](const fs::path&) { return true; });
     addFolder(entries, calibration, "results", isPictureOfTheVenue);

@@ -11,7 +11,7 @@
 
 #include "app/language.h"
 #include "app/show_arguments.h"
-#include "app/termination.h"
+#include "desktop/termination.h"
 #include "base/error.h"
 #include "calibration/calibration_folder.h"
 #include "output/engine_renderer.h"

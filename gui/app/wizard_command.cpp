@@ -9,7 +9,7 @@
 #include <QStandardPaths>
 #include <cstring>
 
-#include "app/termination.h"
+#include "desktop/termination.h"
 #include "app/wizard_window.h"
 #include "pipeline/versions.h"
 

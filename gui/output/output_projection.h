@@ -8,7 +8,7 @@
 #include "content/playlist.h"
 #include "jobs/job.h"
 #include "jobs/latest.h"
-#include "output/awake.h"
+#include "desktop/awake.h"
 #include "output/engine_renderer.h"
 #include "output/player.h"
 

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/stopwatch.h"
+#include "platform/process.h"
 
 namespace relucent {
 namespace {

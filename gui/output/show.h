@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "output/awake.h"
+#include "desktop/awake.h"
 #include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "output/awake.h"
+#include "desktop/awake.h"
 #include "output/projector_window.h"
 
 namespace relucent {

@@ -103,6 +103,27 @@ def gui_breaches(source):
     return found
 
 
+# Headers of one operating system or one desktop, and the only folder that may include them.
+SYSTEM_HEADERS = re.compile(
+    r"(sys/|linux/|xcb/|X11/|EGL/|GL/glx|epoxy/(egl|glx)\.h|QDBus|QtDBus|"
+    r"(unistd|fcntl|signal|spawn|poll|dlfcn|pthread|termios|pwd|windows|io|process)\.h$|csignal$)")
+SYSTEM_FOLDERS = {"core": "platform", "gui": "desktop"}
+
+
+def system_breaches(source):
+    """A sentence for each include of a system's header outside the folder that is there for it."""
+    found = []
+    for top, folder in SYSTEM_FOLDERS.items():
+        for path in sorted((source / top).rglob("*.[ch]*")):
+            where = path.relative_to(source)
+            if path.suffix not in {".h", ".cpp"} or where.parts[1] == folder:
+                continue
+            for number, name in includes(path):
+                if SYSTEM_HEADERS.match(name):
+                    found.append(f"{where}:{number}: includes {name}, which only {top}/{folder} may")
+    return found
+
+
 def own_sources(source):
     for folder in OWN_FOLDERS:
         for directory, folders, names in os.walk(source / folder):
@@ -130,6 +151,9 @@ class ThisRepository(unittest.TestCase):
     def test_includes_follow_the_layers(self):
         self.assertEqual(layer_breaches(SOURCE), [])
         self.assertEqual(gui_breaches(SOURCE), [])
+
+    def test_only_the_folders_for_it_know_the_system(self):
+        self.assertEqual(system_breaches(SOURCE), [])
 
     def test_every_source_names_its_licence(self):
         self.assertEqual(files_without_licence(SOURCE), [])
@@ -163,8 +187,9 @@ class TheCheckItself(unittest.TestCase):
         self.write(place, f"// SPDX-License-Identifier: MIT\n{line}\n")
 
     def test_includes_from_the_closure_are_fine(self):
-        self.include("core/rig/a.cpp", '#include "base/a.h"\n#include "image/a.h"\n#include <sys/stat.h>')
+        self.include("core/rig/a.cpp", '#include "base/a.h"\n#include "image/a.h"\n#include <vector>')
         self.assertEqual(layer_breaches(self.source), [])
+        self.assertEqual(system_breaches(self.source), [])
 
     def test_an_include_from_below_is_found(self):
         self.include("core/base/a.h", '#include "image/a.h"')
@@ -198,6 +223,17 @@ class TheCheckItself(unittest.TestCase):
         self.wizard()
         self.include("gui/theme/a.cpp", '#include "wizard/frame/a.h"')
         self.assertEqual(len(gui_breaches(self.source)), 1)
+
+    def test_a_system_header_outside_its_folder_is_found(self):
+        for name in ["sys/stat.h", "unistd.h", "epoxy/egl.h", "csignal"]:
+            self.include("core/rig/a.cpp", f"#include <{name}>")
+            self.assertEqual(len(system_breaches(self.source)), 1, name)
+        self.include("core/rig/a.cpp", "#include <epoxy/gl.h>\n#include <ImfIO.h>")
+        self.include("core/platform/a.cpp", "#include <unistd.h>")
+        self.include("gui/desktop/a.cpp", "#include <xcb/xcb.h>\n#include <QDBusReply>")
+        self.assertEqual(system_breaches(self.source), [])
+        self.include("gui/content/a.cpp", "#include <QDBusReply>")
+        self.assertEqual(len(system_breaches(self.source)), 1)
 
     def test_a_missing_licence_is_found(self):
         self.write("core/image/a.cpp", "int a;\n")

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <epoxy/egl.h>
-#include <epoxy/gl.h>
-
+#include <memory>
 #include <string>
+
+#include "platform/headless_gl.h"
 
 namespace relucent {
 
@@ -19,9 +19,6 @@ class GlContext {
 
   /// Throws: Error{device} if there is no such device with OpenGL 4.3, with the available devices.
   explicit GlContext(Device wanted);
-  ~GlContext();
-  GlContext(const GlContext&) = delete;
-  GlContext& operator=(const GlContext&) = delete;
 
   /// The driver's name of its device.
   const std::string& renderer() const { return renderer_; }
@@ -32,28 +29,15 @@ class GlContext {
 
   /// Makes the context current during its lifetime, and restores the previous one. OpenGL contexts of GLX
   /// must not be current on the same thread.
-  class Current {
+  class Current : public HeadlessGl::Current {
    public:
-    explicit Current(const GlContext& context) noexcept;
-    ~Current();
-    Current(const Current&) = delete;
-    Current& operator=(const Current&) = delete;
-    explicit operator bool() const { return made_; }
-
-   private:
-    const GlContext& context_;
-    EGLenum api_;  // the one that the thread had chosen
-    EGLDisplay display_;
-    EGLContext before_;
-    EGLSurface draw_, read_;
-    bool made_;
+    explicit Current(const GlContext& context) noexcept : HeadlessGl::Current(*context.context_) {}
   };
 
  private:
-  bool open(EGLDisplay display, Device wanted, std::string& found);
+  bool accepts(Device wanted, std::string& found);
 
-  EGLDisplay display_ = EGL_NO_DISPLAY;
-  EGLContext context_ = EGL_NO_CONTEXT;
+  std::unique_ptr<HeadlessGl> context_;
   std::string renderer_;
   bool software_ = false;
   bool reportsReset_ = false;

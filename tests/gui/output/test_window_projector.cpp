@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "gui/output/two_screens.h"
-#include "output/display_power.h"
+#include "desktop/display_power.h"
 #include "support/screen_light.h"
 
 using namespace relucent;

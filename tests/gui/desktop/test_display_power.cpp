@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs on an X server of its own, see tests/support/with-two-screens.
-#include "output/display_power.h"
+#include "desktop/display_power.h"
 
 #include <QElapsedTimer>
 #include <QtTest>

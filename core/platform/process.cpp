@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "base/stopwatch.h"
+#include "platform/process.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace relucent {
+
+std::uint64_t processNumber() {
+  return static_cast<std::uint64_t>(::getpid());
+}
 
 std::uint64_t peakMemoryBytes() {
   rusage usage{};

@@ -5,7 +5,7 @@
 #include <QStringList>
 #include <QtGlobal>
 
-#include "output/display_power.h"
+#include "desktop/display_power.h"
 
 namespace relucent {
 

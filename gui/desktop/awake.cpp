@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "output/awake.h"
+#include "desktop/awake.h"
 
 #include <QDBusConnection>
 #include <QDBusMessage>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "output/display_power.h"
+#include "desktop/display_power.h"
 
 #include <xcb/dpms.h>
 #include <xcb/screensaver.h>
@@ -7,7 +7,7 @@
 
 #include <QGuiApplication>
 
-#include "content/xcb_answer.h"
+#include "desktop/xcb_answer.h"
 
 namespace relucent {
 namespace {

@@ -5,8 +5,8 @@
 
 namespace relucent {
 
-/// An open file descriptor that closes itself. Negative: there is none, and errno of who tried to open it
-/// says why.
+/// An open file descriptor of POSIX that closes itself. Negative: there is none, and errno of who tried to
+/// open it says why. For this folder alone.
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}

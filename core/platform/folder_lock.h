@@ -11,8 +11,8 @@ class FolderLock {
  public:
   enum class Kind { read, write };
 
-  /// Does not wait. Throws: Error{input} if another program holds a lock that excludes this one;
-  /// Error{disk} if the folder cannot be opened.
+  /// Does not wait. Throws: std::system_error with operation_would_block if another program holds a lock that
+  /// excludes this one; else with the reason why the folder cannot be opened.
   FolderLock(const std::filesystem::path& folder, Kind kind);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;

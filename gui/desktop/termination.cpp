@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/termination.h"
+#include "desktop/termination.h"
 
 #include <sys/socket.h>
 #include <unistd.h>

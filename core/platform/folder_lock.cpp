@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/folder_lock.h"
+#include "platform/folder_lock.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
-
-#include "base/error.h"
 
 namespace relucent {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0)
-    throw Error(ErrorKind::disk, fmt::format("cannot open the folder ({})", std::strerror(errno)),
-                "check the path and that you may read it", folder.string());
+  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
 
-  // The folder itself is locked, not a file in it: nothing has to be written, and the manifest, which is
-  // replaced by renaming, would take its lock away with the old file.
+  // The folder itself is locked, not a file in it: nothing has to be written, and a file that is replaced by
+  // renaming would take its lock away with it.
   int operation = (kind == Kind::write ? LOCK_EX : LOCK_SH) | LOCK_NB;
   int result = 0;
   do result = ::flock(descriptor_, operation);
@@ -29,8 +24,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
   if (result == 0 || errno != EWOULDBLOCK) return;
 
   ::close(std::exchange(descriptor_, -1));
-  throw Error(ErrorKind::input, "another program is working on this calibration",
-              "wait until it has finished, or close it, then try again", folder.string());
+  throw std::system_error(EWOULDBLOCK, std::generic_category());
 }
 
 FolderLock::~FolderLock() {

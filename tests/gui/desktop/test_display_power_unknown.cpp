@@ -2,7 +2,7 @@
 // Runs without an X server.
 #include <QtTest>
 
-#include "output/display_power.h"
+#include "desktop/display_power.h"
 
 using namespace relucent;
 

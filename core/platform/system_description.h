@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace relucent {
+
+/// Operating system, processor and memory, some lines for whoever looks into a problem from afar.
+std::string systemDescription();
+
+}  // namespace relucent

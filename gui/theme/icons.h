@@ -6,7 +6,8 @@
 
 namespace relucent {
 
-/// Line drawings in a box of 24, stroke 1.6 with round ends, never filled, without letters.
+/// Files of resources/icons/controls: line drawings in a box of 24, stroke 1.6 with round ends, never filled,
+/// without letters.
 enum class Icon {
   tick,
   lock,

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "image/exr.h"
+#include "image/stack_files.h"
 #include "transport/files.h"
 
 namespace relucent {
@@ -87,21 +88,10 @@ Rasters rastersFrom(const Json& json) {
   return Rasters(std::move(sizes));
 }
 
-std::string mapName(const std::string& map, std::size_t camera) {
-  return fmt::format("{}-{}.exr", map, camera + 1);
-}
-
-void writeMaps(const fs::path& folder, const std::string& map, const Stack& stack, const Rasters& cameras,
-               const std::string& units) {
-  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
-    writeExr(folder / mapName(map, camera), imageFromStack(stack, cameras, camera), ExrType::floatType,
-             {{exr_attribute::units, units}});
-}
-
 Stack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
   std::vector<Image> images;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    fs::path path = fileOf(result, mapName(map, camera));
+    fs::path path = fileOf(result, stackFileName(map, camera));
     images.push_back(readRgbExr(path, cameras.size(camera)));
     checkFinite(images.back(), path);
   }
@@ -111,19 +101,12 @@ Stack readMaps(const StageResult& result, const std::string& map, const Rasters&
 /// Calibrations of earlier versions lack some.
 bool hasMap(const StageResult& result, const std::string& map) {
   return std::any_of(result.files.begin(), result.files.end(),
-                     [&](const ResultFile& file) { return file.name == mapName(map, 0); });
+                     [&](const ResultFile& file) { return file.name == stackFileName(map, 0); });
 }
 
 /// Verification's residuals by the blocks of its patterns: 1, 2, 4, 8 pixels.
 std::string residualName(std::size_t size) {
   return fmt::format("residual-{}", std::size_t{1} << size);
-}
-
-/// Flags as a map of three equal channels: 0 or 1.
-Stack flagStack(const std::vector<std::uint8_t>& flags) {
-  Stack stack(3 * flags.size());
-  for (std::size_t i = 0; i < stack.size(); ++i) stack[i] = flags[i / 3] != 0 ? 1.0f : 0.0f;
-  return stack;
 }
 
 std::vector<std::uint8_t> flagsFrom(const Stack& stack) {
@@ -215,15 +198,15 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"cost", cost}};
   return folder.store("acquisition", inputs, values, [&](const fs::path& path) {
     saveTransport(path / "transport.npz", acquisition.transport);
-    writeMaps(path, "black", acquisition.black, cameras, radianceUnits);
-    writeMaps(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
-    writeMaps(path, "flood", acquisition.flood, cameras, radianceUnits);
-    writeMaps(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
+    writeStack(path, "black", acquisition.black, cameras, radianceUnits);
+    writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
+    writeStack(path, "flood", acquisition.flood, cameras, radianceUnits);
+    writeStack(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
     if (!acquisition.leafVariance.empty())
-      writeMaps(path, "leaf-variance", acquisition.leafVariance, cameras, varianceUnits);
+      writeStack(path, "leaf-variance", acquisition.leafVariance, cameras, varianceUnits);
     for (std::size_t size = 0; size < acquisition.residual.size(); ++size)
-      writeMaps(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
-    writeMaps(path, "flagged", flagStack(acquisition.flagged), cameras, "1 where verification failed");
+      writeStack(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
+    writeStack(path, "flagged", stackFromFlags(acquisition.flagged), cameras, "1 where verification failed");
   });
 }
 

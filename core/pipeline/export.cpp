@@ -6,29 +6,13 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "image/exr.h"
+#include "image/stack_files.h"
 #include "pipeline/measured_venue.h"
 #include "transport/files.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
-
-void writeMap(const fs::path& folder, const std::string& name, const Stack& stack, const Rasters& rasters,
-              const std::string& units, WrittenFiles& written) {
-  for (std::size_t device = 0; device < rasters.devices(); ++device) {
-    fs::path path = folder / fmt::format("{}-{}.exr", name, device + 1);
-    writeExr(path, imageFromStack(stack, rasters, device), ExrType::floatType,
-             {{exr_attribute::units, units}});
-    written.files.push_back(path);
-  }
-}
-
-Stack threeChannels(const std::vector<std::uint8_t>& mask) {
-  Stack stack(3 * mask.size());
-  for (std::size_t i = 0; i < stack.size(); ++i) stack[i] = mask[i / 3] != 0 ? 1.0f : 0.0f;
-  return stack;
-}
 
 void writeMaps(const fs::path& folder, const MeasuredCalibration& measured, WrittenFiles& written) {
   createFolder(folder);
@@ -40,14 +24,16 @@ void writeMaps(const fs::path& folder, const MeasuredCalibration& measured, Writ
   std::transform(measured.acquisition.floodVariance.begin(), measured.acquisition.floodVariance.end(),
                  noise.begin(), [](float variance) { return std::sqrt(variance); });
   const char* radiance = "camera signal per second";
-  writeMap(folder, "black", venue.black, cameras, radiance, written);
-  writeMap(folder, "flood", venue.flood, cameras, radiance, written);
-  writeMap(folder, "flood-noise", noise, cameras, radiance, written);
-  writeMap(folder, "reachable-brightest", brightest, cameras, radiance, written);
-  writeMap(folder, "usable", threeChannels(venue.usable), cameras, "1 where compensation relies on it",
-           written);
-  writeMap(folder, "flagged", threeChannels(measured.acquisition.flagged), cameras,
-           "1 where verification failed", written);
+  auto write = [&](const std::string& name, const Stack& stack, const std::string& units) {
+    for (fs::path& file : writeStack(folder, name, stack, cameras, units))
+      written.files.push_back(std::move(file));
+  };
+  write("black", venue.black, radiance);
+  write("flood", venue.flood, radiance);
+  write("flood-noise", noise, radiance);
+  write("reachable-brightest", brightest, radiance);
+  write("usable", stackFromFlags(venue.usable), "1 where compensation relies on it");
+  write("flagged", stackFromFlags(measured.acquisition.flagged), "1 where verification failed");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/stopwatch.h"
 #include "calibration/results.h"
-#include "image/exr.h"
+#include "image/stack_files.h"
 #include "pipeline/devices.h"
 #include "pipeline/stages.h"
 
@@ -13,24 +13,15 @@ namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
-void writeMap(const fs::path& folder, const std::string& name, const Stack& stack, const Rasters& cameras,
-              const std::string& units, std::vector<fs::path>& files) {
-  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    files.push_back(folder / fmt::format("{}-{}.exr", name, camera + 1));
-    writeExr(files.back(), imageFromStack(stack, cameras, camera), ExrType::floatType,
-             {{exr_attribute::units, units}});
-  }
-}
-
 std::vector<fs::path> writeMaps(const fs::path& folder, const Reverification& found, const Rasters& cameras) {
   createFolder(folder);
   std::vector<fs::path> files;
+  auto write = [&](const std::string& name, const Stack& stack, const std::string& units) {
+    for (fs::path& file : writeStack(folder, name, stack, cameras, units)) files.push_back(std::move(file));
+  };
   for (std::size_t size = 0; size < found.residual.size(); ++size)
-    writeMap(folder, fmt::format("residual-{}", 1 << size), found.residual[size], cameras,
-             "camera signal per second", files);
-  Stack changed(3 * found.changed.size());
-  for (std::size_t i = 0; i < changed.size(); ++i) changed[i] = found.changed[i / 3] != 0 ? 1.0f : 0.0f;
-  writeMap(folder, "changed", changed, cameras, "1 where a pixel sees something else than predicted", files);
+    write(fmt::format("residual-{}", 1 << size), found.residual[size], "camera signal per second");
+  write("changed", stackFromFlags(found.changed), "1 where a pixel sees something else than predicted");
   return files;
 }
 

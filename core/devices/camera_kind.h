@@ -15,7 +15,7 @@ namespace relucent {
 /// What whoever opens a camera wants of it.
 struct CameraWishes {
   std::optional<Size> size;            // of photographs; none: all that the camera has
-  ExposureRange exposures{1e-3, 4.0};  // of kinds that cannot be asked (CameraKind::takesExposureRange)
+  ExposureRange exposures{1e-3, 4.0};  // of cameras that cannot be asked for theirs
 };
 
 /// One kind of camera: all that the rest of the program knows about it.
@@ -25,7 +25,6 @@ struct CameraKind {
   std::string help;       // what a place may be, one line for help texts
   std::string support;    // what cameras these are; of a kind that is not built in: what this build lacks
   bool isBuiltIn = true;  // false: open() throws Error{device} with advice, and there is nothing to list
-  bool takesExposureRange = false;  // its cameras cannot be asked for it: it comes from the settings
 
   /// The camera at a place, ready for use. Throws: Error{device} if it is not there or cannot be used;
   /// Error{usage} if there can be no such place.

@@ -24,7 +24,6 @@ CameraKind commandKind() {
           .place = "CMD",
           .help = "a program that photographs {exposure} seconds into {output}",
           .support = "anything that a program of yours can drive",
-          .takesExposureRange = true,
           .open = openCommand};
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "calibration/json.h"
 #include "platform/files.h"
 
 #ifndef RELUCENT_VERSION
@@ -23,14 +24,6 @@ constexpr const char* formatName = "relucent calibration";
 std::string now() {
   auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
-}
-
-/// Names become parts of file names.
-void requireName(const std::string& name) {
-  bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_';
-  });
-  require(plain, "'{}' is no name for a stage: letters, digits, - and _", name);
 }
 
 /// What a program that was killed in the middle of a write left: never named by a manifest.
@@ -117,7 +110,26 @@ Json readManifest(const fs::path& file) {
 }  // namespace
 
 CalibrationFolder::CalibrationFolder(fs::path path, FolderLock lock, Access access, Json manifest)
-    : path_(std::move(path)), lock_(std::move(lock)), access_(access), manifest_(std::move(manifest)) {}
+    : path_(std::move(path)),
+      lock_(std::move(lock)),
+      access_(access),
+      manifest_(std::make_shared<const Json>(std::move(manifest))) {}
+
+const Json& CalibrationFolder::rig() const {
+  return manifest_->at("rig");
+}
+
+const Json& CalibrationFolder::settings() const {
+  return manifest_->at("settings");
+}
+
+std::string CalibrationFolder::software() const {
+  return manifest_->at("software");
+}
+
+std::string CalibrationFolder::created() const {
+  return manifest_->at("created");
+}
 
 CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json settings) {
   std::error_code code;
@@ -138,7 +150,7 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
       {"created", now()},         {"rig", std::move(rig)}, {"settings", std::move(settings)},
       {"results", Json::object()}};
   CalibrationFolder folder(path, std::move(lock), Access::write, std::move(manifest));
-  folder.writeManifest(folder.manifest_);
+  folder.writeManifest(*folder.manifest_);
   return folder;
 }
 
@@ -167,23 +179,25 @@ void CalibrationFolder::writeManifest(const Json& manifest) const {
   writeFileAtomically(path_ / manifestName, manifest.dump(1) + "\n");
 }
 
-void CalibrationFolder::setSettings(Json settings) {
-  Json manifest = manifest_;
-  manifest["settings"] = std::move(settings);
+void CalibrationFolder::replaceManifest(Json manifest) {
   writeManifest(manifest);
-  manifest_ = std::move(manifest);
+  manifest_ = std::make_shared<const Json>(std::move(manifest));
+}
+
+void CalibrationFolder::setSettings(Json settings) {
+  Json manifest = *manifest_;
+  manifest["settings"] = std::move(settings);
+  replaceManifest(std::move(manifest));
 }
 
 void CalibrationFolder::setRig(Json rig) {
-  Json manifest = manifest_;
+  Json manifest = *manifest_;
   manifest["rig"] = std::move(rig);
-  writeManifest(manifest);
-  manifest_ = std::move(manifest);
+  replaceManifest(std::move(manifest));
 }
 
-StageResult CalibrationFolder::store(const std::string& stage, const std::string& inputs, Json values,
+StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Json values,
                                      const std::function<void(const fs::path&)>& writeFiles) {
-  requireName(stage);
   require(access_ == Access::write, "the calibration {} is open for reading", path_.string());
   Json files = Json::object();
   std::string name;
@@ -192,8 +206,8 @@ StageResult CalibrationFolder::store(const std::string& stage, const std::string
     createFolder(results);
     // A folder without an entry is what a program that died before its last step left; it is passed over.
     int number = 1;
-    while (fs::exists(results / fmt::format("{}-{}", stage, number))) ++number;
-    name = fmt::format("{}-{}", stage, number);
+    while (fs::exists(results / fmt::format("{}-{}", nameOf(stage), number))) ++number;
+    name = fmt::format("{}-{}", nameOf(stage), number);
     fs::path temporary = results / ("." + name + ".part");
 
     try {
@@ -216,51 +230,48 @@ StageResult CalibrationFolder::store(const std::string& stage, const std::string
     }
   }
 
-  Json manifest = manifest_;
+  Json manifest = *manifest_;
   Json entry = {{"inputs", inputs},
                 {"stored", now()},
                 {"folder", name},
                 {"values", std::move(values)},
                 {"files", std::move(files)}};
-  manifest["results"][stage].push_back(std::move(entry));
-  writeManifest(manifest);
-  manifest_ = std::move(manifest);
+  manifest["results"][std::string(nameOf(stage))].push_back(std::move(entry));
+  replaceManifest(std::move(manifest));
   return *latest(stage);
 }
 
-StageResult CalibrationFolder::resultFrom(const std::string& stage, const Json& entry) const {
+StageResult CalibrationFolder::resultFrom(Stage stage, const Json& entry) const {
   StageResult result{stage,
                      entry.at("inputs"),
                      entry.at("stored"),
-                     entry.at("values"),
+                     std::make_shared<const Json>(entry.at("values")),
                      path_ / "results" / entry.at("folder").get<std::string>(),
                      {}};
   for (const auto& [name, bytes] : entry.at("files").items()) result.files.push_back({name, bytes});
   return result;
 }
 
-std::optional<StageResult> CalibrationFolder::find(const std::string& stage,
-                                                   const std::string& inputs) const {
-  const Json& results = manifest_.at("results");
-  if (!results.contains(stage)) return std::nullopt;
-  const Json& entries = results.at(stage);
-  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
-    if (entry->at("inputs") == inputs) return resultFrom(stage, *entry);
+const Json* CalibrationFolder::entriesOf(Stage stage) const {
+  const Json& results = manifest_->at("results");
+  auto entries = results.find(std::string(nameOf(stage)));
+  return entries != results.end() && !entries->empty() ? &*entries : nullptr;
+}
+
+std::optional<StageResult> CalibrationFolder::find(Stage stage, const std::string& inputs) const {
+  if (const Json* entries = entriesOf(stage))
+    for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry)
+      if (entry->at("inputs") == inputs) return resultFrom(stage, *entry);
   return std::nullopt;
 }
 
-std::optional<StageResult> CalibrationFolder::latest(const std::string& stage) const {
-  const Json& results = manifest_.at("results");
-  if (!results.contains(stage) || results.at(stage).empty()) return std::nullopt;
-  return resultFrom(stage, results.at(stage).back());
+std::optional<StageResult> CalibrationFolder::latest(Stage stage) const {
+  if (const Json* entries = entriesOf(stage)) return resultFrom(stage, entries->back());
+  return std::nullopt;
 }
 
-bool CalibrationFolder::isCurrent(const std::string& stage, const std::string& inputs) const {
+bool CalibrationFolder::isCurrent(Stage stage, const std::string& inputs) const {
   return find(stage, inputs).has_value();
-}
-
-bool CalibrationFolder::isStale(const std::string& stage, const std::string& inputs) const {
-  return latest(stage).has_value() && !isCurrent(stage, inputs);
 }
 
 fs::path fileOf(const StageResult& result, const std::string& name) {
@@ -270,10 +281,10 @@ fs::path fileOf(const StageResult& result, const std::string& name) {
   std::error_code code;
   std::uint64_t bytes = fs::file_size(path, code);
   if (file == result.files.end() || code)
-    throw damaged(path, fmt::format("a file of the calibration's {} is missing", result.stage));
+    throw damaged(path, fmt::format("a file of the calibration's {} is missing", nameOf(result.stage)));
   if (bytes != file->bytes)
-    throw damaged(path, fmt::format("a file of the calibration's {} has {} bytes instead of {}", result.stage,
-                                    bytes, file->bytes));
+    throw damaged(path, fmt::format("a file of the calibration's {} has {} bytes instead of {}",
+                                    nameOf(result.stage), bytes, file->bytes));
   return path;
 }
 

@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "platform/folder_lock.h"
 #include "calibration/json.h"
+#include "calibration/json_fwd.h"
+#include "calibration/stage.h"
+#include "platform/folder_lock.h"
 
 namespace relucent {
 
@@ -21,12 +24,12 @@ struct ResultFile {
 
 /// What a stage left behind. Never changed once it is stored.
 struct StageResult {
-  std::string stage;              // "acquisition"
-  std::string inputs;             // fingerprint of everything that the stage was given
-  std::string stored;             // when, ISO 8601, UTC
-  Json values;                    // small results: figures, curves, sentences
-  std::filesystem::path folder;   // where its files are, absolute or as the calibration was opened
-  std::vector<ResultFile> files;  // large results
+  Stage stage = Stage::camera;
+  std::string inputs;                  // fingerprint of everything that the stage was given
+  std::string stored;                  // when, ISO 8601, UTC
+  std::shared_ptr<const Json> values;  // what results.h reads
+  std::filesystem::path folder;        // where its files are, absolute or as the calibration was opened
+  std::vector<ResultFile> files;       // large results
 };
 
 /// A calibration on disk: a folder with a manifest.
@@ -54,40 +57,40 @@ class CalibrationFolder {
   static CalibrationFolder open(const std::filesystem::path& path, Access access);
 
   const std::filesystem::path& path() const { return path_; }
-  const Json& rig() const { return manifest_.at("rig"); }
-  const Json& settings() const { return manifest_.at("settings"); }
+  const Json& rig() const;
+  const Json& settings() const;
   /// What later runs are asked for. Results stay; those that no longer fit become stale by themselves.
   void setSettings(Json settings);
   /// Other devices. Results stay; all of them become stale by themselves.
   void setRig(Json rig);
   /// The program that made this calibration, and when (ISO 8601, UTC).
-  std::string software() const { return manifest_.at("software"); }
-  std::string created() const { return manifest_.at("created"); }
+  std::string software() const;
+  std::string created() const;
   std::filesystem::path shotFolder() const { return path_ / "shots"; }
 
   /// Stores a result: `writeFiles` writes the large parts into the folder it is given. Only when all of
   /// them are on disk does the manifest name them.
   /// Throws: Error{disk} and whatever writeFiles throws; the calibration is then as it was.
-  StageResult store(const std::string& stage, const std::string& inputs, Json values,
+  StageResult store(Stage stage, const std::string& inputs, Json values,
                     const std::function<void(const std::filesystem::path& folder)>& writeFiles = {});
 
   /// The newest result of a stage for these inputs.
-  std::optional<StageResult> find(const std::string& stage, const std::string& inputs) const;
+  std::optional<StageResult> find(Stage stage, const std::string& inputs) const;
   /// The newest result of a stage for any inputs: perhaps stale.
-  std::optional<StageResult> latest(const std::string& stage) const;
-  bool isCurrent(const std::string& stage, const std::string& inputs) const;
-  /// There are results, but none for these inputs.
-  bool isStale(const std::string& stage, const std::string& inputs) const;
+  std::optional<StageResult> latest(Stage stage) const;
+  bool isCurrent(Stage stage, const std::string& inputs) const;
 
  private:
   CalibrationFolder(std::filesystem::path path, FolderLock lock, Access access, Json manifest);
   void writeManifest(const Json& manifest) const;
-  StageResult resultFrom(const std::string& stage, const Json& entry) const;
+  void replaceManifest(Json manifest);
+  StageResult resultFrom(Stage stage, const Json& entry) const;
+  const Json* entriesOf(Stage stage) const;
 
   std::filesystem::path path_;
   FolderLock lock_;
   Access access_;
-  Json manifest_;
+  std::shared_ptr<const Json> manifest_;
 };
 
 /// Where a file of a result is, after a look at its size.

@@ -3,9 +3,4 @@
 
 #include <nlohmann/json.hpp>
 
-namespace relucent {
-
-/// JSON whose keys keep the order in which they were written: documents that people read.
-using Json = nlohmann::ordered_json;
-
-}  // namespace relucent
+#include "calibration/json_fwd.h"

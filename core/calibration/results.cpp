@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "calibration/results_json.h"
 #include "image/exr.h"
 #include "image/stack_files.h"
 #include "transport/files.h"
@@ -12,20 +13,6 @@
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr const char* damagedAdvice = "restore the calibration from a copy, or calibrate again";
-
-/// Runs `read`, turning what the JSON library throws into one sentence.
-template <typename Read>
-auto readingJson(const StageResult& result, const Read& read) {
-  try {
-    return read(result.values);
-  } catch (const Json::exception& cause) {
-    throw Error(ErrorKind::format,
-                fmt::format("the result of the stage \"{}\" cannot be read ({})", result.stage, cause.what()),
-                damagedAdvice, result.folder.string());
-  }
-}
 
 /// A loop over what is no list would find nothing and say nothing.
 const Json& listIn(const Json& values, const char* key) {
@@ -83,9 +70,7 @@ Json toJson(const Rasters& rasters) {
 }
 
 Rasters rastersFrom(const Json& json) {
-  std::vector<Size> sizes;
-  for (const Json& size : json) sizes.push_back({size.at(0), size.at(1)});
-  return Rasters(std::move(sizes));
+  return Rasters(sizesFrom(json));
 }
 
 Stack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
@@ -154,20 +139,20 @@ ShotTimes timesFrom(const Json& json) {
 }  // namespace
 
 StageResult storeLinearization(CalibrationFolder& folder, const std::string& inputs,
-                               const Linearization& linearization, const Json& cost) {
+                               const Linearization& linearization, const StageCost& cost) {
   Json projectors = Json::array();
   for (const ProjectorResponse& projector : linearization.projectors)
     projectors.push_back(toJson(projector.channels));
   Json cameras = Json::array();
   for (const CameraModel& camera : linearization.cameras) cameras.push_back(toJson(camera));
-  return folder.store("linearization", inputs,
+  return folder.store(Stage::linearization, inputs,
                       Json{{"projectors", projectors},
                            {"cameras", cameras},
                            {"exposures", linearization.exposures},
                            {"additivity_error", linearization.additivityError},
                            {"findings", linearization.findings},
                            {"times", timesToJson(linearization.times)},
-                           {"cost", cost}});
+                           {"cost", toJson(cost)}});
 }
 
 Linearization loadLinearization(const StageResult& result) {
@@ -185,7 +170,7 @@ Linearization loadLinearization(const StageResult& result) {
 }
 
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
-                             const Acquisition& acquisition, const Json& cost) {
+                             const Acquisition& acquisition, const StageCost& cost) {
   const Rasters& cameras = acquisition.transport.cameras();
   Json values{{"cameras", toJson(cameras)},
               {"projectors", toJson(acquisition.transport.projectors())},
@@ -195,8 +180,8 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"patterns", acquisition.patterns},
               {"exposures", acquisition.exposures},
               {"findings", acquisition.findings},
-              {"cost", cost}};
-  return folder.store("acquisition", inputs, values, [&](const fs::path& path) {
+              {"cost", toJson(cost)}};
+  return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
     saveTransport(path / "transport.npz", acquisition.transport);
     writeStack(path, "black", acquisition.black, cameras, radianceUnits);
     writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);

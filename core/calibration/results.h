@@ -5,21 +5,50 @@
 #include "linearization/linearization.h"
 #include "transport/acquisition.h"
 
+/// Results of the stages on disk and back, the same bits. What is small is JSON in the manifest, met in this
+/// folder only. `inputs` is the fingerprint of all that the stage was given (stage_fingerprint.h); the cost
+/// is kept with the result. Storing throws Error{disk}; reading throws Error{format} if a file or a value is
+/// missing, damaged or contradicts another.
 namespace relucent {
 
-/// Results of the stages on disk and back, the same bits. `inputs` is the fingerprint of all that the stage
-/// was given; `cost` (seconds, patterns, ...) is kept with it as "cost". Storing throws Error{disk}; loading
-/// throws Error{format} if a file is missing, damaged or contradicts another.
-
-/// Curves, camera models and findings, all as JSON in the manifest.
+/// Curves, camera models and findings, all in the manifest.
 StageResult storeLinearization(CalibrationFolder& folder, const std::string& inputs,
-                               const Linearization& linearization, const Json& cost);
+                               const Linearization& linearization, const StageCost& cost);
 Linearization loadLinearization(const StageResult& result);
 
 /// transport.npz (the leaves, see transport/files.h), and per camera black, flood, their variances and the
-/// flags as OpenEXR; figures and findings as JSON.
+/// flags as OpenEXR; figures and findings in the manifest.
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
-                             const Acquisition& acquisition, const Json& cost);
+                             const Acquisition& acquisition, const StageCost& cost);
 Acquisition loadAcquisition(const StageResult& result);
+
+/// Keeps how the inverse is made, for the settings as they are.
+StageResult storeInverse(CalibrationFolder& folder, const InverseResult& result);
+
+/// Keeps that a stage at which somebody decides is done, for the settings as they are.
+StageResult storeDecision(CalibrationFolder& folder, const CameraCheckResult& result);
+StageResult storeDecision(CalibrationFolder& folder, const ThresholdResult& result);
+StageResult storeDecision(CalibrationFolder& folder, const ClusteringResult& result);
+StageResult storeDecision(CalibrationFolder& folder, const ContentResult& result);
+
+/// What a stored result says.
+void read(const StageResult& stored, CameraCheckResult& result);
+void read(const StageResult& stored, LinearizationResult& result);
+void read(const StageResult& stored, AcquisitionResult& result);
+void read(const StageResult& stored, ThresholdResult& result);
+void read(const StageResult& stored, InverseResult& result);
+void read(const StageResult& stored, ClusteringResult& result);
+void read(const StageResult& stored, ContentResult& result);
+
+template <Stage stage>
+ResultOf<stage> resultFrom(const StageResult& stored) {
+  require(stored.stage == stage, "a result of {} is read as one of {}", nameOf(stored.stage), nameOf(stage));
+  ResultOf<stage> result;
+  read(stored, result);
+  return result;
+}
+
+/// The results of all stages: of each the one for the settings as they are, else the newest.
+StageResults resultsIn(const CalibrationFolder& folder);
 
 }  // namespace relucent

@@ -6,7 +6,7 @@
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/measuring.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "platform/process.h"
 
 namespace relucent {

@@ -9,14 +9,14 @@
 #include "base/fingerprint.h"
 #include "base/stopwatch.h"
 #include "calibration/results.h"
+#include "calibration/stage_fingerprint.h"
 #include "devices/raw_photograph.h"
 #include "image/colour.h"
 #include "image/exr.h"
 #include "image/picture_files.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/photograph_sequence.h"
-#include "pipeline/settings_json.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "platform/process.h"
 
 namespace relucent {
@@ -151,13 +151,6 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   return pictures;
 }
 
-Json curveOf(const RidgeChoice& choice) {
-  Json curve = Json::array();
-  for (const RidgeTrial& trial : choice.curve)
-    curve.push_back({{"ridge", trial.ridge}, {"psnr", trial.psnr}});
-  return curve;
-}
-
 double flaggedShare(const Acquisition& acquisition) {
   auto flagged = static_cast<double>(
       acquisition.flagged.size() -
@@ -166,27 +159,16 @@ double flaggedShare(const Acquisition& acquisition) {
 }
 
 void store(const fs::path& path, const CalibrateSettings& settings, const Import& import, double seconds) {
-  CalibrationFolder folder = CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
-  storeLinearization(folder, linearizationFingerprint(folder), import.linearization,
-                     Json{{"seconds", 0.0}, {"patterns", 0}, {"exposures", 0}});
-  storeAcquisition(folder, acquisitionFingerprint(folder), import.acquisition,
-                   Json{{"seconds", seconds},
-                        {"patterns", import.acquisition.patterns},
-                        {"exposures", import.acquisition.exposures},
-                        {"held_out", import.heldOut},
-                        {"nrmse",
-                         {{"one_to_one", import.error.oneToOne},
-                          {"mix", import.error.mix},
-                          {"transport", import.error.transport}}}});
+  CalibrationFolder folder = createCalibration(path, settings);
+  storeLinearization(folder, fingerprintOf(folder, Stage::linearization), import.linearization, {});
+  const ImportScore score{import.heldOut, import.error.oneToOne, import.error.mix, import.error.transport};
+  storeAcquisition(folder, fingerprintOf(folder, Stage::acquisition), import.acquisition,
+                   {seconds, import.acquisition.patterns, import.acquisition.exposures, score});
 }
 
 void storeInverse(const fs::path& path, const RidgeChoice& choice, double seconds) {
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
-  folder.store(stage::inverse, inverseFingerprint(folder),
-               Json{{"ridge", choice.ridge},
-                    {"curve", curveOf(choice)},
-                    {"bytes", choice.inverse.bytes()},
-                    {"cost", {{"seconds", seconds}, {"patterns", 0}, {"exposures", 0}}}});
+  storeInverse(folder, inverseResultOf(choice, {seconds}));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "calibration/results.h"
+#include "calibration/stage_progress.h"
 #include "compensation/direct_light.h"
-#include "pipeline/settings_json.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 /// Everything but the inverse.
 MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
-  auto linearization = folder.find(stage::linearization, linearizationFingerprint(folder));
-  auto acquisition = folder.find(stage::acquisition, acquisitionFingerprint(folder));
+  auto linearization = currentResultOf(folder, Stage::linearization);
+  auto acquisition = currentResultOf(folder, Stage::acquisition);
   if (!linearization || !acquisition)
     throw Error(ErrorKind::input, "the calibration is not finished",
                 fmt::format("finish it first: relucent-cli resume {}", folder.path().string()),
@@ -99,24 +99,24 @@ std::uint64_t connectionsOf(const TransportMatrix& transport) {
   return connections;
 }
 
-/// A figure that a stage cost.
-double costOf(const CalibrationFolder& folder, const char* stageName, const char* figure) {
-  std::optional<StageResult> stored = folder.latest(stageName);
-  if (!stored || !stored->values.contains("cost")) return 0.0;
-  return stored->values["cost"].value(figure, 0.0);
+/// What a stage cost when it was done last.
+template <Stage stage>
+StageCost costOf(const CalibrationFolder& folder) {
+  const std::optional<StageResult> stored = folder.latest(stage);
+  return stored ? resultFrom<stage>(*stored).cost.value_or(StageCost()) : StageCost();
 }
 
 }  // namespace
 
 CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibration& measured) {
   CalibrateResult result;
-  for (const char* stageName : {stage::linearization, stage::acquisition}) {
-    result.patterns += static_cast<int>(costOf(folder, stageName, "patterns"));
-    result.exposures += static_cast<int>(costOf(folder, stageName, "exposures"));
-  }
-  result.seconds.linearization = costOf(folder, stage::linearization, "seconds");
-  result.seconds.acquisition = costOf(folder, stage::acquisition, "seconds");
-  result.seconds.inverse = costOf(folder, stage::inverse, "seconds");
+  const StageCost linearization = costOf<Stage::linearization>(folder),
+                  acquiring = costOf<Stage::acquisition>(folder);
+  result.patterns = linearization.patterns + acquiring.patterns;
+  result.exposures = linearization.exposures + acquiring.exposures;
+  result.seconds.linearization = linearization.seconds;
+  result.seconds.acquisition = acquiring.seconds;
+  result.seconds.inverse = costOf<Stage::inverse>(folder).seconds;
   const Acquisition& acquisition = measured.acquisition;
   result.leaves = measured.venue.transport.leaves().blocks();
   result.connections = connectionsOf(measured.venue.transport);
@@ -141,17 +141,24 @@ RidgeChoice invert(const MeasuredVenue& venue, const CalibrateSettings& settings
       settings.windows.ridge, {}, computeWindows(venue.transport, venue.usable, settings.windows, progress)};
 }
 
+InverseResult inverseResultOf(const RidgeChoice& choice, const StageCost& cost) {
+  InverseResult result{choice.ridge, {}, choice.inverse.bytes(), cost};
+  for (const RidgeTrial& trial : choice.curve) result.curve.push_back({trial.ridge, trial.psnr});
+  return result;
+}
+
 MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress) {
   Progress reading = progress.part(0.5, "Reading the calibration");
   MeasuredCalibration measured = loadMeasurements(folder, reading);
   Progress inverting = progress.part(0.5, "Inverting the light transport");
   CalibrateSettings settings = settingsOf(folder);
   // Which ridge is best has been tried already, unless an older version made the calibration.
-  if (auto done = folder.find(stage::inverse, inverseFingerprint(folder))) {
-    settings.windows.ridge = done->values.value("ridge", settings.windows.ridge);
+  if (const auto stored = currentResultOf(folder, Stage::inverse)) {
+    const InverseResult done = resultFrom<Stage::inverse>(*stored);
+    settings.windows.ridge = done.ridge.value_or(settings.windows.ridge);
     settings.chooseRidge = false;
-    for (const Json& trial : done->values.value("curve", Json::array()))
-      measured.ridgeCurve.push_back({trial.value("ridge", 0.0), trial.value("psnr", 0.0)});
+    for (const InverseResult::Trial& trial : done.curve)
+      measured.ridgeCurve.push_back({trial.ridge, trial.psnr});
   }
   RidgeChoice choice = invert(measured.venue, settings, inverting);
   measured.ridge = choice.ridge;

@@ -38,6 +38,9 @@ MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progr
 /// The windows as the settings want them: with the ridge that suits the venue best, or the one given.
 RidgeChoice invert(const MeasuredVenue& venue, const CalibrateSettings& settings, Progress& progress);
 
+/// How the inverse was made, as the calibration keeps it.
+InverseResult inverseResultOf(const RidgeChoice& choice, const StageCost& cost);
+
 /// Reads a finished calibration. The inverse operator is made anew: quicker than reading it.
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
 MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress);

@@ -7,20 +7,18 @@
 #include "base/stopwatch.h"
 #include "calibration/results.h"
 #include "calibration/shot_journal.h"
+#include "calibration/stage_fingerprint.h"
+#include "calibration/stage_progress.h"
 #include "pipeline/measured_venue.h"
-#include "pipeline/settings_json.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
 /// What a stage's run cost, kept with its result.
-Json cost(const Stopwatch& watch, const ShotTaker* shots) {
-  Json values{{"seconds", watch.seconds()}};
-  values["patterns"] = shots != nullptr ? shots->shots() : 0;
-  values["exposures"] = shots != nullptr ? shots->exposures() : 0;
-  return values;
+StageCost costOf(const Stopwatch& watch, const ShotTaker& shots) {
+  return {watch.seconds(), shots.shots(), shots.exposures()};
 }
 
 fs::path unusedFolder(const fs::path& parent) {
@@ -36,17 +34,17 @@ fs::path unusedFolder(const fs::path& parent) {
 CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
   if (std::vector<std::string> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
-  return CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  return createCalibration(path, settings);
 }
 
 Linearization measureLinearization(CalibrationFolder& folder, Rig& rig, Progress& progress) {
-  std::string inputs = linearizationFingerprint(folder);
-  if (auto done = folder.find(stage::linearization, inputs)) return loadLinearization(*done);
+  const std::string inputs = fingerprintOf(folder, Stage::linearization);
+  if (auto done = folder.find(Stage::linearization, inputs)) return loadLinearization(*done);
   Stopwatch watch;
   ShotJournal journal(folder.shotFolder());
-  ShotTaker shots(rig, journal, stage::linearization);
+  ShotTaker shots(rig, journal, std::string(nameOf(Stage::linearization)));
   Linearization linearization = linearize(shots, settingsOf(folder).linearization, progress);
-  storeLinearization(folder, inputs, linearization, cost(watch, &shots));
+  storeLinearization(folder, inputs, linearization, costOf(watch, shots));
   return linearization;
 }
 
@@ -59,39 +57,32 @@ Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linear
 Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
                                const AlarmHandler& handler, AcquisitionObserver& observer,
                                Progress& progress) {
-  std::string inputs = acquisitionFingerprint(folder);
-  if (auto done = folder.find(stage::acquisition, inputs)) return loadAcquisition(*done);
+  const std::string inputs = fingerprintOf(folder, Stage::acquisition);
+  if (auto done = folder.find(Stage::acquisition, inputs)) return loadAcquisition(*done);
   Stopwatch watch;
   ShotJournal journal(folder.shotFolder());
-  ShotTaker shots(rig, journal, stage::acquisition);
+  ShotTaker shots(rig, journal, std::string(nameOf(Stage::acquisition)));
   Acquisition acquisition =
       acquire({shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
-  storeAcquisition(folder, inputs, acquisition, cost(watch, &shots));
+  storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
   return acquisition;
 }
 
 void measureInverse(CalibrationFolder& folder, const MeasuredVenue& venue, Progress& progress) {
-  std::string inputs = inverseFingerprint(folder);
-  if (folder.isCurrent(stage::inverse, inputs)) return;
+  if (progressOf(folder, Stage::inverse) == StageProgress::done) return;
   Stopwatch watch;
   RidgeChoice choice = invert(venue, settingsOf(folder), progress);
-  Json curve = Json::array();
-  for (const RidgeTrial& trial : choice.curve)
-    curve.push_back({{"ridge", trial.ridge}, {"psnr", trial.psnr}});
   // The operator itself is not stored: making it again is quicker than reading it. What is kept is how it is
   // made: the ridge, and the trials that chose it.
-  folder.store(stage::inverse, inputs,
-               Json{{"ridge", choice.ridge},
-                    {"curve", curve},
-                    {"bytes", choice.inverse.bytes()},
-                    {"cost", cost(watch, nullptr)}});
+  storeInverse(folder, inverseResultOf(choice, {watch.seconds()}));
 }
 
-void setShotsAside(const CalibrationFolder& folder, const std::string& stageName) {
+void setShotsAside(const CalibrationFolder& folder, Stage stage) {
+  const std::string begin = fmt::format("{}-", nameOf(stage));
   std::vector<fs::path> shots;
   std::error_code code;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
-    if (entry.is_regular_file(code) && entry.path().filename().string().starts_with(stageName + "-"))
+    if (entry.is_regular_file(code) && entry.path().filename().string().starts_with(begin))
       shots.push_back(entry.path());
   if (shots.empty()) return;
   fs::path aside = unusedFolder(folder.shotFolder());

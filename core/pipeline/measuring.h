@@ -31,6 +31,6 @@ void measureInverse(CalibrationFolder& folder, const MeasuredVenue& venue, Progr
 
 /// Takes a stage's photographs out of the journal into a folder beside it, so that running the stage again
 /// measures anew. Its results stay. Throws: Error{disk}.
-void setShotsAside(const CalibrationFolder& folder, const std::string& stageName);
+void setShotsAside(const CalibrationFolder& folder, Stage stage);
 
 }  // namespace relucent

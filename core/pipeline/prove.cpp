@@ -18,7 +18,6 @@
 #include "pipeline/measured_venue.h"
 #include "pipeline/projection.h"
 #include "pipeline/report_pictures.h"
-#include "pipeline/stages.h"
 
 namespace relucent {
 namespace fs = std::filesystem;

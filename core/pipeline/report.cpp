@@ -168,15 +168,6 @@ std::string limits() {
       "spot. Nothing may move afterwards.</li></ul>");
 }
 
-void flatten(const Json& json, const std::string& path, std::string& rows) {
-  if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) flatten(value, path.empty() ? key : path + "." + key, rows);
-    return;
-  }
-  rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>", escaped(path),
-                      escaped(json.is_string() ? json.get<std::string>() : json.dump()));
-}
-
 std::string settingsAndTimes(const ReportData& data) {
   const CalibrateResult& result = data.result;
   std::string times = fmt::format(
@@ -191,7 +182,9 @@ std::string settingsAndTimes(const ReportData& data) {
       duration(result.seconds.inverse), result.patterns, result.exposures,
       static_cast<double>(result.peakMemoryBytes) / 1e6);
   std::string rows;
-  flatten(data.settings, "", rows);
+  for (const StoredSetting& setting : data.settings)
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>", escaped(setting.name),
+                        escaped(setting.value));
   std::string settings =
       rows.empty()
           ? ""

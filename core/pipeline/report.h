@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "calibration/json.h"
 #include "compensation/ridge_choice.h"
 #include "image/image.h"
 #include "linearization/linearization.h"
 #include "pipeline/calibrate.h"
 #include "pipeline/evaluate.h"
+#include "pipeline/stored_settings.h"
 #include "pipeline/versions.h"
 #include "pipeline/written_files.h"
 
@@ -62,7 +62,7 @@ struct ReportData {
   std::vector<ReportComparison> comparisons;
   std::optional<EvaluateResult> evaluation;
   std::optional<ReportVerification> verification;
-  Json settings;
+  std::vector<StoredSetting> settings;
   std::vector<LibraryVersion> libraries;
 };
 

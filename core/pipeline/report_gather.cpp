@@ -10,7 +10,6 @@
 #include "pipeline/evaluation.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/report.h"
-#include "pipeline/stages.h"
 #include "pipeline/standard_images.h"
 #include "pipeline/support_bundle.h"
 
@@ -142,9 +141,9 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.leavesPerLevel = leavesPerLevel(transport);
   data.ridge = measured.ridge;
   data.ridgeCurve = measured.ridgeCurve;
-  data.settings = folder.settings();
+  data.settings = settingsListOf(folder);
   data.libraries = settings.libraries.empty() ? coreLibraries() : settings.libraries;
-  if (auto acquired = folder.latest("acquisition"))
+  if (auto acquired = folder.latest(Stage::acquisition))
     data.verification = verificationIn(folder.path(), fileOf(*acquired, "transport.npz"));
 
   Progress comparing = progress.part(0.6, "Compensating");

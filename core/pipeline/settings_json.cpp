@@ -2,7 +2,6 @@
 #include "pipeline/settings_json.h"
 
 #include "base/error.h"
-#include "base/fingerprint.h"
 #include "calibration/enum_json.h"
 
 namespace relucent {
@@ -230,10 +229,6 @@ void stagesFromJson(const Json& json, CalibrateSettings& settings) {
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }
-}
-
-std::string fingerprintOf(const Json& json) {
-  return Fingerprint().add(json.dump()).hex();
 }
 
 }  // namespace relucent

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "calibration/json.h"
+#include "calibration/json_fwd.h"
 #include "pipeline/calibrate_settings.h"
 
 namespace relucent {
@@ -20,8 +20,5 @@ void screenFromJson(const Json& json, ScreenRigSettings& settings);
 Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
 void stagesFromJson(const Json& json, CalibrateSettings& settings);
-
-/// A fingerprint of settings, through their JSON.
-std::string fingerprintOf(const Json& json);
 
 }  // namespace relucent

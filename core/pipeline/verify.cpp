@@ -5,9 +5,10 @@
 #include "base/file.h"
 #include "base/stopwatch.h"
 #include "calibration/results.h"
+#include "calibration/stage_progress.h"
 #include "image/stack_files.h"
 #include "pipeline/devices.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
@@ -31,8 +32,8 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
     throw Error(ErrorKind::input, found.front(), "change that setting and start again");
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
   CalibrateSettings calibrated = settingsOf(folder);
-  auto linearized = folder.find(stage::linearization, linearizationFingerprint(folder));
-  auto acquired = folder.find(stage::acquisition, acquisitionFingerprint(folder));
+  auto linearized = currentResultOf(folder, Stage::linearization);
+  auto acquired = currentResultOf(folder, Stage::acquisition);
   if (!linearized || !acquired)
     throw Error(ErrorKind::input, "the calibration is not finished",
                 fmt::format("finish it first: relucent-cli resume {}", path.string()), path.string());

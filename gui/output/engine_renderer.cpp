@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "calibration/calibration_folder.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 namespace {

@@ -124,6 +124,25 @@ def system_breaches(source):
     return found
 
 
+# The headers that let somebody build or read JSON, and those who read and write files or documents.
+JSON_HEADERS = {"calibration/json.h", "calibration/enum_json.h", "calibration/results_json.h", "nlohmann/json.hpp"}
+JSON_FILES = re.compile(
+    r"core/calibration/|core/devices/recording_files\.cpp|core/pipeline/(settings_json|stored_settings|proof_record|plan|json|versions)\.|"
+    r"core/cli/(commands|devices_document)\.")
+
+
+def json_breaches(source):
+    """A sentence for each file that includes JSON and neither reads nor writes files or documents."""
+    found = []
+    for part in ("core", "gui"):
+        for path in sorted((source / part).rglob("*.[ch]*")):
+            where = path.relative_to(source).as_posix()
+            if path.suffix in {".h", ".cpp"} and not JSON_FILES.match(where):
+                found += [f"{where}:{number}: includes {name}, but results are types (calibration/stage_results.h)"
+                          for number, name in includes(path) if name in JSON_HEADERS]
+    return found
+
+
 def own_sources(source):
     for folder in OWN_FOLDERS:
         for directory, folders, names in os.walk(source / folder):
@@ -154,6 +173,9 @@ class ThisRepository(unittest.TestCase):
 
     def test_only_the_folders_for_it_know_the_system(self):
         self.assertEqual(system_breaches(SOURCE), [])
+
+    def test_json_stays_with_files_and_documents(self):
+        self.assertEqual(json_breaches(SOURCE), [])
 
     def test_every_source_names_its_licence(self):
         self.assertEqual(files_without_licence(SOURCE), [])
@@ -234,6 +256,13 @@ class TheCheckItself(unittest.TestCase):
         self.assertEqual(system_breaches(self.source), [])
         self.include("gui/content/a.cpp", "#include <QDBusReply>")
         self.assertEqual(len(system_breaches(self.source)), 1)
+
+    def test_json_outside_of_files_and_documents_is_found(self):
+        self.include("core/calibration/a.cpp", '#include "calibration/json.h"')
+        self.include("core/base/a.cpp", '#include "calibration/json_fwd.h"')
+        self.assertEqual(json_breaches(self.source), [])
+        self.include("gui/wizard/venue/a.cpp", '#include "calibration/json.h"')
+        self.assertEqual(len(json_breaches(self.source)), 1)
 
     def test_a_missing_licence_is_found(self):
         self.write("core/image/a.cpp", "int a;\n")

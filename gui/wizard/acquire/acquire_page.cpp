@@ -8,7 +8,7 @@
 #include "calibration/results.h"
 #include "jobs/core_sentences.h"
 #include "pipeline/measuring.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "views/number_text.h"
 #include "wizard/acquire/retrying.h"
 #include "wizard/devices/missing_screen.h"
@@ -31,7 +31,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     trace_.clear();
     forecast_.reset();
     left_ = {};
-    kept_ = session_.isOpen() ? session_.photographsKept(Step::acquisition) : 0;
+    kept_ = session_.isOpen() ? session_.photographsKept(Stage::acquisition) : 0;
     connect(&session_.live(), &LiveRig::seen, this, [this] {
       if (isMeasuring()) Q_EMIT changed();
     });
@@ -67,16 +67,16 @@ StepStatus AcquirePage::status() const {
   if (isPaused()) return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
   if (isLeaving()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
-  switch (session_.progress(Step::acquisition)) {
-    case StepProgress::done:
-      if (auto patterns = figure("patterns"))
-        return {StepState::done, groupedText(tr("%n pattern(s), %1", nullptr, static_cast<int>(*patterns)),
-                                             static_cast<int>(*patterns))
-                                     .arg(durationText(figure("seconds").value_or(0.0)))};
+  switch (session_.progress(Stage::acquisition)) {
+    case StageProgress::done:
+      if (const auto spent = cost())
+        return {StepState::done,
+                groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
+                    .arg(durationText(spent->seconds))};
       return {StepState::done, tr("Measured")};
-    case StepProgress::stale:
+    case StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StepProgress::open:
+    case StageProgress::open:
       break;
   }
   if (job_.state() == Job::State::failed) return {StepState::failed, tr("Stopped by a failure")};
@@ -92,7 +92,7 @@ QString AcquirePage::hint() const {
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
   if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
-  if (isDone()) return tr("Measured in %1").arg(durationText(figure("seconds").value_or(0.0)));
+  if (isDone()) return tr("Measured in %1").arg(durationText(cost().value_or(StageCost()).seconds));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const auto patterns = static_cast<int>(work->shots);
@@ -134,15 +134,15 @@ std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (isMeasuring() || isLeaving()) return std::nullopt;
   auto* self = const_cast<AcquirePage*>(this);
-  StepProgress progress = session_.progress(Step::acquisition);
-  if (progress == StepProgress::stale)
+  StageProgress progress = session_.progress(Stage::acquisition);
+  if (progress == StageProgress::stale)
     return Banner{
         Banner::Kind::amber,
         tr("This measurement belongs to earlier settings"),
         tr("It still works and stays until the new one is ready."),
         {tr("Measure again"), Icon::retry, session_.busy().isEmpty(), {}, [self] { self->start(); }},
         {}};
-  if (progress == StepProgress::open && kept_ > 0)
+  if (progress == StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information,
                   tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
@@ -216,29 +216,26 @@ QString AcquirePage::watching() const {
       nullptr, session_.settings().acquisition.checkInterval);
 }
 
-std::optional<double> AcquirePage::figure(const char* name) const {
-  const auto& stored = session_.result(Step::acquisition);
-  if (!stored || !stored->values.contains("cost")) return std::nullopt;
-  return stored->values["cost"].value(name, 0.0);
+std::optional<StageCost> AcquirePage::cost() const {
+  const auto& measured = session_.figures<Stage::acquisition>();
+  return measured ? measured->cost : std::nullopt;
 }
 
 std::optional<double> AcquirePage::verificationError() const {
-  const auto& stored = session_.result(Step::acquisition);
-  if (!stored || !stored->values.contains("verification_error")) return std::nullopt;
-  return stored->values["verification_error"].get<double>();
+  const auto& measured = session_.figures<Stage::acquisition>();
+  return measured ? measured->verificationError : std::nullopt;
 }
 
 QStringList AcquirePage::findings() const {
   QStringList sentences;
-  if (const auto& stored = session_.result(Step::acquisition); stored && stored->values.contains("findings"))
-    for (const auto& finding : stored->values["findings"])
-      sentences << fullSentence(finding.get<std::string>());
+  if (const auto& measured = session_.figures<Stage::acquisition>())
+    for (const std::string& finding : measured->findings) sentences << fullSentence(finding);
   return sentences;
 }
 
 /// Tells nobody what cannot be read: Linearize does.
 void AcquirePage::lookAtResponse() {
-  const auto& stored = session_.result(Step::linearization);
+  const auto& stored = session_.result(Stage::linearization);
   std::string when = stored ? stored->stored + stored->inputs : std::string();
   if (std::exchange(responseStored_, when) == when) return;
   response_.reset();
@@ -338,7 +335,7 @@ void AcquirePage::ended() {
   trace_.end();
   if (session_.isOpen()) {
     session_.reload();
-    kept_ = session_.photographsKept(Step::acquisition);
+    kept_ = session_.photographsKept(Stage::acquisition);
   }
   if (session_.busy() == name()) session_.setBusy({});
   if (job_.state() != Job::State::cancelled) Q_EMIT measured();

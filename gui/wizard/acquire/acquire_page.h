@@ -74,8 +74,8 @@ class AcquirePage : public DevicePage {
   const AcquisitionTrace& trace() const { return trace_; }
   /// How often light and view are compared, and what follows.
   QString watching() const;
-  /// What it cost, as far as the folder tells: "patterns", "seconds", ...
-  std::optional<double> figure(const char* name) const;
+  /// What it cost, as far as the folder tells.
+  std::optional<StageCost> cost() const;
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
   /// What is worth knowing of the measurement, in sentences.

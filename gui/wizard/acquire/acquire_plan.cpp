@@ -52,7 +52,7 @@ std::uint64_t AcquirePage::freeBytes() const {
 }
 
 bool AcquirePage::isDone() const {
-  return !isMeasuring() && session_.progress(Step::acquisition) == StepProgress::done;
+  return !isMeasuring() && session_.progress(Stage::acquisition) == StageProgress::done;
 }
 
 void AcquirePage::enter() {

@@ -112,12 +112,11 @@ QWidget* resultPart(AcquirePage& model) {
   findings->setObjectName("findings");
   rows->addWidget(findings);
   auto refresh = [&model, part, patterns, photographs, error, findings] {
-    auto count = [&model](const char* name) {
-      return countText(static_cast<std::uint64_t>(model.figure(name).value_or(0.0)));
-    };
+    const StageCost cost = model.cost().value_or(StageCost());
+    const auto count = [](int number) { return countText(static_cast<std::uint64_t>(number)); };
     part->setVisible(model.verificationError().has_value());
-    patterns->setValue(count("patterns"));
-    photographs->setValue(count("exposures"));
+    patterns->setValue(count(cost.patterns));
+    photographs->setValue(count(cost.exposures));
     error->setValue(percentText(model.verificationError().value_or(0.0)));
     const QStringList found = model.findings();
     findings->setVisible(!found.isEmpty());

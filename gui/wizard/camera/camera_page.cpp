@@ -70,10 +70,10 @@ CameraPage::~CameraPage() {
 
 StepStatus CameraPage::status() const {
   if (isLooking()) {
-    bool done = session_.progress(Step::camera) == StepProgress::done;
+    bool done = session_.progress(Stage::camera) == StageProgress::done;
     return {done ? StepState::done : StepState::open, tr("Checking")};
   }
-  if (const auto& result = session_.result(Step::camera)) {
+  if (const auto& result = session_.result(Stage::camera)) {
     QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
     return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
   }
@@ -87,7 +87,7 @@ bool CameraPage::needsCamera() const {
 
 /// What was measured belongs to its camera.
 bool CameraPage::mayChooseCamera() const {
-  return session_.screenRig() != nullptr && session_.progress(Step::linearization) == StepProgress::open;
+  return session_.screenRig() != nullptr && session_.progress(Stage::linearization) == StageProgress::open;
 }
 
 void CameraPage::listCameras() {
@@ -133,7 +133,7 @@ QString CameraPage::hint() const {
 
 Command CameraPage::primary() const {
   auto* self = const_cast<CameraPage*>(this);
-  bool seen = look_.has_value() || session_.progress(Step::camera) == StepProgress::done;
+  bool seen = look_.has_value() || session_.progress(Stage::camera) == StageProgress::done;
   bool free = session_.busy().isEmpty() || isLooking();
   return {tr("Keep exposures"), Icon::next, seen && free, {}, [self] {
             if (self->look_) {
@@ -167,7 +167,7 @@ std::vector<Command> CameraPage::secondary() const {
 
 void CameraPage::enter() {
   if (needsCamera()) return listCameras();
-  bool wanted = session_.progress(Step::camera) != StepProgress::done;
+  bool wanted = session_.progress(Stage::camera) != StageProgress::done;
   if (wanted && session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty()) start();
 }
 
@@ -306,16 +306,14 @@ void CameraPage::ended() {
 }
 
 void CameraPage::keepLook() {
-  Json seconds = Json::array();
-  for (double exposure : exposures_.seconds) seconds.push_back(exposure);
-  Json kept{{"exposures", seconds}};
+  CameraCheckResult kept;
+  kept.exposures = exposures_.seconds;
   if (check_) {
-    kept["latency_seconds"] = check_->latency.seconds;
-    kept["verdicts"] = Json::array();
-    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept["verdicts"].push_back(sentence(verdict));
+    kept.latencySeconds = check_->latency.seconds;
+    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept.verdicts.push_back(sentence(verdict));
   }
   try {
-    session_.decide(Step::camera, std::move(kept));
+    session_.decide(kept);
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});

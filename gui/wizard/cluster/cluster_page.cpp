@@ -163,13 +163,13 @@ void ClusterPage::setSettings(const ClusteringSettings& settings) {
 
 StepStatus ClusterPage::status() const {
   int clusters = 0;
-  switch (session_.progress(Step::clustering)) {
-    case StepProgress::done:
-      clusters = session_.result(Step::clustering)->values.value("clusters", 0);
+  switch (session_.progress(Stage::clustering)) {
+    case StageProgress::done:
+      clusters = static_cast<int>(session_.figures<Stage::clustering>()->clusters);
       return {StepState::done, groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
-    case StepProgress::stale:
+    case StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StepProgress::open:
+    case StageProgress::open:
       break;
   }
   return {};
@@ -195,7 +195,7 @@ Command ClusterPage::primary() const {
 }
 
 std::optional<Banner> ClusterPage::banner() const {
-  if (session_.progress(Step::clustering) != StepProgress::stale) return std::nullopt;
+  if (session_.progress(Stage::clustering) != StageProgress::stale) return std::nullopt;
   return Banner{Banner::Kind::amber,
                 tr("The clusters that are kept belong to an earlier threshold"),
                 tr("What you see here is grouped anew. Going on keeps it."),
@@ -208,9 +208,8 @@ void ClusterPage::accept() {
     CalibrateSettings settings = session_.settings();
     settings.clustering = settings_;
     session_.changeSettings(settings);
-    session_.decide(Step::clustering, Json{{"clusters", result_->sizes.size()},
-                                           {"largest", result_->statistics.largest},
-                                           {"error_median", result_->statistics.errorMedian}});
+    session_.decide(ClusteringResult{result_->sizes.size(), result_->statistics.largest,
+                                     result_->statistics.errorMedian});
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});

@@ -21,10 +21,9 @@ QString rateSentence(std::optional<double> changes) {
 }  // namespace
 
 std::optional<double> measuredChanges(const Session& session) {
-  const auto& stored = session.result(Step::linearization);
-  if (!stored || !stored->values.contains("cost")) return std::nullopt;
-  double patterns = stored->values["cost"].value("patterns", 0.0);
-  double seconds = stored->values["cost"].value("seconds", 0.0);
+  const auto& measured = session.figures<Stage::linearization>();
+  if (!measured || !measured->cost) return std::nullopt;
+  const double patterns = measured->cost->patterns, seconds = measured->cost->seconds;
   return patterns > 0.0 && seconds > 0.0 ? std::optional(patterns / seconds) : std::nullopt;
 }
 

@@ -91,8 +91,8 @@ void StatusStrip::refresh() {
   const QString folder = QString::fromStdString(session_.path().string());
   disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
   QString latest;
-  for (Step step : allSteps)
-    if (const auto& result = session_.result(step))
+  for (Stage stage : allValues<Stage>())
+    if (const auto& result = session_.result(stage))
       latest = std::max(latest, QString::fromStdString(result->stored));
   QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
   saved_->setText(

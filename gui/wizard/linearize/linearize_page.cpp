@@ -6,7 +6,7 @@
 #include "calibration/results.h"
 #include "jobs/time_left.h"
 #include "pipeline/measuring.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "views/number_text.h"
 #include "wizard/devices/missing_screen.h"
 
@@ -32,7 +32,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(ses
 
 /// Takes what the folder holds, once for every result.
 void LinearizePage::look() {
-  const auto& stored = session_.result(Step::linearization);
+  const auto& stored = session_.result(Stage::linearization);
   if (!stored || stored->stored + stored->inputs == shown_) return;
   shown_ = stored->stored + stored->inputs;
   try {
@@ -48,16 +48,16 @@ void LinearizePage::look() {
 
 StepStatus LinearizePage::status() const {
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
-  switch (session_.progress(Step::linearization)) {
-    case StepProgress::done:
+  switch (session_.progress(Stage::linearization)) {
+    case StageProgress::done:
       if (result_ && !result_->additivityError.empty())
         return {StepState::done, tr("%1 additivity error")
                                      .arg(percentText(*std::max_element(result_->additivityError.begin(),
                                                                         result_->additivityError.end())))};
       return {StepState::done, tr("Measured")};
-    case StepProgress::stale:
+    case StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StepProgress::open:
+    case StageProgress::open:
       break;
   }
   if (job_.state() == Job::State::failed) return {StepState::failed, tr("Stopped by a failure")};
@@ -67,7 +67,7 @@ StepStatus LinearizePage::status() const {
 QString LinearizePage::hint() const {
   if (isMeasuring()) return job_.stage();
   if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
-  if (session_.progress(Step::linearization) == StepProgress::done) {
+  if (session_.progress(Stage::linearization) == StageProgress::done) {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
     if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
   }
@@ -77,7 +77,7 @@ QString LinearizePage::hint() const {
 
 Command LinearizePage::primary() const {
   auto* self = const_cast<LinearizePage*>(this);
-  bool done = session_.progress(Step::linearization) == StepProgress::done;
+  bool done = session_.progress(Stage::linearization) == StageProgress::done;
   if (done && !isMeasuring())
     return {addsUp() ? tr("Plan acquisition") : tr("Continue anyway"), Icon::next, true, {}, [self] {
               Q_EMIT self->nextWanted();
@@ -93,7 +93,7 @@ std::vector<Command> LinearizePage::secondary() const {
   auto* self = const_cast<LinearizePage*>(this);
   if (isMeasuring())
     return {{tr("Stop"), Icon::stop, !job_.isStopping(), QKeySequence("Ctrl+K"), [self] { self->finish(); }}};
-  if (session_.progress(Step::linearization) != StepProgress::done) return {};
+  if (session_.progress(Stage::linearization) != StageProgress::done) return {};
   return {{tr("Measure again"), Icon::retry, session_.busy().isEmpty() && session_.mayMeasure(),
            QKeySequence("Ctrl+R"), [self] { self->measure(true); }}};
 }
@@ -104,7 +104,7 @@ std::optional<double> LinearizePage::progress() const {
 
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
-  if (isMeasuring() || session_.progress(Step::linearization) != StepProgress::stale) return std::nullopt;
+  if (isMeasuring() || session_.progress(Stage::linearization) != StageProgress::stale) return std::nullopt;
   auto* self = const_cast<LinearizePage*>(this);
   return Banner{
       Banner::Kind::amber,
@@ -115,9 +115,9 @@ std::optional<Banner> LinearizePage::banner() const {
 }
 
 std::optional<double> LinearizePage::seconds() const {
-  const auto& stored = session_.result(Step::linearization);
-  if (!stored || !stored->values.contains("cost")) return std::nullopt;
-  return stored->values["cost"].value("seconds", 0.0);
+  const auto& measured = session_.figures<Stage::linearization>();
+  if (!measured || !measured->cost) return std::nullopt;
+  return measured->cost->seconds;
 }
 
 const ProjectorResponse* LinearizePage::response() const {
@@ -158,7 +158,7 @@ void LinearizePage::measure(bool again) {
     if (again) {
       CalibrateSettings settings = settingsOf(folder);
       ++settings.linearization.seed;
-      setShotsAside(folder, stage::linearization);
+      setShotsAside(folder, Stage::linearization);
       changeSettings(folder, settings);
     }
     Progress measuring = progress.part(0.8, tr("Measuring the response").toStdString());

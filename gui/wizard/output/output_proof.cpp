@@ -39,7 +39,7 @@ std::vector<fs::path> showLogs() {
 
 /// When the light transport was measured.
 std::string measurementOf(const Session& session) {
-  const auto& stored = session.result(Step::acquisition);
+  const auto& stored = session.result(Stage::acquisition);
   return stored ? stored->stored : std::string();
 }
 

@@ -12,7 +12,7 @@
 #include "image/colour.h"
 #include "image/metrics.h"
 #include "output/own_picture.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "output/own_picture.h"
 #include "pipeline/measuring.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "views/number_text.h"
 
 namespace relucent {
@@ -78,7 +78,7 @@ void PreviewPage::prepare() {
   if (!session_.isOpen() || job_.isRunning() || !session_.busy().isEmpty()) return;
   const ThresholdSettings& cut = session_.settings().threshold;
   std::string wanted = fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept,
-                                   session_.result(Step::acquisition)->stored);
+                                   session_.result(Stage::acquisition)->stored);
   if (wanted == preparedFor_) return;
   preparedFor_ = wanted;
   engine_ = nullptr;
@@ -198,16 +198,15 @@ void PreviewPage::compareNext() {
 
 StepStatus PreviewPage::status() const {
   if (job_.isRunning())
-    return {session_.progress(Step::content) == StepProgress::open ? StepState::open : StepState::done,
+    return {session_.progress(Stage::content) == StageProgress::open ? StepState::open : StepState::done,
             tr("Preparing")};
-  switch (session_.progress(Step::content)) {
-    case StepProgress::done:
-      return {
-          StepState::done,
-          tr("%1 in reach").arg(percentText(session_.result(Step::content)->values.value("reachable", 0.0)))};
-    case StepProgress::stale:
+  switch (session_.progress(Stage::content)) {
+    case StageProgress::done:
+      return {StepState::done,
+              tr("%1 in reach").arg(percentText(session_.figures<Stage::content>()->reachable))};
+    case StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StepProgress::open:
+    case StageProgress::open:
       break;
   }
   return {};
@@ -238,8 +237,7 @@ void PreviewPage::accept() {
     CalibrateSettings settings = session_.settings();
     settings.content = settings_;
     session_.changeSettings(settings);
-    session_.decide(Step::content,
-                    Json{{"reachable", preview_->reachableShare}, {"delta_e", preview_->deltaEMean}});
+    session_.decide(ContentResult{preview_->reachableShare, preview_->deltaEMean});
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});

@@ -9,8 +9,7 @@
 #include "devices/test_exposure.h"
 #include "output/window_projector.h"
 #include "pipeline/measuring.h"
-#include "pipeline/settings_json.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "rig/watched_rig.h"
 #include "wizard/session/other_screens.h"
 
@@ -182,9 +181,9 @@ void Session::equip() {
   devices_ = std::make_shared<SessionDevices>(
       settings_.rig, cache_, live_, [this](const ScreenRigSettings& screen) { return openScreen(screen); },
       patience_);
-  const auto& checked = result(Step::camera);
-  if (checked && progress(Step::camera) == StepProgress::done && checked->values.contains("latency_seconds"))
-    devices_->setLatency(checked->values["latency_seconds"].get<double>());
+  const auto& checked = figures<Stage::camera>();
+  if (checked && progress(Stage::camera) == StageProgress::done && checked->latencySeconds)
+    devices_->setLatency(*checked->latencySeconds);
 }
 
 /// Called on a worker's thread.
@@ -234,7 +233,8 @@ void Session::close() {
   devices_ = nullptr;
   acquisition_ = nullptr;
   acquired_.clear();
-  steps_ = {};
+  stages_ = {};
+  figures_ = {};
   settings_ = {};
   Q_EMIT opened();
   Q_EMIT changed();
@@ -242,11 +242,12 @@ void Session::close() {
 
 void Session::look(const CalibrationFolder& folder) {
   settings_ = settingsOf(folder);
-  const RigSettings measured = rigFromJson(folder.rig());
+  const RigSettings measured = measuredRigOf(folder);
   const auto* screen = std::get_if<ScreenRigSettings>(&measured);
   measuredDisplay_ = screen != nullptr ? screen->display : ScreenRigSettings::Display();
-  for (Step step : allSteps)
-    steps_[static_cast<std::size_t>(step)] = {progressOf(folder, step), resultOf(folder, step)};
+  figures_ = resultsIn(folder);
+  for (Stage stage : allValues<Stage>())
+    stages_[static_cast<std::size_t>(stage)] = {progressOf(folder, stage), resultOf(folder, stage)};
 }
 
 void Session::reload() {
@@ -263,7 +264,11 @@ bool Session::hasLight() const {
 }
 
 std::size_t Session::projectors() const {
-  return measuredDevices("projectors").value_or(projectorsOf(settings_.rig));
+  if (const auto& measured = figures<Stage::acquisition>(); measured && !measured->projectors.empty())
+    return measured->projectors.size();
+  if (const auto& measured = figures<Stage::linearization>(); measured && measured->projectors > 0)
+    return measured->projectors;
+  return projectorsOf(settings_.rig);
 }
 
 std::size_t Session::projectorsOf(const RigSettings& rig) {
@@ -274,54 +279,44 @@ std::size_t Session::projectorsOf(const RigSettings& rig) {
 }
 
 std::size_t Session::cameras() const {
-  return measuredDevices("cameras").value_or(1);
-}
-
-/// As the results of measurements list them.
-std::optional<std::size_t> Session::measuredDevices(const char* kind) const {
-  for (Step step : {Step::acquisition, Step::linearization})
-    if (const auto& stored = result(step); stored && stored->values.contains(kind))
-      return std::max<std::size_t>(1, stored->values[kind].size());
-  return std::nullopt;
+  if (const auto& measured = figures<Stage::acquisition>(); measured && !measured->cameras.empty())
+    return measured->cameras.size();
+  if (const auto& measured = figures<Stage::linearization>(); measured && measured->cameras > 0)
+    return measured->cameras;
+  return 1;
 }
 
 Size Session::projectorSize(std::size_t projector) const {
-  if (const auto& measured = result(Step::acquisition); measured && projector < projectors()) {
-    const Json& size = measured->values.at("projectors").at(projector);
-    return {size.at(0), size.at(1)};
-  }
+  if (const auto& measured = figures<Stage::acquisition>();
+      measured && projector < measured->projectors.size())
+    return measured->projectors[projector];
   return std::visit(ProjectorSize{}, settings_.rig);
 }
 
-int Session::photographsKept(Step step) const {
+int Session::photographsKept(Stage stage) const {
   int count = 0;
   std::error_code code;
-  std::string begin = std::string(toString(step)) + "-";
+  const std::string begin = fmt::format("{}-", nameOf(stage));
   for (const fs::directory_entry& entry : fs::directory_iterator(path_ / "shots", code))
     if (entry.path().filename().string().starts_with(begin)) ++count;
   return count;
 }
 
-void Session::changeSettings(const CalibrateSettings& settings) {
+void Session::change(const std::function<void(CalibrationFolder&)>& write) {
   {
     CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
-    relucent::changeSettings(folder, settings);
+    write(folder);
     look(folder);
   }
   Q_EMIT changed();
 }
 
-void Session::decide(Step step, Json values) {
-  {
-    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
-    storeDecision(folder, step, std::move(values));
-    look(folder);
-  }
-  Q_EMIT changed();
+void Session::changeSettings(const CalibrateSettings& settings) {
+  change([&](CalibrationFolder& folder) { relucent::changeSettings(folder, settings); });
 }
 
 void Session::wantAcquisition() {
-  const std::optional<StageResult>& stored = result(Step::acquisition);
+  const std::optional<StageResult>& stored = result(Stage::acquisition);
   if (!stored || stored->stored == acquired_) return;
   acquired_ = stored->stored;
   acquisition_ = nullptr;

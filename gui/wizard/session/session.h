@@ -10,12 +10,14 @@
 #include <optional>
 
 #include "calibration/calibration_folder.h"
+#include "calibration/results.h"
+#include "calibration/stage_progress.h"
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
 #include "pipeline/check.h"
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
-#include "pipeline/steps.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 
@@ -98,10 +100,15 @@ class Session : public QObject {
   void close();
 
   const CalibrateSettings& settings() const { return settings_; }
-  StepProgress progress(Step step) const { return steps_[static_cast<std::size_t>(step)].progress; }
+  StageProgress progress(Stage stage) const { return stages_[static_cast<std::size_t>(stage)].progress; }
   /// What a step left behind, perhaps stale.
-  const std::optional<StageResult>& result(Step step) const {
-    return steps_[static_cast<std::size_t>(step)].result;
+  const std::optional<StageResult>& result(Stage stage) const {
+    return stages_[static_cast<std::size_t>(stage)].result;
+  }
+  /// What that result says.
+  template <Stage stage>
+  const std::optional<ResultOf<stage>>& figures() const {
+    return std::get<static_cast<std::size_t>(stage)>(figures_);
   }
   bool isSimulated() const;
   /// Devices that shine into a room.
@@ -115,11 +122,15 @@ class Session : public QObject {
   static std::size_t projectorsOf(const RigSettings& rig);
   Size projectorSize(std::size_t projector = 0) const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
-  int photographsKept(Step step) const;
+  int photographsKept(Stage stage) const;
 
   /// Throws: Error{disk}.
   void changeSettings(const CalibrateSettings& settings);
-  void decide(Step step, Json values);
+  /// Keeps what somebody decided at a stage. Throws: Error{disk}.
+  template <typename Decision>
+  void decide(const Decision& decision) {
+    change([&](CalibrationFolder& folder) { storeDecision(folder, decision); });
+  }
   /// Other devices, before anything is measured. Throws: as changeRig().
   void changeRig(const RigSettings& rig);
   /// The projector is another screen from now on; nothing that was measured becomes stale.
@@ -128,7 +139,7 @@ class Session : public QObject {
   /// As which screen the projector was measured; see screenRig() for what it is now.
   const ScreenRigSettings::Display& measuredDisplay() const { return measuredDisplay_; }
   /// Something was measured that belongs to these devices.
-  bool isMeasured() const { return result(Step::linearization).has_value(); }
+  bool isMeasured() const { return result(Stage::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
   /// Looks at the folder again, after some work wrote into it.
   void reload();
@@ -172,13 +183,14 @@ class Session : public QObject {
   void changed();
 
  private:
-  struct StepState {
-    StepProgress progress = StepProgress::open;
+  struct StageState {
+    StageProgress progress = StageProgress::open;
     std::optional<StageResult> result;
   };
   void look(const CalibrationFolder& folder);
+  /// Writes into the calibration and looks at it again.
+  void change(const std::function<void(CalibrationFolder&)>& write);
   void adopt(const CalibrationFolder& folder);
-  std::optional<std::size_t> measuredDevices(const char* kind) const;
   void slowDown();
   void equip();
   std::unique_ptr<ScreenProjector> openScreen(const ScreenRigSettings& settings);
@@ -186,7 +198,8 @@ class Session : public QObject {
   std::filesystem::path path_, cache_;
   CalibrateSettings settings_;
   ScreenRigSettings::Display measuredDisplay_;
-  std::array<StepState, allSteps.size()> steps_;
+  std::array<StageState, stageCount> stages_;
+  StageResults figures_;
   std::shared_ptr<LiveRig> live_;
   std::shared_ptr<SessionDevices> devices_;
   std::shared_ptr<const Acquisition> acquisition_;

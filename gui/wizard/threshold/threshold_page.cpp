@@ -140,14 +140,13 @@ void ThresholdPage::compute() {
 }
 
 StepStatus ThresholdPage::status() const {
-  switch (session_.progress(Step::threshold)) {
-    case StepProgress::done:
+  switch (session_.progress(Stage::threshold)) {
+    case StageProgress::done:
       return {StepState::done,
-              tr("%1 of light kept")
-                  .arg(percentText(session_.result(Step::threshold)->values.value("kept", 1.0)))};
-    case StepProgress::stale:
+              tr("%1 of light kept").arg(percentText(session_.figures<Stage::threshold>()->energyKept))};
+    case StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StepProgress::open:
+    case StageProgress::open:
       break;
   }
   return {};
@@ -166,7 +165,7 @@ Command ThresholdPage::primary() const {
 }
 
 std::optional<Banner> ThresholdPage::banner() const {
-  if (session_.progress(Step::threshold) != StepProgress::stale) return std::nullopt;
+  if (session_.progress(Stage::threshold) != StageProgress::stale) return std::nullopt;
   return Banner{Banner::Kind::amber,
                 tr("The threshold was chosen for an earlier measurement"),
                 tr("Look at it again, then go on."),
@@ -294,7 +293,7 @@ void ThresholdPage::accept() {
     CalibrateSettings settings = session_.settings();
     settings.threshold = cut_;
     session_.changeSettings(settings);
-    session_.decide(Step::threshold, Json{{"kept", kept_->energyKept}, {"leaves", kept_->leaves}});
+    session_.decide(ThresholdResult{kept_->energyKept, kept_->leaves});
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});

@@ -6,8 +6,8 @@
 #include <QFileInfo>
 
 #include "base/error.h"
-#include "pipeline/stages.h"
-#include "pipeline/steps.h"
+#include "calibration/stage_progress.h"
+#include "pipeline/stored_settings.h"
 
 namespace relucent {
 namespace {
@@ -19,11 +19,11 @@ struct Words {
 constexpr const char* key = "recent/venues";
 
 QString stateOf(const CalibrationFolder& folder) {
-  if (progressOf(folder, Step::acquisition) == StepProgress::open)
-    return progressOf(folder, Step::linearization) == StepProgress::open ? Words::tr("Nothing measured yet")
-                                                                         : Words::tr("Acquire is next");
-  if (progressOf(folder, Step::content) == StepProgress::done) return Words::tr("Ready to play");
-  if (progressOf(folder, Step::content) == StepProgress::stale) return Words::tr("Preview out of date");
+  if (progressOf(folder, Stage::acquisition) == StageProgress::open)
+    return progressOf(folder, Stage::linearization) == StageProgress::open ? Words::tr("Nothing measured yet")
+                                                                           : Words::tr("Acquire is next");
+  if (progressOf(folder, Stage::content) == StageProgress::done) return Words::tr("Ready to play");
+  if (progressOf(folder, Stage::content) == StageProgress::stale) return Words::tr("Preview out of date");
   return Words::tr("Measured");
 }
 

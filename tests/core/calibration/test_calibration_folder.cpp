@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "calibration/calibration_folder.h"
+#include "calibration/json.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;
@@ -66,7 +67,7 @@ class TestCalibrationFolder : public QObject {
     QVERIFY(read.rig() == Json({{"venue", "corner"}}));
     QVERIFY(read.settings() == Json({{"levels", 33}}));
     QCOMPARE(read.created().size(), std::string("2000-01-01T00:00:00Z").size());
-    QVERIFY(!read.latest("linearization"));
+    QVERIFY(!read.latest(Stage::linearization));
     // The manifest itself can be named too, as a file dialog does.
     CalibrationFolder byManifest =
         CalibrationFolder::open(root_ / "a/new/calibration.relucent", Access::read);
@@ -146,7 +147,7 @@ class TestCalibrationFolder : public QObject {
     {
       CalibrationFolder folder =
           CalibrationFolder::create(root_ / "c", {{"venue", "corner"}}, Json::object());
-      folder.store("linearization", "f1", {{"x", 1.5}});
+      folder.store(Stage::linearization, "f1", {{"x", 1.5}});
     }
     fs::path manifest = root_ / "c/calibration.relucent";
     std::string whole = readFile(manifest);
@@ -184,64 +185,67 @@ class TestCalibrationFolder : public QObject {
   void aReaderCannotStore() {
     { CalibrationFolder::create(root_ / "c", {}, {}); }
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", Access::read);
-    QVERIFY_EXCEPTION_THROWN(folder.store("stage", "f", {}), std::logic_error);
+    QVERIFY_EXCEPTION_THROWN(folder.store(Stage::threshold, "f", {}), std::logic_error);
     QVERIFY_EXCEPTION_THROWN(folder.setSettings({}), std::logic_error);
   }
 
   void resultsAreKeptAndBecomeStaleAndCurrentAgain() {
     {
       CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {{"threshold", 1}});
-      QVERIFY(!folder.isCurrent("acquisition", "f1"));
-      QVERIFY(!folder.isStale("acquisition", "f1"));
-      folder.store("acquisition", "f1", {{"patterns", 805}},
+      QVERIFY(!folder.isCurrent(Stage::acquisition, "f1"));
+      QVERIFY(!folder.latest(Stage::acquisition));
+      folder.store(Stage::acquisition, "f1", {{"patterns", 805}},
                    [](const fs::path& in) { writeFileAtomically(in / "transport.npz", "first"); });
-      QVERIFY(folder.isCurrent("acquisition", "f1"));
-      QVERIFY(folder.isStale("acquisition", "f2"));
+      QVERIFY(folder.isCurrent(Stage::acquisition, "f1"));
+      QVERIFY(folder.latest(Stage::acquisition) && !folder.isCurrent(Stage::acquisition, "f2"));
       folder.setSettings({{"threshold", 2}});
-      folder.store("acquisition", "f2", {{"patterns", 9}},
+      folder.store(Stage::acquisition, "f2", {{"patterns", 9}},
                    [](const fs::path& in) { writeFileAtomically(in / "transport.npz", "second one"); });
     }
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", Access::read);
     QVERIFY(folder.settings() == Json({{"threshold", 2}}));
-    QVERIFY(folder.isCurrent("acquisition", "f1"));
-    QVERIFY(folder.isCurrent("acquisition", "f2"));
-    QVERIFY(folder.isStale("acquisition", "f3"));
-    QCOMPARE(readFile(fileOf(*folder.find("acquisition", "f1"), "transport.npz")), std::string("first"));
-    QCOMPARE(readFile(fileOf(*folder.latest("acquisition"), "transport.npz")), std::string("second one"));
-    QCOMPARE(folder.find("acquisition", "f1")->values.at("patterns").get<int>(), 805);
+    QVERIFY(folder.isCurrent(Stage::acquisition, "f1"));
+    QVERIFY(folder.isCurrent(Stage::acquisition, "f2"));
+    QVERIFY(folder.latest(Stage::acquisition) && !folder.isCurrent(Stage::acquisition, "f3"));
+    QCOMPARE(readFile(fileOf(*folder.find(Stage::acquisition, "f1"), "transport.npz")), std::string("first"));
+    QCOMPARE(readFile(fileOf(*folder.latest(Stage::acquisition), "transport.npz")),
+             std::string("second one"));
+    QCOMPARE(folder.find(Stage::acquisition, "f1")->values->at("patterns").get<int>(), 805);
   }
 
   void aNewerResultForTheSameInputsWins() {
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
-    folder.store("acquisition", "f", {{"levels", 5}},
+    folder.store(Stage::acquisition, "f", {{"levels", 5}},
                  [](const fs::path& in) { writeFileAtomically(in / "t", "1"); });
-    folder.store("acquisition", "f", {{"levels", 9}},
+    folder.store(Stage::acquisition, "f", {{"levels", 9}},
                  [](const fs::path& in) { writeFileAtomically(in / "t", "2"); });
-    QCOMPARE(folder.find("acquisition", "f")->values.at("levels").get<int>(), 9);
-    QCOMPARE(readFile(fileOf(*folder.find("acquisition", "f"), "t")), std::string("2"));
+    QCOMPARE(folder.find(Stage::acquisition, "f")->values->at("levels").get<int>(), 9);
+    QCOMPARE(readFile(fileOf(*folder.find(Stage::acquisition, "f"), "t")), std::string("2"));
   }
 
   void numbersSurviveToTheLastBit() {
     std::vector<double> numbers{0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, -2.5e-17};
-    { CalibrationFolder::create(root_ / "c", {}, {}).store("s", "f", {{"numbers", numbers}}); }
+    { CalibrationFolder::create(root_ / "c", {}, {}).store(Stage::threshold, "f", {{"numbers", numbers}}); }
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", Access::read);
-    QCOMPARE(folder.latest("s")->values.at("numbers").get<std::vector<double>>(), numbers);
+    QCOMPARE(folder.latest(Stage::threshold)->values->at("numbers").get<std::vector<double>>(), numbers);
   }
 
   void aFailedStoreLeavesEverythingAsItWas() {
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
-    folder.store("s", "f1", {}, [](const fs::path& in) { writeFileAtomically(in / "a", "good"); });
+    folder.store(Stage::threshold, "f1", {},
+                 [](const fs::path& in) { writeFileAtomically(in / "a", "good"); });
     std::string manifest = readFile(root_ / "c/calibration.relucent");
     auto fail = [](const fs::path& in) {
       writeFileAtomically(in / "a", "half");
       throw Error(ErrorKind::disk, "the disk is full", "free some space");
     };
-    QVERIFY(kindOf([&] { folder.store("s", "f2", {}, fail); }) == ErrorKind::disk);
+    QVERIFY(kindOf([&] { folder.store(Stage::threshold, "f2", {}, fail); }) == ErrorKind::disk);
     QCOMPARE(readFile(root_ / "c/calibration.relucent"), manifest);
     QCOMPARE(std::distance(fs::directory_iterator(root_ / "c/results"), fs::directory_iterator()), 1);
-    QVERIFY(folder.isStale("s", "f2"));
-    folder.store("s", "f2", {}, [](const fs::path& in) { writeFileAtomically(in / "a", "again"); });
-    QCOMPARE(readFile(fileOf(*folder.latest("s"), "a")), std::string("again"));
+    QVERIFY(folder.latest(Stage::threshold) && !folder.isCurrent(Stage::threshold, "f2"));
+    folder.store(Stage::threshold, "f2", {},
+                 [](const fs::path& in) { writeFileAtomically(in / "a", "again"); });
+    QCOMPARE(readFile(fileOf(*folder.latest(Stage::threshold), "a")), std::string("again"));
   }
 
   void leftoversAreClearedAwayAndNothingElse() {
@@ -258,8 +262,9 @@ class TestCalibrationFolder : public QObject {
 
   void filesThatChangedAreFound() {
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
-    StageResult result = folder.store(
-        "s", "f", {}, [](const fs::path& in) { writeFileAtomically(in / "transport.npz", "12345"); });
+    StageResult result = folder.store(Stage::threshold, "f", {}, [](const fs::path& in) {
+      writeFileAtomically(in / "transport.npz", "12345");
+    });
     writeFileAtomically(result.folder / "transport.npz", "123");
     std::string sentence = sentenceOf([&] { fileOf(result, "transport.npz"); });
     QVERIFY2(contains(sentence, "3 bytes instead of 5"), sentence.c_str());

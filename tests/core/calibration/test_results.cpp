@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "calibration/json.h"
 #include "calibration/results.h"
 
 using namespace relucent;
@@ -60,10 +61,10 @@ class TestResults : public QObject {
     Linearization before = someLinearization();
     {
       CalibrationFolder made = CalibrationFolder::create(root_ / "c", {}, {});
-      storeLinearization(made, "f", before, {{"seconds", 1.5}});
+      storeLinearization(made, "f", before, {1.5});
     }
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", CalibrationFolder::Access::read);
-    Linearization after = loadLinearization(folder.find("linearization", "f").value());
+    Linearization after = loadLinearization(folder.find(Stage::linearization, "f").value());
     QCOMPARE(after.exposures, before.exposures);
     QCOMPARE(after.findings, before.findings);
     QCOMPARE(after.cameras[0].times, before.cameras[0].times);
@@ -86,7 +87,9 @@ class TestResults : public QObject {
     QFETCH(QByteArray, value);
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
     StageResult result = storeLinearization(folder, "f", someLinearization(), {});
-    result.values[Json::json_pointer(path.toStdString())] = Json::parse(value.toStdString());
+    Json values = *result.values;
+    values[Json::json_pointer(path.toStdString())] = Json::parse(value.toStdString());
+    result.values = std::make_shared<const Json>(std::move(values));
     try {
       loadLinearization(result);
       QFAIL("was read");

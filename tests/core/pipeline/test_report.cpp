@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "calibration/calibration_folder.h"
+#include "calibration/json.h"
 #include "pipeline/report.h"
 #include "pipeline/report_charts.h"
 #include "pipeline/report_pictures.h"
@@ -77,7 +78,7 @@ ReportData fullData() {
   data.evaluation = evaluation;
   data.verification = {waves(0.0, 0.5), waves(0.8, 0.4), waves(0.1, 0.5), 18.5, 3.25, "2026-01-02T04:05:06Z"};
   data.libraries = {{"Eigen", "3.4.0"}, {"A & B", "1"}};
-  data.settings = {{"acquisition", {{"relative_threshold", 0.008}}}, {"rig", {{"name", "<corner>"}}}};
+  data.settings = {{"acquisition.relative_threshold", "0.008"}, {"rig.name", "<corner>"}};
   return data;
 }
 

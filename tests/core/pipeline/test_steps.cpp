@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Stages one by one, and what somebody decides between them.
-#include "pipeline/steps.h"
+#include "pipeline/stored_settings.h"
 
 #include <QTemporaryDir>
 #include <QTest>
 
 #include "base/error.h"
+#include "calibration/json.h"
 #include "calibration/results.h"
+#include "calibration/stage_fingerprint.h"
+#include "calibration/stage_progress.h"
+#include "pipeline/calibrate.h"
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/measuring.h"
 #include "pipeline/settings_json.h"
-#include "pipeline/stages.h"
 
 using namespace relucent;
 namespace fs = std::filesystem;
@@ -28,6 +31,14 @@ CalibrateSettings tiny() {
   settings.rig = venue;
   settings.linearization.levels = 5;
   return settings;
+}
+
+void decideEverything(CalibrationFolder& folder) {
+  storeDecision(folder, CameraCheckResult());
+  storeDecision(folder, ThresholdResult());
+  storeDecision(folder, ClusteringResult{31, 256, 0.12});
+  storeDecision(folder, ContentResult());
+  storeInverse(folder, InverseResult());
 }
 
 }  // namespace
@@ -47,17 +58,17 @@ class TestSteps : public QObject {
 
     CalibrationFolder folder = beginCalibration(path("one by one"), tiny());
     OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
-    for (Step step : allSteps) QVERIFY(progressOf(folder, step) == StepProgress::open);
+    for (Stage step : allValues<Stage>()) QVERIFY(progressOf(folder, step) == StageProgress::open);
     Linearization linearization = measureLinearization(folder, devices.rig, quiet);
-    QVERIFY(progressOf(folder, Step::linearization) == StepProgress::done);
+    QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
     Acquisition acquisition = measureAcquisition(folder, devices.rig, linearization, {}, quiet);
     MeasuredVenue venue = measuredVenueOf(acquisition, settingsOf(folder).threshold);
     measureInverse(folder, venue, quiet);
 
-    Acquisition expected = loadAcquisition(*atOnce.latest(stage::acquisition));
+    Acquisition expected = loadAcquisition(*atOnce.latest(Stage::acquisition));
     QVERIFY(acquisition.transport.leaves() == expected.transport.leaves());
-    QCOMPARE(folder.latest(stage::inverse)->values["ridge"].get<double>(),
-             atOnce.latest(stage::inverse)->values["ridge"].get<double>());
+    QCOMPARE(resultFrom<Stage::inverse>(*folder.latest(Stage::inverse)).ridge.value(),
+             resultFrom<Stage::inverse>(*atOnce.latest(Stage::inverse)).ridge.value());
     QVERIFY(takeMeasuredVenue(expected, {}).transport.leaves() == venue.transport.leaves());
   }
 
@@ -66,18 +77,18 @@ class TestSteps : public QObject {
     ScreenRigSettings screen{{"HDMI-1", "", "", ""}, {24, 18}};
     settings.rig = screen;
     CalibrationFolder folder = beginCalibration(path("exchanged"), settings);
-    storeDecision(folder, Step::camera, {{"figure", 1}});
+    storeDecision(folder, CameraCheckResult());
     screen.cameraAddress = "telescope:7";
     QVERIFY_THROWS_EXCEPTION(Error, changeRig(folder, screen));
     screen.cameraAddress = "genicam:7";
     changeRig(folder, screen);
     QCOMPARE(std::get<ScreenRigSettings>(settingsOf(folder).rig).cameraAddress, std::string("genicam:7"));
     // What was decided with other devices is no longer current.
-    QVERIFY(progressOf(folder, Step::camera) == StepProgress::stale);
+    QVERIFY(progressOf(folder, Stage::camera) == StageProgress::stale);
     // Core has no windows.
     Progress quiet;
     QVERIFY_THROWS_EXCEPTION(Error, openRig(settingsOf(folder).rig, {}, quiet));
-    folder.store(stage::linearization, linearizationFingerprint(folder), Json::object());
+    folder.store(Stage::linearization, fingerprintOf(folder, Stage::linearization), Json::object());
     QVERIFY_THROWS_EXCEPTION(Error, changeRig(folder, screen));
   }
 
@@ -86,10 +97,9 @@ class TestSteps : public QObject {
     ScreenRigSettings screen{{"HDMI-1", "Maker", "Model", "1"}, {24, 18}};
     settings.rig = screen;
     CalibrationFolder folder = beginCalibration(path("replugged"), settings);
-    folder.store(stage::linearization, linearizationFingerprint(folder), Json::object());
-    folder.store(stage::acquisition, acquisitionFingerprint(folder), Json::object());
-    for (Step step : {Step::camera, Step::threshold, Step::clustering, Step::content})
-      storeDecision(folder, step, {{"figure", 1}});
+    folder.store(Stage::linearization, fingerprintOf(folder, Stage::linearization), Json::object());
+    folder.store(Stage::acquisition, fingerprintOf(folder, Stage::acquisition), Json::object());
+    decideEverything(folder);
     const auto now = [&] { return std::get<ScreenRigSettings>(settingsOf(folder).rig); };
 
     ScreenRigSettings elsewhere = now();
@@ -100,7 +110,8 @@ class TestSteps : public QObject {
     QVERIFY(now().display == elsewhere.display);
     QCOMPARE(now().frameRate, 50.0);
     QVERIFY(now().cameraAddress.empty());
-    for (Step step : allSteps) QVERIFY2(progressOf(folder, step) == StepProgress::done, toString(step));
+    for (Stage step : allValues<Stage>())
+      QVERIFY2(progressOf(folder, step) == StageProgress::done, nameOf(step).data());
     // What was measured stays on record, and a changed setting leaves the screen where it is.
     QVERIFY(std::get<ScreenRigSettings>(rigFromJson(folder.rig())).display == screen.display);
     CalibrateSettings changed = settingsOf(folder);
@@ -129,27 +140,26 @@ class TestSteps : public QObject {
 
   void aChangedSettingMakesWhatFollowsStaleAndSettingItBackMakesItCurrent() {
     CalibrationFolder folder = beginCalibration(path("stale"), tiny());
-    for (Step step : {Step::camera, Step::threshold, Step::clustering, Step::content})
-      storeDecision(folder, step, {{"figure", 1}});
+    decideEverything(folder);
     CalibrateSettings before = settingsOf(folder), changed = before;
     changed.threshold.absolute = 0.5f;
     changeSettings(folder, changed);
-    QVERIFY(progressOf(folder, Step::camera) == StepProgress::done);
-    for (Step step : {Step::threshold, Step::clustering, Step::content})
-      QVERIFY(progressOf(folder, step) == StepProgress::stale);
-    QCOMPARE(resultOf(folder, Step::clustering)->values["figure"].get<int>(), 1);
+    QVERIFY(progressOf(folder, Stage::camera) == StageProgress::done);
+    for (Stage step : {Stage::threshold, Stage::clustering, Stage::content})
+      QVERIFY(progressOf(folder, step) == StageProgress::stale);
+    QCOMPARE(resultFrom<Stage::clustering>(*resultOf(folder, Stage::clustering)).clusters, 31U);
 
     changed = before;
     changed.clustering.patchRadius = 5.0;
     changeSettings(folder, changed);
-    QVERIFY(progressOf(folder, Step::threshold) == StepProgress::done);
-    QVERIFY(progressOf(folder, Step::clustering) == StepProgress::stale);
-    QVERIFY(progressOf(folder, Step::content) == StepProgress::done);
+    QVERIFY(progressOf(folder, Stage::threshold) == StageProgress::done);
+    QVERIFY(progressOf(folder, Stage::clustering) == StageProgress::stale);
+    QVERIFY(progressOf(folder, Stage::content) == StageProgress::done);
 
     changeSettings(folder, before);
-    for (Step step : {Step::threshold, Step::clustering, Step::content})
-      QVERIFY(progressOf(folder, step) == StepProgress::done);
-    QVERIFY(!resultOf(folder, Step::linearization));
+    for (Stage step : {Stage::threshold, Stage::clustering, Stage::content})
+      QVERIFY(progressOf(folder, step) == StageProgress::done);
+    QVERIFY(!resultOf(folder, Stage::linearization));
   }
 
   void theContentsPlaceIsKept() {
@@ -184,9 +194,9 @@ class TestSteps : public QObject {
     CalibrationFolder folder = beginCalibration(path("aside"), tiny());
     OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
     measureLinearization(folder, devices.rig, quiet);
-    setShotsAside(folder, stage::acquisition);  // there are none
-    setShotsAside(folder, stage::linearization);
-    QVERIFY(progressOf(folder, Step::linearization) == StepProgress::done);
+    setShotsAside(folder, Stage::acquisition);  // there are none
+    setShotsAside(folder, Stage::linearization);
+    QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
     int left = 0;
     for (const auto& entry : fs::directory_iterator(folder.shotFolder())) left += entry.is_regular_file();
     QCOMPARE(left, 0);

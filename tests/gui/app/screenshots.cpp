@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
   Wizard& steps = wizard.wizard();
   steps.go(1);
   // Exposures that were kept before are not looked for again.
-  const bool isDecided = wizard.session().result(Step::camera).has_value();
+  const bool isDecided = wizard.session().result(Stage::camera).has_value();
   if (!isDecided) until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
   photographs.take("02-camera");
   if (isDecided)

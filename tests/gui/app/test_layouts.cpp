@@ -202,7 +202,8 @@ class TestLayouts : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().isPaused(), patience);
     page("paused");
     wizard_->acquire().resume();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Step::acquisition) == StepProgress::done, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
+                             patience);
     // Whoever measured in many languages says in the last that the devices are free.
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
     wizard_->acquire().primary().run();
@@ -275,7 +276,7 @@ class TestLayouts : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->camera().isListing() && !wizard_->camera().cameras().cameras.empty(),
                              patience);
     page("choosing");
-    wizard_->session().decide(Step::camera, Json{{"exposures", {1.0}}});
+    wizard_->session().decide(CameraCheckResult{.exposures = {1.0}});
     pages({2}, "asking for consent");
   }
 

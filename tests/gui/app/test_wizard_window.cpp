@@ -234,7 +234,7 @@ class TestWizardWindow : public QObject {
   void theResponseIsMeasured() {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
     click("primary");
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Step::linearization) == StepProgress::done,
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::linearization) == StageProgress::done,
                              patience);
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->linearize().isMeasuring(), patience);
     QVERIFY(wizard_->linearize().addsUp());
@@ -254,7 +254,8 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(wizard_->acquire().isPaused());
     press(QKeySequence("Ctrl+P"));
     QTRY_VERIFY(!wizard_->acquire().isPaused());
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Step::acquisition) == StepProgress::done, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
+                             patience);
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->acquire().isMeasuring(), patience);
     QVERIFY(wizard_->acquire().verificationError().has_value());
     QVERIFY(wizard_->session().roomLight().has_value());

@@ -33,7 +33,7 @@ ReportData data() {
   data.black = Image({64, 48}, 3);
   for (float& value : data.black.data()) value = 0.01f;
   data.ridgeCurve = {{0.2, 24.5}, {0.4, 24.75}};
-  data.settings = {{"acquisition", {{"relative_threshold", 0.008}}}};
+  data.settings = {{"acquisition.relative_threshold", "0.008"}};
   data.libraries = {{"Eigen", "3.4.0"}};
   return data;
 }

@@ -394,24 +394,24 @@ class TestRealDevices : public QObject {
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
     QVERIFY(camera.primary().enabled);
     camera.primary().run();
-    QTRY_VERIFY(session.progress(Step::camera) == StepProgress::done && session.busy().isEmpty());
+    QTRY_VERIFY(session.progress(Stage::camera) == StageProgress::done && session.busy().isEmpty());
 
     CalibrateSettings quick = session.settings();
     quick.linearization.levels = 9;
     quick.acquisition = settingsOf(AcquisitionMode::fast);
     session.changeSettings(quick);
     linearize.primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Step::linearization) == StepProgress::done, 60000);
+    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::linearization) == StageProgress::done, 60000);
     QTRY_VERIFY(session.busy().isEmpty());
     acquire.primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Step::acquisition) == StepProgress::done, 60000);
+    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::acquisition) == StageProgress::done, 60000);
 
     // Remembered: another session knows screen, camera and latency.
     Session again(cache());
     again.open(session.path());
     QCOMPARE(again.screenRig()->cameraAddress, found.address);
     QCOMPARE(again.screenRig()->display.connector, std::string("DUMMY1"));
-    QVERIFY(again.result(Step::camera)->values.at("latency_seconds").get<double>() > 0.0);
+    QVERIFY(again.figures<Stage::camera>()->latencySeconds.value() > 0.0);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <QtTest>
 
 #include "calibration/results.h"
+#include "calibration/stage_fingerprint.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/cluster/cluster_page.h"
 #include "wizard/linearize/linearize_page.h"
@@ -76,8 +77,8 @@ class TestSeveralDevices : public QObject {
     session_ = std::make_unique<Session>(path("cache"));
     session_->begin(path("venue"), CalibrateSettings());
     CalibrationFolder folder = CalibrationFolder::open(path("venue"), CalibrationFolder::Access::write);
-    storeLinearization(folder, fingerprintOf(folder, Step::linearization), linearized(), {});
-    storeAcquisition(folder, fingerprintOf(folder, Step::acquisition), measured(), {});
+    storeLinearization(folder, fingerprintOf(folder, Stage::linearization), linearized(), {});
+    storeAcquisition(folder, fingerprintOf(folder, Stage::acquisition), measured(), {});
   }
   void cleanup() { session_.reset(); }
 

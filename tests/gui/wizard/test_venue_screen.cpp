@@ -7,9 +7,11 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "calibration/results.h"
+#include "calibration/stage_fingerprint.h"
 #include "gui/output/two_screens.h"
 #include "output/window_projector.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "wizard/output/output_page.h"
 #include "wizard/venue/venue_page.h"
 
@@ -59,7 +61,7 @@ class TestVenueScreen : public QObject {
     if (!measured) return;
     {
       CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
-      folder.store(stage::linearization, linearizationFingerprint(folder), Json::object());
+      storeLinearization(folder, fingerprintOf(folder, Stage::linearization), {}, {});
     }
     session_->reload();
   }
@@ -123,7 +125,7 @@ class TestVenueScreen : public QObject {
     QVERIFY(page.mode() == VenuePage::Mode::start);
     QCOMPARE(session_->screenRig()->display.connector, std::string("DUMMY2"));
     QCOMPARE(session_->measuredDisplay().connector, std::string("DUMMY1"));
-    QVERIFY(session_->progress(Step::linearization) == StepProgress::done);
+    QVERIFY(session_->progress(Stage::linearization) == StageProgress::done);
     QVERIFY(!page.banner());
     Session again{std::filesystem::path()};
     again.open(session_->path());
@@ -154,7 +156,7 @@ class TestVenueScreen : public QObject {
     for (std::size_t i = 0; i < page.screens().size(); ++i)
       if (page.screens()[i].identity.connector == "DUMMY2") page.choose(i);
     QCOMPARE(session_->screenRig()->display.connector, std::string("DUMMY2"));
-    QVERIFY(session_->progress(Step::linearization) == StepProgress::done);
+    QVERIFY(session_->progress(Stage::linearization) == StageProgress::done);
     QVERIFY(page.meaningOfScreen().contains("DUMMY1"));
     plug();
     QCOMPARE(page.screens()[*page.chosen()].identity.connector, QString("DUMMY2"));

@@ -211,18 +211,18 @@ class TestWizard : public QObject {
   void decisionsSurviveAndSettingsMakeThemStale() {
     CalibrateSettings settings;
     session_->begin(std::filesystem::path(folder_.filePath("kept").toStdString()), settings);
-    session_->decide(Step::camera, Json{{"exposures", {1.0}}});
-    session_->decide(Step::threshold, Json{{"kept", 0.98}});
+    session_->decide(CameraCheckResult{.exposures = {1.0}});
+    session_->decide(ThresholdResult{.energyKept = 0.98});
     settings = session_->settings();
     settings.threshold.absolute = 0.1f;
     session_->changeSettings(settings);
-    QVERIFY(session_->progress(Step::camera) == StepProgress::done);
-    QVERIFY(session_->progress(Step::threshold) == StepProgress::stale);
+    QVERIFY(session_->progress(Stage::camera) == StageProgress::done);
+    QVERIFY(session_->progress(Stage::threshold) == StageProgress::stale);
     ThresholdPage page(*session_);
     QVERIFY(page.status().state == StepState::outOfDate);
     Session again{std::filesystem::path()};
     again.open(session_->path());
-    QVERIFY(again.progress(Step::threshold) == StepProgress::stale);
+    QVERIFY(again.progress(Stage::threshold) == StageProgress::stale);
     QCOMPARE(again.name(), QString("kept"));
   }
 };

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "pipeline/measuring.h"
-#include "pipeline/stages.h"
+#include "pipeline/stored_settings.h"
 #include "venue/device_faults.h"
 #include "venue/venue.h"
 #include "views/number_text.h"
@@ -189,7 +189,7 @@ class TestAcquisitionTrace : public QObject {
     SimulatedVenue simulated(venue, {}, progress);
     DeviceFault push;
     push.kind = FaultKind::shiftedCamera;
-    push.stage = stage::acquisition;
+    push.stage = nameOf(Stage::acquisition);
     push.first = 60;
     push.last = 100000;
     push.amount = 2.0;
@@ -227,7 +227,7 @@ class TestAcquisitionTrace : public QObject {
     page.primary().run();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), 120000);
-    QVERIFY(session.progress(Step::acquisition) == StepProgress::done);
+    QVERIFY(session.progress(Stage::acquisition) == StageProgress::done);
     const auto& points = page.trace().points();
     QVERIFY2(points.size() > 5, qPrintable(QString::number(points.size())));
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "calibration/results.h"
+#include "calibration/stage_fingerprint.h"
 #include "clustering/grouping.h"
 #include "core/inverse/synthetic_transport.h"
 #include "pipeline/calibrate_settings.h"
@@ -45,7 +46,7 @@ class TestClusterPage : public QObject {
     std::filesystem::path path(folder_->filePath("venue").toStdString());
     session_->begin(path, CalibrateSettings());
     CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
-    storeAcquisition(folder, fingerprintOf(folder, Step::acquisition), measured(), {});
+    storeAcquisition(folder, fingerprintOf(folder, Stage::acquisition), measured(), {});
   }
   bool isExact() const { return page_->result() && page_->result()->exact && !page_->isComputing(); }
 

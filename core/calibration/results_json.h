@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "base/error.h"
+#include "calibration/calibration_folder.h"
+#include "calibration/json.h"
+
+/// What the files of this folder that turn results into JSON and back have in common.
+namespace relucent {
+
+inline constexpr const char* damagedAdvice = "restore the calibration from a copy, or calibrate again";
+
+/// Runs `read` on a result's values, turning what the JSON library throws into one sentence.
+/// Throws: Error{format}.
+template <typename Read>
+auto readingJson(const StageResult& result, const Read& read) {
+  try {
+    return read(*result.values);
+  } catch (const Json::exception& cause) {
+    throw Error(
+        ErrorKind::format,
+        fmt::format("the result of the stage \"{}\" cannot be read ({})", nameOf(result.stage), cause.what()),
+        damagedAdvice, result.folder.string());
+  }
+}
+
+Json toJson(const StageCost& cost);
+/// As lists of width and height.
+std::vector<Size> sizesFrom(const Json& json);
+
+}  // namespace relucent

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/stage_fingerprint.h"
+
+#include "base/fingerprint.h"
+#include "calibration/json.h"
+
+namespace relucent {
+namespace {
+
+std::string hashOf(const Json& json) {
+  return Fingerprint().add(json.dump()).hex();
+}
+
+}  // namespace
+
+std::string fingerprintAfter(const std::string& inputs, const StageDescription& stage, const Json& settings) {
+  std::string fingerprint = inputs;
+  for (std::string_view section : stage.sections)
+    if (!section.empty())
+      fingerprint = hashOf(Json{{"inputs", fingerprint},
+                                {"stage", section},
+                                {"settings", settings.value(std::string(section), Json::object())}});
+  if (stage.version > 1)
+    fingerprint = hashOf(Json{{"inputs", fingerprint}, {"stage", stage.name}, {"version", stage.version}});
+  return fingerprint;
+}
+
+std::string fingerprintOf(const CalibrationFolder& folder, Stage stage) {
+  const StageDescription& description = descriptionOf(stage);
+  const std::string inputs =
+      description.predecessor ? fingerprintOf(folder, *description.predecessor) : hashOf(folder.rig());
+  return fingerprintAfter(inputs, description, folder.settings());
+}
+
+}  // namespace relucent

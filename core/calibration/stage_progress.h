@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "calibration/calibration_folder.h"
+
+namespace relucent {
+
+/// Where a stage stands.
+enum class StageProgress {
+  open,   // was never done
+  stale,  // was done with other settings
+  done
+};
+StageProgress progressOf(const CalibrationFolder& folder, Stage stage);
+
+/// The newest result for the settings as they are; none: the stage has to be done.
+std::optional<StageResult> currentResultOf(const CalibrationFolder& folder, Stage stage);
+
+/// The same, else the newest of all; none if the stage was never done.
+std::optional<StageResult> resultOf(const CalibrationFolder& folder, Stage stage);
+
+}  // namespace relucent

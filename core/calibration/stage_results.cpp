@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/results.h"
+#include "calibration/results_json.h"
+#include "calibration/stage_fingerprint.h"
+#include "calibration/stage_progress.h"
+
+namespace relucent {
+namespace {
+
+/// Sets `value` where the document has it.
+template <typename Value>
+void take(const Json& json, const char* key, Value& value) {
+  if (json.contains(key)) json.at(key).get_to(value);
+}
+template <typename Value>
+void take(const Json& json, const char* key, std::optional<Value>& value) {
+  if (json.contains(key)) value = json.at(key).get<Value>();
+}
+
+void take(const Json& json, std::optional<StageCost>& cost) {
+  if (!json.contains("cost")) return;
+  const Json& stored = json.at("cost");
+  cost.emplace();
+  take(stored, "seconds", cost->seconds);
+  take(stored, "patterns", cost->patterns);
+  take(stored, "exposures", cost->exposures);
+}
+
+Json toJson(const ImportScore& score) {
+  return {{"one_to_one", score.oneToOne}, {"mix", score.mix}, {"transport", score.transport}};
+}
+
+StageResult storeCurrent(CalibrationFolder& folder, Stage stage, Json values) {
+  return folder.store(stage, fingerprintOf(folder, stage), std::move(values));
+}
+
+template <std::size_t... index>
+StageResults resultsOf(const CalibrationFolder& folder, std::index_sequence<index...>) {
+  StageResults results;
+  const auto readOne = [&]<Stage stage>(std::optional<ResultOf<stage>>& result) {
+    if (const std::optional<StageResult> stored = resultOf(folder, stage))
+      result = resultFrom<stage>(*stored);
+  };
+  (readOne.template operator()<static_cast<Stage>(index)>(std::get<index>(results)), ...);
+  return results;
+}
+
+}  // namespace
+
+Json toJson(const StageCost& cost) {
+  Json json{{"seconds", cost.seconds}, {"patterns", cost.patterns}, {"exposures", cost.exposures}};
+  if (cost.imported) {
+    json["held_out"] = cost.imported->heldOut;
+    json["nrmse"] = toJson(*cost.imported);
+  }
+  return json;
+}
+
+std::vector<Size> sizesFrom(const Json& json) {
+  std::vector<Size> sizes;
+  for (const Json& size : json) sizes.push_back({size.at(0), size.at(1)});
+  return sizes;
+}
+
+StageResult storeInverse(CalibrationFolder& folder, const InverseResult& result) {
+  Json curve = Json::array();
+  for (const InverseResult::Trial& trial : result.curve)
+    curve.push_back({{"ridge", trial.ridge}, {"psnr", trial.psnr}});
+  Json values = Json::object();
+  if (result.ridge) values["ridge"] = *result.ridge;
+  values["curve"] = std::move(curve);
+  values["bytes"] = result.bytes;
+  if (result.cost) values["cost"] = toJson(*result.cost);
+  return storeCurrent(folder, Stage::inverse, std::move(values));
+}
+
+StageResult storeDecision(CalibrationFolder& folder, const CameraCheckResult& result) {
+  Json values{{"exposures", result.exposures}};
+  if (result.latencySeconds) {
+    values["latency_seconds"] = *result.latencySeconds;
+    values["verdicts"] = result.verdicts;
+  }
+  return storeCurrent(folder, Stage::camera, std::move(values));
+}
+
+StageResult storeDecision(CalibrationFolder& folder, const ThresholdResult& result) {
+  return storeCurrent(folder, Stage::threshold, {{"kept", result.energyKept}, {"leaves", result.leaves}});
+}
+
+StageResult storeDecision(CalibrationFolder& folder, const ClusteringResult& result) {
+  return storeCurrent(
+      folder, Stage::clustering,
+      {{"clusters", result.clusters}, {"largest", result.largest}, {"error_median", result.errorMedian}});
+}
+
+StageResult storeDecision(CalibrationFolder& folder, const ContentResult& result) {
+  return storeCurrent(folder, Stage::content, {{"reachable", result.reachable}, {"delta_e", result.deltaE}});
+}
+
+void read(const StageResult& stored, CameraCheckResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    take(values, "exposures", result.exposures);
+    take(values, "latency_seconds", result.latencySeconds);
+    take(values, "verdicts", result.verdicts);
+  });
+}
+
+void read(const StageResult& stored, LinearizationResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    if (values.contains("projectors")) result.projectors = values.at("projectors").size();
+    if (values.contains("cameras")) result.cameras = values.at("cameras").size();
+    take(values, result.cost);
+  });
+}
+
+void read(const StageResult& stored, AcquisitionResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    if (values.contains("projectors")) result.projectors = sizesFrom(values.at("projectors"));
+    if (values.contains("cameras")) result.cameras = sizesFrom(values.at("cameras"));
+    take(values, "verification_error", result.verificationError);
+    take(values, "findings", result.findings);
+    take(values, result.cost);
+  });
+}
+
+void read(const StageResult& stored, ThresholdResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    take(values, "kept", result.energyKept);
+    take(values, "leaves", result.leaves);
+  });
+}
+
+void read(const StageResult& stored, InverseResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    take(values, "ridge", result.ridge);
+    take(values, "bytes", result.bytes);
+    take(values, result.cost);
+    if (!values.contains("curve")) return;
+    for (const Json& trial : values.at("curve")) {
+      InverseResult::Trial& kept = result.curve.emplace_back();
+      take(trial, "ridge", kept.ridge);
+      take(trial, "psnr", kept.psnr);
+    }
+  });
+}
+
+void read(const StageResult& stored, ClusteringResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    take(values, "clusters", result.clusters);
+    take(values, "largest", result.largest);
+    take(values, "error_median", result.errorMedian);
+  });
+}
+
+void read(const StageResult& stored, ContentResult& result) {
+  readingJson(stored, [&](const Json& values) {
+    take(values, "reachable", result.reachable);
+    take(values, "delta_e", result.deltaE);
+  });
+}
+
+StageResults resultsIn(const CalibrationFolder& folder) {
+  return resultsOf(folder, std::make_index_sequence<stageCount>{});
+}
+
+}  // namespace relucent

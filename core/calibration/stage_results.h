@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/raster.h"
+
+/// What the results of the stages say, one struct a stage: what the manifest keeps of them for people and for
+/// later stages. The large parts are files beside it (results.h). What a manifest of an earlier version lacks
+/// has its default.
+namespace relucent {
+
+/// How well an import predicts the patterns that it held out: normalised root mean squares.
+struct ImportScore {
+  std::vector<int> heldOut;  // numbers of the patterns
+  double oneToOne = 0.0;
+  double mix = 0.0;
+  double transport = 0.0;
+};
+
+/// What a measurement took.
+struct StageCost {
+  double seconds = 0.0;
+  int patterns = 0;                       // shown
+  int exposures = 0;                      // photographed
+  std::optional<ImportScore> imported{};  // of photographs that were taken elsewhere
+};
+
+struct CameraCheckResult {
+  std::vector<double> exposures;         // seconds
+  std::optional<double> latencySeconds;  // of the projector; none: was not measured
+  std::vector<std::string> verdicts;     // sentences on projector and camera
+};
+
+/// Curves and camera models: loadLinearization().
+struct LinearizationResult {
+  std::size_t projectors = 0;
+  std::size_t cameras = 0;
+  std::optional<StageCost> cost;
+};
+
+/// The light transport itself: loadAcquisition().
+struct AcquisitionResult {
+  std::vector<Size> projectors;
+  std::vector<Size> cameras;
+  std::optional<double> verificationError;  // on held-out patterns, relative
+  std::vector<std::string> findings;
+  std::optional<StageCost> cost;
+};
+
+struct ThresholdResult {
+  double energyKept = 1.0;  // share of the light
+  std::uint64_t leaves = 0;
+};
+
+/// How the windows' ridge was found. The operator itself is made anew, which is quicker than reading it.
+struct InverseResult {
+  struct Trial {
+    double ridge = 0.0;
+    double psnr = 0.0;  // dB
+  };
+  std::optional<double> ridge;
+  std::vector<Trial> curve;
+  std::uint64_t bytes = 0;  // of the operator in memory
+  std::optional<StageCost> cost;
+};
+
+struct ClusteringResult {
+  std::uint64_t clusters = 0;
+  std::uint32_t largest = 0;  // projector pixels
+  double errorMedian = 0.0;   // relative RMS error of rows
+};
+
+struct ContentResult {
+  double reachable = 0.0;  // share of the content's camera pixels
+  double deltaE = 0.0;     // mean CIEDE2000, predicted
+};
+
+}  // namespace relucent

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/proof_record.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "calibration/enum_json.h"
+#include "pipeline/settings_json.h"
+
+namespace relucent {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* fileName = "proof.json";
+
+Json toJson(const PictureError& error) {
+  return {{"psnr", error.psnr}, {"delta_e", error.deltaE}};
+}
+PictureError errorFrom(const Json& json) {
+  return {json.at("psnr").get<double>(), json.at("delta_e").get<double>()};
+}
+
+Json toJson(const ProvedProjection& projection) {
+  return {{"predicted", toJson(projection.predicted)},
+          {"measured", toJson(projection.measured)},
+          {"surprise", projection.surprise}};
+}
+ProvedProjection projectionFrom(const Json& json) {
+  return {errorFrom(json.at("predicted")), errorFrom(json.at("measured")), json.at("surprise").get<double>()};
+}
+
+Json toJson(const ContentSettings& content) {
+  CalibrateSettings settings;
+  settings.content = content;
+  return {{"content", stagesToJson(settings).at("content")}};
+}
+ContentSettings contentFrom(const Json& json) {
+  CalibrateSettings settings;
+  stagesFromJson(json, settings);
+  return settings.content;
+}
+
+}  // namespace
+
+void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
+  const Json json{{"taken", record.taken},
+                  {"measurement", record.measurement},
+                  {"settings", toJson(record.content)},
+                  {"method", record.figures.method},
+                  {"before", toJson(record.figures.before)},
+                  {"after", toJson(record.figures.after)},
+                  {"reachable", record.figures.reachable}};
+  writeFileAtomically(folder / fileName, json.dump(2));
+}
+
+std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
+  if (!fs::exists(folder / fileName)) return std::nullopt;
+  try {
+    const Json json = Json::parse(readFile(folder / fileName));
+    ProofRecord record;
+    record.taken = json.at("taken").get<std::string>();
+    record.measurement = json.at("measurement").get<std::string>();
+    record.content = contentFrom(json.at("settings"));
+    record.figures.method = json.at("method").get<Method>();
+    record.figures.before = projectionFrom(json.at("before"));
+    record.figures.after = projectionFrom(json.at("after"));
+    record.figures.reachable = json.at("reachable").get<double>();
+    return record;
+  } catch (const Json::exception& cause) {
+    throw Error(ErrorKind::format,
+                fmt::format("the record of the verification photograph cannot be read ({})", cause.what()),
+                "take the photograph again", (folder / fileName).string());
+  }
+}
+
+}  // namespace relucent

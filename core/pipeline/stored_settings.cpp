@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/stored_settings.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "calibration/json.h"
+#include "pipeline/settings_json.h"
+
+namespace relucent {
+namespace {
+
+/// In a manifest's settings: where the projector's screen hangs now, if not where it was measured. No
+/// fingerprint knows it.
+constexpr const char* movedScreen = "screen";
+
+void flatten(const Json& json, const std::string& name, std::vector<StoredSetting>& list) {
+  if (json.is_object())
+    for (const auto& [key, value] : json.items()) flatten(value, name.empty() ? key : name + "." + key, list);
+  else
+    list.push_back({name, json.is_string() ? json.get<std::string>() : json.dump()});
+}
+
+}  // namespace
+
+CalibrationFolder createCalibration(const std::filesystem::path& path, const CalibrateSettings& settings) {
+  return CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+}
+
+CalibrateSettings settingsOf(const CalibrationFolder& folder) {
+  CalibrateSettings settings;
+  settings.rig = measuredRigOf(folder);
+  auto* screen = std::get_if<ScreenRigSettings>(&settings.rig);
+  if (screen != nullptr && folder.settings().contains(movedScreen))
+    screenFromJson(folder.settings().at(movedScreen), *screen);
+  stagesFromJson(folder.settings(), settings);
+  return settings;
+}
+
+std::vector<StoredSetting> settingsListOf(const CalibrationFolder& folder) {
+  std::vector<StoredSetting> list;
+  flatten(folder.settings(), "", list);
+  return list;
+}
+
+RigSettings measuredRigOf(const CalibrationFolder& folder) {
+  return rigFromJson(folder.rig());
+}
+
+void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings) {
+  // Sections of other versions stay.
+  Json changed = folder.settings();
+  changed.update(stagesToJson(settings));
+  folder.setSettings(std::move(changed));
+}
+
+void changeRig(CalibrationFolder& folder, const RigSettings& rig) {
+  if (folder.latest(Stage::linearization))
+    throw Error(ErrorKind::input, "the response of these devices has been measured already",
+                "begin a new venue for other devices", folder.path().string());
+  CalibrateSettings settings = settingsOf(folder);
+  settings.rig = rig;
+  if (std::vector<std::string> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(), "change that setting and try again");
+  if (Json asked = folder.settings(); asked.contains(movedScreen)) {
+    asked.erase(movedScreen);
+    folder.setSettings(std::move(asked));
+  }
+  folder.setRig(rigToJson(rig));
+}
+
+void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen) {
+  const RigSettings measured = measuredRigOf(folder);
+  const auto* before = std::get_if<ScreenRigSettings>(&measured);
+  if (before == nullptr)
+    throw Error(ErrorKind::input, "the projector of this calibration is not a screen of the desktop",
+                "begin a new venue for a screen", folder.path().string());
+  if (before->projector != screen.projector)
+    throw Error(
+        ErrorKind::input,
+        fmt::format("this screen has {}x{} pixels and the measured projector {}x{}", screen.projector.width,
+                    screen.projector.height, before->projector.width, before->projector.height),
+        "choose a screen of the same resolution", folder.path().string());
+  Json settings = folder.settings();
+  settings[movedScreen] = screenToJson(screen);
+  folder.setSettings(std::move(settings));
+}
+
+}  // namespace relucent

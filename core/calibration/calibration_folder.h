@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/json.h"
 #include "calibration/json_fwd.h"
 #include "calibration/stage.h"
 #include "platform/folder_lock.h"

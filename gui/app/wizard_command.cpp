@@ -55,7 +55,7 @@ int runWizardCommand(int argc, char** argv) {
     wizard.window().showMaximized();
   else
     wizard.window().show();
-  if (argc == 2) wizard.venue().open(QDir().absoluteFilePath(QApplication::arguments().at(1)));
+  if (argc == 2) wizard.open(QDir().absoluteFilePath(QApplication::arguments().at(1)));
   Termination termination;
   QObject::connect(&termination, &Termination::requested, qApp, [&wizard] { wizard.window().close(); });
   int status = QApplication::exec();

@@ -1,52 +1,46 @@
 // SPDX-License-Identifier: MIT
 #include "app/wizard_window.h"
 
-#include <QApplication>
 #include <utility>
 
 #include "app/help_window.h"
 #include "app/settings_dialog.h"
 #include "theme/theme.h"
+#include "wizard/venue/venue_page.h"
 
 namespace relucent {
+namespace {
+
+std::vector<std::unique_ptr<PageModel>> pagesOf(const std::vector<WizardStep>& steps,
+                                                const PageContext& context) {
+  std::vector<std::unique_ptr<PageModel>> pages;
+  for (const WizardStep& step : steps) pages.push_back(step.makePage(context));
+  return pages;
+}
+
+}  // namespace
 
 WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache, const QString& translations)
     : preferences_(settings),
       languageCode_(preferences_.language()),
       language_(languageCode_, translations),
       session_(std::move(cache)),
-      venue_(session_, RecentVenues(settings)),
-      camera_(session_),
-      linearize_(session_),
-      acquire_(session_),
-      threshold_(session_),
-      cluster_(session_),
-      preview_(session_),
-      output_(session_),
+      steps_(wizardSteps()),
+      pages_(pagesOf(steps_, {session_, preferences_, settings})),
       wizard_(session_) {
   Theme::instance().apply(preferences_.isLight() ? Look::light : Look::dark);
   follow();
-  for (PageModel* page : std::initializer_list<PageModel*>{&venue_, &camera_, &linearize_, &acquire_,
-                                                           &threshold_, &cluster_, &preview_, &output_})
-    wizard_.add(*page);
+  for (const std::unique_ptr<PageModel>& page : pages_) wizard_.add(*page);
   window_ = makeWindow();
   QObject::connect(&preferences_, &Preferences::changed, &session_, [this] { follow(); });
-  auto sound = [this] {
-    if (preferences_.hasSound()) QApplication::beep();
-  };
-  QObject::connect(&acquire_, &AcquirePage::measured, &session_, sound);
-  QObject::connect(&acquire_, &AcquirePage::asks, &session_, sound);
-  QObject::connect(&acquire_, &AcquirePage::secondsToLeaveChosen, &preferences_,
-                   &Preferences::setSecondsToLeave);
-  QObject::connect(&acquire_, &AcquirePage::soundChosen, &preferences_, &Preferences::setSound);
 }
 
 std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
-  auto window = std::make_unique<MainWindow>(
-      session_, wizard_, preferences_, language_,
-      std::vector<PageView>{viewOf(venue_), viewOf(camera_), viewOf(linearize_), viewOf(acquire_),
-                            viewOf(threshold_), viewOf(cluster_), viewOf(preview_), viewOf(output_)});
-  QObject::connect(window.get(), &MainWindow::dropped, &venue_, &VenuePage::open);
+  std::vector<PageView> views;
+  for (std::size_t i = 0; i < steps_.size(); ++i) views.push_back(steps_[i].makeView(*pages_[i]));
+  auto window = std::make_unique<MainWindow>(session_, wizard_, preferences_, language_, std::move(views));
+  QObject::connect(window.get(), &MainWindow::dropped, &session_,
+                   [this](const QString& path) { open(path); });
   return window;
 }
 
@@ -78,14 +72,15 @@ void WizardWindow::speakAnew() {
 
 WizardWindow::~WizardWindow() = default;
 
+void WizardWindow::open(const QString& path) {
+  page<VenuePage>().open(path);
+}
+
 void WizardWindow::follow() {
   Look look = preferences_.isLight() ? Look::light : Look::dark;
   if (Theme::instance().look() != look) Theme::instance().apply(look);
   Theme::instance().setDimmed(preferences_.isDimmed());
   session_.setFlashLimit(preferences_.flashLimit());
-  venue_.setUsualFolder(preferences_.folder());
-  acquire_.setSecondsToLeave(preferences_.secondsToLeave());
-  acquire_.setSound(preferences_.hasSound());
   if (std::exchange(languageCode_, preferences_.language()) != preferences_.language()) speakAnew();
 }
 

@@ -7,18 +7,12 @@
 
 #include "app/language.h"
 #include "app/main_window.h"
-#include "wizard/acquire/acquire_page.h"
-#include "wizard/camera/camera_page.h"
-#include "wizard/cluster/cluster_page.h"
-#include "wizard/linearize/linearize_page.h"
-#include "wizard/output/output_page.h"
-#include "wizard/preview/preview_page.h"
-#include "wizard/threshold/threshold_page.h"
-#include "wizard/venue/venue_page.h"
+#include "base/error.h"
+#include "wizard/steps.h"
 
 namespace relucent {
 
-/// The wizard with all its pages: the one place that lists them.
+/// The wizard with all its pages, and the window around them.
 class WizardWindow {
  public:
   /// `cache`: folder of traced venues. `settings` must outlive it. `translations`: see Language.
@@ -31,14 +25,17 @@ class WizardWindow {
   Wizard& wizard() { return wizard_; }
   Preferences& preferences() { return preferences_; }
   Session& session() { return session_; }
-  VenuePage& venue() { return venue_; }
-  CameraPage& camera() { return camera_; }
-  LinearizePage& linearize() { return linearize_; }
-  AcquirePage& acquire() { return acquire_; }
-  ThresholdPage& threshold() { return threshold_; }
-  ClusterPage& cluster() { return cluster_; }
-  PreviewPage& preview() { return preview_; }
-  OutputPage& output() { return output_; }
+  /// Contract: there is such a page.
+  template <typename Page>
+  Page& page() {
+    Page* found = nullptr;
+    for (const std::unique_ptr<PageModel>& made : pages_)
+      if (auto* that = qobject_cast<Page*>(made.get())) found = that;
+    require(found != nullptr, "the wizard has no such page");
+    return *found;
+  }
+  /// A calibration's folder, or its file in there: see VenuePage::open().
+  void open(const QString& path);
 
  private:
   void follow();
@@ -49,14 +46,9 @@ class WizardWindow {
   QString languageCode_;  // as chosen
   Language language_;     // made before any page has text
   Session session_;
-  VenuePage venue_;
-  CameraPage camera_;
-  LinearizePage linearize_;
-  AcquirePage acquire_;
-  ThresholdPage threshold_;
-  ClusterPage cluster_;
-  PreviewPage preview_;
-  OutputPage output_;
+  std::vector<WizardStep> steps_;
+  // One a step. They hear of another calibration before the wizard does.
+  std::vector<std::unique_ptr<PageModel>> pages_;
   Wizard wizard_;
   std::unique_ptr<MainWindow> window_;
 };

@@ -25,7 +25,7 @@ constexpr std::chrono::seconds beforeRetry{5};
 }  // namespace
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
-    : DevicePage(session, parent), asking_(std::make_shared<Asking>()) {
+    : DevicePage(stepName, session, parent), asking_(std::make_shared<Asking>()) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
     trace_.clear();

@@ -31,10 +31,12 @@ class AcquirePage : public DevicePage {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"acquire", "relucent::AcquirePage",
+                                     QT_TRANSLATE_NOOP("relucent::AcquirePage", "Acquire")};
+
   explicit AcquirePage(Session& session, QObject* parent = nullptr);
   ~AcquirePage() override;
 
-  QString name() const override { return tr("Acquire"); }
   QString subtitle() const override {
     return tr("Measure how every projector pixel lights every camera pixel. Leave the room dark and still.");
   }

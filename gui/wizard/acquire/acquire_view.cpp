@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/acquire/acquire_view.h"
+
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
 #include "views/number_text.h"
-#include "wizard/acquire/acquire_page.h"
 #include "wizard/acquire/acquire_plan_view.h"
 #include "wizard/acquire/acquire_watch_view.h"
 #include "wizard/acquire/block_sizes_view.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
-#include "wizard/frame/page_view.h"
 
 namespace relucent {
 namespace {

@@ -37,7 +37,7 @@ struct CameraPage::Shared {
 };
 
 CameraPage::CameraPage(Session& session, QObject* parent)
-    : PageModel(parent),
+    : PageModel(stepName, parent),
       session_(session),
       listing_(
           [this](CameraList found) {

@@ -26,10 +26,12 @@ class CameraPage : public PageModel {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"camera", "relucent::CameraPage",
+                                     QT_TRANSLATE_NOOP("relucent::CameraPage", "Camera")};
+
   explicit CameraPage(Session& session, QObject* parent = nullptr);
   ~CameraPage() override;
 
-  QString name() const override { return tr("Camera"); }
   QString subtitle() const override {
     return tr("Frame the surface, focus, and let the exposures cover its brightest and darkest parts.");
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/camera/camera_view.h"
+
 #include <QPainter>
 #include <QProgressBar>
 #include <QStackedWidget>
@@ -9,9 +11,7 @@
 #include "views/line_chart.h"
 #include "views/number_text.h"
 #include "wizard/camera/camera_choice_view.h"
-#include "wizard/camera/camera_page.h"
 #include "wizard/camera/verdict_text.h"
-#include "wizard/frame/page_view.h"
 
 namespace relucent {
 namespace {

@@ -61,7 +61,7 @@ struct ClusterPage::Prepared {
 };
 
 ClusterPage::ClusterPage(Session& session, QObject* parent)
-    : DevicePage(session, parent),
+    : DevicePage(stepName, session, parent),
       preparing_(
           [this](std::shared_ptr<const Prepared> prepared) {
             prepared_ = std::move(prepared);

@@ -29,9 +29,11 @@ class ClusterPage : public DevicePage {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"cluster", "relucent::ClusterPage",
+                                     QT_TRANSLATE_NOOP("relucent::ClusterPage", "Cluster")};
+
   explicit ClusterPage(Session& session, QObject* parent = nullptr);
 
-  QString name() const override { return tr("Cluster"); }
   QString subtitle() const override {
     return tr(
         "Split the venue into small groups of pixels that can be solved on their own, fast enough for "

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/cluster/cluster_view.h"
+
 #include <QSlider>
 #include <cmath>
 
@@ -8,10 +10,8 @@
 #include "views/map_view.h"
 #include "views/number_text.h"
 #include "views/view_actions.h"
-#include "wizard/cluster/cluster_page.h"
 #include "wizard/cluster/cluster_picture.h"
 #include "wizard/devices/device_selector.h"
-#include "wizard/frame/page_view.h"
 
 namespace relucent {
 namespace {

@@ -3,7 +3,8 @@
 
 namespace relucent {
 
-DevicePage::DevicePage(Session& session, QObject* parent) : PageModel(parent), session_(session) {
+DevicePage::DevicePage(const StepName& step, Session& session, QObject* parent)
+    : PageModel(step, parent), session_(session) {
   connect(&session_, &Session::opened, this, [this] { projector_ = camera_ = 0; });
 }
 

@@ -12,7 +12,7 @@ class DevicePage : public PageModel {
   Q_OBJECT
 
  public:
-  explicit DevicePage(Session& session, QObject* parent = nullptr);
+  DevicePage(const StepName& step, Session& session, QObject* parent = nullptr);
 
   Session& session() const { return session_; }
   std::size_t projectors() const { return session_.projectors(); }

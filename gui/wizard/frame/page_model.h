@@ -11,6 +11,7 @@
 #include "jobs/failure.h"
 #include "theme/icons.h"
 #include "wizard/frame/undoable.h"
+#include "wizard/session/step_name.h"
 
 namespace relucent {
 
@@ -52,9 +53,10 @@ class PageModel : public QObject {
   Q_OBJECT
 
  public:
-  using QObject::QObject;
+  explicit PageModel(const StepName& step, QObject* parent = nullptr) : QObject(parent), step_(step) {}
 
-  virtual QString name() const = 0;  // in the rail
+  const StepName& step() const { return step_; }
+  QString name() const { return step_.text(); }  // in the rail
   virtual QString title() const { return name(); }
   virtual QString subtitle() const = 0;  // what this step is for
   virtual StepStatus status() const = 0;
@@ -95,6 +97,7 @@ class PageModel : public QObject {
   }
 
  private:
+  StepName step_;
   QUndoStack undo_;
 };
 

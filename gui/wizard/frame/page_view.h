@@ -13,24 +13,6 @@ struct PageView {
   QWidget* inspector = nullptr;
 };
 
-class VenuePage;
-class CameraPage;
-class LinearizePage;
-class AcquirePage;
-class ThresholdPage;
-class ClusterPage;
-class PreviewPage;
-class OutputPage;
-
-PageView viewOf(VenuePage& model);
-PageView viewOf(CameraPage& model);
-PageView viewOf(LinearizePage& model);
-PageView viewOf(AcquirePage& model);
-PageView viewOf(ThresholdPage& model);
-PageView viewOf(ClusterPage& model);
-PageView viewOf(PreviewPage& model);
-PageView viewOf(OutputPage& model);
-
 /// The inspector's card, which scrolls where the window is low. Its contents go into the layout.
 QWidget* inspectorCard(QVBoxLayout*& contents);
 

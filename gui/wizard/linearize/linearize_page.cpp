@@ -12,7 +12,7 @@
 
 namespace relucent {
 
-LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(session, parent) {
+LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(stepName, session, parent) {
   connect(&session_, &Session::opened, this, [this] {
     finish();
     result_.reset();

@@ -11,12 +11,14 @@ class LinearizePage : public DevicePage {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"linearize", "relucent::LinearizePage",
+                                     QT_TRANSLATE_NOOP("relucent::LinearizePage", "Linearize")};
+
   using Ramps = std::array<std::map<double, double>, 3>;
 
   explicit LinearizePage(Session& session, QObject* parent = nullptr);
   ~LinearizePage() override { finish(); }
 
-  QString name() const override { return tr("Linearize"); }
   QString subtitle() const override {
     return tr("Measure how much light each step of the projector's three colours really gives.");
   }

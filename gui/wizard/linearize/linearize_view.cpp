@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/linearize/linearize_view.h"
+
 #include <QComboBox>
 #include <QStackedWidget>
 
@@ -10,8 +12,6 @@
 #include "views/number_text.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
-#include "wizard/frame/page_view.h"
-#include "wizard/linearize/linearize_page.h"
 
 namespace relucent {
 namespace {

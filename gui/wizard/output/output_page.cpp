@@ -16,7 +16,7 @@
 namespace relucent {
 
 OutputPage::OutputPage(Session& session, QObject* parent)
-    : DevicePage(session, parent),
+    : DevicePage(stepName, session, parent),
       proof_(session, [this] { return name(); }),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   connect(&session_, &Session::opened, this, [this] {

@@ -20,10 +20,12 @@ class OutputPage : public DevicePage {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"output", "relucent::OutputPage",
+                                     QT_TRANSLATE_NOOP("relucent::OutputPage", "Output")};
+
   explicit OutputPage(Session& session, QObject* parent = nullptr);
   ~OutputPage() override;
 
-  QString name() const override { return tr("Output"); }
   QString subtitle() const override {
     return tr("Play corrected content, prove that it works with one photograph, and hand the venue over.");
   }

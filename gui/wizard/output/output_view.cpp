@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/output/output_view.h"
+
 #include <QAbstractItemView>
 #include <QAbstractSpinBox>
 #include <QApplication>
@@ -17,9 +19,7 @@
 #include "views/line_chart.h"
 #include "views/number_text.h"
 #include "wizard/devices/device_selector.h"
-#include "wizard/frame/page_view.h"
 #include "wizard/output/output_inspector.h"
-#include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
 
 namespace relucent {

@@ -18,7 +18,7 @@ constexpr std::array comparedMethods{Method::none, Method::mix, Method::clusters
 }  // namespace
 
 PreviewPage::PreviewPage(Session& session, QObject* parent)
-    : PageModel(parent),
+    : PageModel(stepName, parent),
       session_(session),
       computing_(
           [this](std::shared_ptr<const ContentPreview> preview) {

@@ -15,10 +15,12 @@ class PreviewPage : public PageModel {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"preview", "relucent::PreviewPage",
+                                     QT_TRANSLATE_NOOP("relucent::PreviewPage", "Preview")};
+
   explicit PreviewPage(Session& session, QObject* parent = nullptr);
   ~PreviewPage() override { finish(); }
 
-  QString name() const override { return tr("Preview"); }
   QString subtitle() const override {
     return tr(
         "Place the content in the camera's view and see what the audience will see before you project it.");

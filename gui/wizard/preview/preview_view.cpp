@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/preview/preview_view.h"
+
 #include <QHeaderView>
 #include <QPainter>
 #include <QTableWidget>
@@ -8,10 +10,8 @@
 #include "theme/theme.h"
 #include "views/image_view.h"
 #include "views/number_text.h"
-#include "wizard/frame/page_view.h"
 #include "wizard/preview/corner_view.h"
 #include "wizard/preview/preview_inspector.h"
-#include "wizard/preview/preview_page.h"
 #include "wizard/session/method_name.h"
 
 namespace relucent {

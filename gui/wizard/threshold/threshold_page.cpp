@@ -47,7 +47,7 @@ TransportStatistics estimated(const TransportStatistics& whole, double cut) {
 }  // namespace
 
 ThresholdPage::ThresholdPage(Session& session, QObject* parent)
-    : DevicePage(session, parent),
+    : DevicePage(stepName, session, parent),
       statistics_(
           [this](TransportStatistics statistics) {
             // Lowered to nothing meanwhile, the cut leaves everything.

@@ -14,9 +14,11 @@ class ThresholdPage : public DevicePage {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"threshold", "relucent::ThresholdPage",
+                                     QT_TRANSLATE_NOOP("relucent::ThresholdPage", "Threshold")};
+
   explicit ThresholdPage(Session& session, QObject* parent = nullptr);
 
-  QString name() const override { return tr("Threshold"); }
   QString subtitle() const override {
     return tr(
         "Choose the faintest light worth keeping. Less is faster and smaller; too little loses the bounces.");

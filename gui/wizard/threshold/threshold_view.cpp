@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/threshold/threshold_view.h"
+
 #include <QSlider>
 #include <cmath>
 #include <limits>
@@ -8,8 +10,6 @@
 #include "views/cut_histogram.h"
 #include "views/number_text.h"
 #include "views/raster_axis.h"
-#include "wizard/frame/page_view.h"
-#include "wizard/threshold/threshold_page.h"
 #include "wizard/threshold/threshold_pictures.h"
 
 namespace relucent {

@@ -20,7 +20,7 @@ QString sizeText(Size size) {
 }  // namespace
 
 VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
-    : PageModel(parent), session_(session), recent_(recent), openScreen_(session) {
+    : PageModel(stepName, parent), session_(session), recent_(recent), openScreen_(session) {
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = {
       {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
@@ -47,10 +47,6 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
     mode_ = Mode::start;
   });
-}
-
-QString VenuePage::name() const {
-  return tr("Venue");
 }
 
 QString VenuePage::title() const {

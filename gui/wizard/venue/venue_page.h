@@ -30,11 +30,13 @@ class VenuePage : public PageModel {
   Q_OBJECT
 
  public:
+  static constexpr StepName stepName{"venue", "relucent::VenuePage",
+                                     QT_TRANSLATE_NOOP("relucent::VenuePage", "Venue")};
+
   enum class Mode { start, rehearse, script, devices, screen };
 
   VenuePage(Session& session, RecentVenues recent, QObject* parent = nullptr);
 
-  QString name() const override;
   QString title() const override;
   QString subtitle() const override;
   StepStatus status() const override;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "wizard/venue/venue_view.h"
+
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLineEdit>
@@ -8,9 +10,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
-#include "wizard/frame/page_view.h"
 #include "wizard/venue/tile.h"
-#include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
 
 namespace relucent {

@@ -14,7 +14,15 @@
 #include "app/wizard_window.h"
 #include "theme/theme.h"
 #include "views/map_view.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/cluster/cluster_page.h"
 #include "wizard/devices/identify_overlay.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/output/output_page.h"
+#include "wizard/preview/preview_page.h"
+#include "wizard/threshold/threshold_page.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 
@@ -83,7 +91,7 @@ CameraList someCameras() {
 
 /// The choice of cameras for a screen of the desktop.
 void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporaryDir& own) {
-  wizard.camera().setLister(someCameras);
+  wizard.page<CameraPage>().setLister(someCameras);
   CalibrateSettings settings;
   ScreenRigSettings rig;
   rig.display.connector = "HDMI-1";
@@ -91,7 +99,9 @@ void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporar
   settings.rig = rig;
   wizard.session().begin(own.filePath("Chapel niche").toStdString(), settings);
   wizard.wizard().go(1);
-  until([&] { return !wizard.camera().isListing() && !wizard.camera().cameras().cameras.empty(); });
+  until([&] {
+    return !wizard.page<CameraPage>().isListing() && !wizard.page<CameraPage>().cameras().cameras.empty();
+  });
   photographs.take("02-cameras");
 }
 
@@ -106,20 +116,20 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   settings.acquisition.checkInterval = 10;
   wizard.session().begin(own.filePath("Rehearsal").toStdString(), settings);
   wizard.wizard().go(1);
-  until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
-  wizard.camera().primary().run();
+  until([&] { return wizard.page<CameraPage>().tooDarkEverywhere().has_value(); });
+  wizard.page<CameraPage>().primary().run();
   until([&] { return wizard.session().busy().isEmpty() && wizard.wizard().current() == 2; });
-  wizard.linearize().primary().run();
-  until([&] { return wizard.linearize().result() && !wizard.linearize().isMeasuring(); });
+  wizard.page<LinearizePage>().primary().run();
+  until([&] { return wizard.page<LinearizePage>().result() && !wizard.page<LinearizePage>().isMeasuring(); });
   wizard.wizard().go(3);
   photographs.take("04-plan");
-  wizard.acquire().primary().run();
+  wizard.page<AcquirePage>().primary().run();
   wizard.session().live().setLeastInterval(25);  // as real devices would be, and longer
-  until([&] { return wizard.acquire().trace().points().size() > 40; });
+  until([&] { return wizard.page<AcquirePage>().trace().points().size() > 40; });
   photographs.take("04-measuring");
   wizard.session().live().setLeastInterval(0);
-  wizard.acquire().finish();
-  until([&] { return !wizard.acquire().isMeasuring(); });
+  wizard.page<AcquirePage>().finish();
+  until([&] { return !wizard.page<AcquirePage>().isMeasuring(); });
 }
 
 }  // namespace
@@ -135,41 +145,41 @@ int main(int argc, char** argv) {
   QTemporaryDir own;
   QSettings settings(own.filePath("settings.ini"), QSettings::IniFormat);
   WizardWindow wizard(settings, argc > 3 ? argv[3] : own.filePath("cache").toStdString());
-  wizard.venue().setFolder(own.filePath("venues"));
+  wizard.page<VenuePage>().setFolder(own.filePath("venues"));
   Photographs photographs(wizard, folder);
   wizard.window().show();
   photographs.take("00-empty");
-  wizard.venue().setMode(VenuePage::Mode::rehearse);
+  wizard.page<VenuePage>().setMode(VenuePage::Mode::rehearse);
   photographs.take("01-rehearse");
-  wizard.venue().setMode(VenuePage::Mode::script);
+  wizard.page<VenuePage>().setMode(VenuePage::Mode::script);
   photographs.take("01-script");
-  wizard.venue().setMode(VenuePage::Mode::devices);
+  wizard.page<VenuePage>().setMode(VenuePage::Mode::devices);
   photographs.take("01-devices");
 
   takeCameras(wizard, photographs, own);
   takeMeasuring(wizard, photographs, own);
-  wizard.venue().open(argv[2]);
+  wizard.page<VenuePage>().open(argv[2]);
   wizard.wizard().go(0);
   photographs.take("00-start");
   Wizard& steps = wizard.wizard();
   steps.go(1);
   // Exposures that were kept before are not looked for again.
   const bool isDecided = wizard.session().result(Stage::camera).has_value();
-  if (!isDecided) until([&] { return wizard.camera().tooDarkEverywhere().has_value(); });
+  if (!isDecided) until([&] { return wizard.page<CameraPage>().tooDarkEverywhere().has_value(); });
   photographs.take("02-camera");
   if (isDecided)
     steps.go(2);
   else
-    wizard.camera().primary().run();
+    wizard.page<CameraPage>().primary().run();
   until([&] { return wizard.session().busy().isEmpty() && steps.current() == 2; });
   photographs.take("03-linearize");
   steps.go(3);
   photographs.take("04-acquire");
   steps.go(4);
-  until([&] { return wizard.threshold().kept() && wizard.threshold().whole(); });
-  wizard.threshold().pick({82, 70});
-  until([&] { return wizard.threshold().footprint() != nullptr; });
-  wizard.threshold().useSuggested();
+  until([&] { return wizard.page<ThresholdPage>().kept() && wizard.page<ThresholdPage>().whole(); });
+  wizard.page<ThresholdPage>().pick({82, 70});
+  until([&] { return wizard.page<ThresholdPage>().footprint() != nullptr; });
+  wizard.page<ThresholdPage>().useSuggested();
   QTest::qWait(300);
   photographs.take("05-threshold");
   auto* matrix = wizard.window().findChild<PlaneView*>("matrix-view");
@@ -178,35 +188,38 @@ int main(int argc, char** argv) {
   QTest::qWait(1000);
   matrix->asSeen().save(folder.filePath("05-whole-screen.png"));
   matrix->setWholeScreen(false);
-  wizard.threshold().setAbsolute(0.0);
-  until([&] { return wizard.threshold().kept()->energyKept == 1.0; });
-  wizard.threshold().primary().run();
-  until([&] { return wizard.cluster().result() && !wizard.cluster().isComputing(); });
+  wizard.page<ThresholdPage>().setAbsolute(0.0);
+  until([&] { return wizard.page<ThresholdPage>().kept()->energyKept == 1.0; });
+  wizard.page<ThresholdPage>().primary().run();
+  until([&] { return wizard.page<ClusterPage>().result() && !wizard.page<ClusterPage>().isComputing(); });
   photographs.take("06-cluster");
   auto* error = wizard.window().findChild<MapView*>("error-view");
   error->setRelief(true);
   photographs.take("06-cluster-relief");
   error->asSeen().save(folder.filePath("06-saved-relief.png"));
   error->setRelief(false);
-  wizard.cluster().primary().run();
-  until([&] { return wizard.preview().preview() && wizard.preview().table().size() >= 5; });
+  wizard.page<ClusterPage>().primary().run();
+  until(
+      [&] { return wizard.page<PreviewPage>().preview() && wizard.page<PreviewPage>().table().size() >= 5; });
   photographs.take("07-preview");
-  Corners corners = *wizard.preview().corners();
+  Corners corners = *wizard.page<PreviewPage>().corners();
   corners[0][0] += 3.0;
-  wizard.preview().setCorners(corners);
-  until([&] { return !wizard.preview().isComputing() && wizard.preview().table().size() >= 5; });
+  wizard.page<PreviewPage>().setCorners(corners);
+  until([&] {
+    return !wizard.page<PreviewPage>().isComputing() && wizard.page<PreviewPage>().table().size() >= 5;
+  });
   wizard.window().findChild<QWidget*>("preview-view")->setFocus(Qt::TabFocusReason);
   photographs.take("07-preview-corners");
-  wizard.preview().primary().run();
-  wizard.output().open();
-  until([&] { return !wizard.output().projection().mirror().isNull(); });
-  wizard.output().verify();
-  until([&] { return wizard.output().proof().proof() != nullptr; });
-  wizard.output().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});
-  wizard.output().checkDrift();
-  until([&] { return wizard.output().proof().drift().has_value(); });
+  wizard.page<PreviewPage>().primary().run();
+  wizard.page<OutputPage>().open();
+  until([&] { return !wizard.page<OutputPage>().projection().mirror().isNull(); });
+  wizard.page<OutputPage>().verify();
+  until([&] { return wizard.page<OutputPage>().proof().proof() != nullptr; });
+  wizard.page<OutputPage>().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});
+  wizard.page<OutputPage>().checkDrift();
+  until([&] { return wizard.page<OutputPage>().proof().drift().has_value(); });
   photographs.take("08-output");
-  wizard.output().close();
+  wizard.page<OutputPage>().close();
   photographs.take("08-closed");
   QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-settings"), Qt::LeftButton);
   photographs.takeDialog("10-settings", "settings");

@@ -8,7 +8,15 @@
 #include "app/help_window.h"
 #include "app/wizard_window.h"
 #include "gui/app/layout_faults.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/cluster/cluster_page.h"
 #include "wizard/frame/failure_dialog.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/output/output_page.h"
+#include "wizard/preview/preview_page.h"
+#include "wizard/threshold/threshold_page.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 
@@ -92,8 +100,8 @@ class TestLayouts : public QObject {
     settings_ = std::make_unique<QSettings>(folder_.filePath("settings.ini"), QSettings::IniFormat);
     wizard_ = std::make_unique<WizardWindow>(*settings_, folder_.filePath("cache").toStdString());
     wizard_->preferences().setLanguage("en");
-    wizard_->venue().setSizes({{{64, 48}, {48, 36}, "%1"}});
-    wizard_->venue().setFolder(folder_.filePath("venues"));
+    wizard_->page<VenuePage>().setSizes({{{64, 48}, {48, 36}, "%1"}});
+    wizard_->page<VenuePage>().setFolder(folder_.filePath("venues"));
     wizard_->window().resize(screen);
     wizard_->window().show();
     QVERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
@@ -134,10 +142,10 @@ class TestLayouts : public QObject {
            {std::pair(VenuePage::Mode::start, "start"), std::pair(VenuePage::Mode::rehearse, "rehearsal"),
             std::pair(VenuePage::Mode::script, "by script"),
             std::pair(VenuePage::Mode::devices, "devices")}) {
-        wizard_->venue().setMode(mode);
+        wizard_->page<VenuePage>().setMode(mode);
         faults << seen(language, name);
       }
-      wizard_->venue().setMode(VenuePage::Mode::start);
+      wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
       return faults;
     });
   }
@@ -159,7 +167,7 @@ class TestLayouts : public QObject {
         Command keep{AcquirePage::tr("Stop and keep"), Icon::save, true, {}, [] {}};
         Command goOn{AcquirePage::tr("Continue anyway"), Icon::next, true, {}, [] {}};
         FailureDialog dialog({failure, AcquirePage::tr("Nothing was changed."), resume, keep, goOn},
-                             wizard_->acquire().name());
+                             wizard_->page<AcquirePage>().name());
         dialog.show();
         faults << seen(dialog, language, "failure");
       }
@@ -168,30 +176,31 @@ class TestLayouts : public QObject {
   }
 
   void camera() {
-    wizard_->venue().setMode(VenuePage::Mode::rehearse);
-    wizard_->venue().chooseVenue(wizard_->venue().venues().size() - 1);
-    wizard_->venue().primary().run();
+    wizard_->page<VenuePage>().setMode(VenuePage::Mode::rehearse);
+    wizard_->page<VenuePage>().chooseVenue(wizard_->page<VenuePage>().venues().size() - 1);
+    wizard_->page<VenuePage>().primary().run();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{1}, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->camera().tooDarkEverywhere().has_value(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().tooDarkEverywhere().has_value(), patience);
     page("looking");
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->camera().primary().enabled, patience);
-    wizard_->camera().primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().primary().enabled, patience);
+    wizard_->page<CameraPage>().primary().run();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{2}, patience);
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
   }
 
   void linearization() {
     page("before");
-    wizard_->linearize().primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->linearize().result() && !wizard_->linearize().isMeasuring(), patience);
+    wizard_->page<LinearizePage>().primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(
+        wizard_->page<LinearizePage>().result() && !wizard_->page<LinearizePage>().isMeasuring(), patience);
     page("measured");
-    wizard_->linearize().primary().run();
+    wizard_->page<LinearizePage>().primary().run();
   }
 
   void acquisition() {
     page("before");
     // As soon as what is watched has its figures: it is over in seconds.
-    AcquirePage& acquire = wizard_->acquire();
+    AcquirePage& acquire = wizard_->page<AcquirePage>();
     QMetaObject::Connection figures =
         connect(&acquire.trace(), &AcquisitionTrace::changed, &acquire, [&acquire, &figures] {
           if (acquire.trace().points().empty()) return;
@@ -199,39 +208,40 @@ class TestLayouts : public QObject {
           acquire.pause();
         });
     acquire.primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().isPaused(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<AcquirePage>().isPaused(), patience);
     page("paused");
-    wizard_->acquire().resume();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
-                             patience);
+    wizard_->page<AcquirePage>().resume();
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done, patience);
     // Whoever measured in many languages says in the last that the devices are free.
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
-    wizard_->acquire().primary().run();
+    wizard_->page<AcquirePage>().primary().run();
   }
 
   void decisions() {
-    ThresholdPage& threshold = wizard_->threshold();
+    ThresholdPage& threshold = wizard_->page<ThresholdPage>();
     QTRY_VERIFY_WITH_TIMEOUT(threshold.kept() && threshold.whole(), patience);
     threshold.pick({24, 18});
     QTRY_VERIFY_WITH_TIMEOUT(threshold.footprint() != nullptr, patience);
     threshold.primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->cluster().result() && !wizard_->cluster().isComputing(), patience);
-    wizard_->cluster().primary().run();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->preview().table().size() >= 5 && !wizard_->preview().isComputing(),
-                             patience);
-    wizard_->preview().primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(
+        wizard_->page<ClusterPage>().result() && !wizard_->page<ClusterPage>().isComputing(), patience);
+    wizard_->page<ClusterPage>().primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(
+        wizard_->page<PreviewPage>().table().size() >= 5 && !wizard_->page<PreviewPage>().isComputing(),
+        patience);
+    wizard_->page<PreviewPage>().primary().run();
     QTRY_COMPARE(steps().current(), std::size_t{7});
     pages({0, 1, 2, 3, 4, 5, 6, 7}, "done");
     threshold.setShareOfRow(true);
-    Corners corners = *wizard_->preview().corners();
+    Corners corners = *wizard_->page<PreviewPage>().corners();
     std::swap(corners[0], corners[1]);
-    wizard_->preview().setCorners(corners);
-    QVERIFY(!wizard_->preview().problem().isEmpty());
+    wizard_->page<PreviewPage>().setCorners(corners);
+    QVERIFY(!wizard_->page<PreviewPage>().problem().isEmpty());
     pages({4, 6}, "something wrong");
   }
 
   void output() {
-    OutputPage& output = wizard_->output();
+    OutputPage& output = wizard_->page<OutputPage>();
     steps().go(7);
     output.setConfigFolder(folder_.filePath("config"));
     output.setStartsWithComputer(true);
@@ -265,7 +275,7 @@ class TestLayouts : public QObject {
     good.usable = true;
     bad.model = "Another camera";
     bad.problem = "it sends no frames";
-    wizard_->camera().setLister([good, bad] { return CameraList{{}, {good, bad}}; });
+    wizard_->page<CameraPage>().setLister([good, bad] { return CameraList{{}, {good, bad}}; });
     CalibrateSettings settings;
     ScreenRigSettings rig;
     rig.display.connector = "HDMI-1";
@@ -273,8 +283,9 @@ class TestLayouts : public QObject {
     settings.rig = rig;
     wizard_->session().begin(folder_.filePath("real").toStdString(), settings);
     steps().go(1);
-    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->camera().isListing() && !wizard_->camera().cameras().cameras.empty(),
-                             patience);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        !wizard_->page<CameraPage>().isListing() && !wizard_->page<CameraPage>().cameras().cameras.empty(),
+        patience);
     page("choosing");
     wizard_->session().decide(CameraCheckResult{.exposures = {1.0}});
     pages({2}, "asking for consent");

@@ -21,9 +21,17 @@
 #include "views/image_view.h"
 #include "views/matrix_view.h"
 #include "views/vtk_view.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/cluster/cluster_page.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
 #include "wizard/preview/corner_view.h"
+#include "wizard/preview/preview_page.h"
+#include "wizard/threshold/threshold_page.h"
 #include "wizard/venue/tile.h"
+#include "wizard/venue/venue_page.h"
 
 using namespace relucent;
 
@@ -66,8 +74,8 @@ class TestWizardWindow : public QObject {
   void start() {
     settings_ = std::make_unique<QSettings>(folder_.filePath("settings.ini"), QSettings::IniFormat);
     wizard_ = std::make_unique<WizardWindow>(*settings_, folder_.filePath("cache").toStdString());
-    wizard_->venue().setSizes({{{64, 48}, {48, 36}, "%1"}});
-    wizard_->venue().setFolder(folder_.filePath("venues"));
+    wizard_->page<VenuePage>().setSizes({{{64, 48}, {48, 36}, "%1"}});
+    wizard_->page<VenuePage>().setFolder(folder_.filePath("venues"));
     wizard_->window().resize(1366, 768);
     wizard_->window().show();
     wizard_->window().activateWindow();
@@ -79,11 +87,12 @@ class TestWizardWindow : public QObject {
     QVERIFY(matrix->link().pick().has_value());
     QPoint entry = *matrix->link().pick();
     QCOMPARE(entry.y(), 18 * 48 + 24);
-    QCOMPARE(static_cast<std::size_t>(entry.x()), wizard_->threshold().footprint()->strongest);
+    QCOMPARE(static_cast<std::size_t>(entry.x()), wizard_->page<ThresholdPage>().footprint()->strongest);
     matrix->setFocus();
     QTest::keyClick(matrix, entry.x() > 0 ? Qt::Key_Left : Qt::Key_Right);
     QVERIFY(*matrix->link().pick() != entry);
-    QCOMPARE(wizard_->threshold().pickedProjector()->x + 64 * wizard_->threshold().pickedProjector()->y,
+    QCOMPARE(wizard_->page<ThresholdPage>().pickedProjector()->x +
+                 64 * wizard_->page<ThresholdPage>().pickedProjector()->y,
              matrix->link().pick()->x());
   }
 
@@ -113,9 +122,9 @@ class TestWizardWindow : public QObject {
   }
 
   void aClickOnTheReasonLeadsToItsCause() {
-    wizard_->venue().setMode(VenuePage::Mode::devices);
-    wizard_->venue().chooseScreen({{"DUMMY1", "", "", ""}, {64, 48}, 60.0, "Screen 1", {}});
-    QCOMPARE(wizard_->venue().problem(), VenuePage::tr("Confirm that the room is clear."));
+    wizard_->page<VenuePage>().setMode(VenuePage::Mode::devices);
+    wizard_->page<VenuePage>().chooseScreen({{"DUMMY1", "", "", ""}, {64, 48}, 60.0, "Screen 1", {}});
+    QCOMPARE(wizard_->page<VenuePage>().problem(), VenuePage::tr("Confirm that the room is clear."));
     auto* tick = find<QAbstractButton>("room-is-clear");
     wizard_->window().resize(1100, 700);  // the tick is below the edge
     auto inSight = [tick] { return tick->visibleRegion().boundingRect() == tick->rect(); };
@@ -124,7 +133,7 @@ class TestWizardWindow : public QObject {
     QVERIFY(tick->hasFocus());
     QTRY_VERIFY(inSight());
     wizard_->window().resize(1366, 768);
-    wizard_->venue().setMode(VenuePage::Mode::start);
+    wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
   }
 
   void laterStepsAreLockedAtFirst() {
@@ -169,7 +178,7 @@ class TestWizardWindow : public QObject {
   }
 
   void theProjectorsScreenIsIdentified() {
-    wizard_->venue().setMode(VenuePage::Mode::script);
+    wizard_->page<VenuePage>().setMode(VenuePage::Mode::script);
     click("identify");
     QTRY_VERIFY(!allBlack(seenOn("DUMMY1")));
     // Its outermost pixels are lit: nothing is cut off.
@@ -182,7 +191,7 @@ class TestWizardWindow : public QObject {
 
     // A chosen screen that is unplugged keeps its card.
     click("venue-screen-DUMMY1");
-    QVERIFY((wizard_->venue().script().projector == Size{1024, 768}));
+    QVERIFY((wizard_->page<VenuePage>().script().projector == Size{1024, 768}));
     QVERIFY(find<Tile>("venue-screen-DUMMY1")->accessibleName().endsWith("chosen"));
     auto gone = [&] {
       QList<Tile*> tiles = wizard_->window().findChildren<Tile*>();
@@ -194,7 +203,7 @@ class TestWizardWindow : public QObject {
     plug();
     QTRY_COMPARE(gone(), 0);
     QTRY_VERIFY(find<Tile>("venue-screen-DUMMY1")->isChecked());
-    wizard_->venue().setMode(VenuePage::Mode::start);
+    wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
   }
 
   void aRehearsalIsChosenAndBegun() {
@@ -202,7 +211,7 @@ class TestWizardWindow : public QObject {
     QVERIFY(tile != nullptr);
     tile->setFocus();
     QTest::keyClick(tile, Qt::Key_Return);
-    QVERIFY(wizard_->venue().mode() == VenuePage::Mode::rehearse);
+    QVERIFY(wizard_->page<VenuePage>().mode() == VenuePage::Mode::rehearse);
     auto* plain = find<Tile>("venue-plain");
     QTRY_VERIFY(plain->isVisible());
     QTest::mouseClick(plain, Qt::LeftButton);
@@ -216,16 +225,16 @@ class TestWizardWindow : public QObject {
   }
 
   void theCameraIsLookedThrough() {
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->camera().tooDarkEverywhere().has_value(), patience);
-    QVERIFY(!wizard_->camera().exposures().empty());
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().tooDarkEverywhere().has_value(), patience);
+    QVERIFY(!wizard_->page<CameraPage>().exposures().empty());
     QVERIFY(!find<ImageView>("camera-view")->picture().isNull());
     auto* view = find<ImageView>("camera-view");
-    Region before = wizard_->camera().focusArea();
+    Region before = wizard_->page<CameraPage>().focusArea();
     QTest::mouseClick(view, Qt::LeftButton, {}, view->widgetFromPicture({8.5, 8.5}).toPoint());
-    QVERIFY(!(wizard_->camera().focusArea() == before));
+    QVERIFY(!(wizard_->page<CameraPage>().focusArea() == before));
     // What the hatches mean is said where there are any, and the lens is not blamed for an exposure.
-    wizard_->camera().chooseExposure(0);
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->camera().look()->check.tooBright > 0.0, patience);
+    wizard_->page<CameraPage>().chooseExposure(0);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().look()->check.tooBright > 0.0, patience);
     QTRY_VERIFY(find<QLabel>("too-bright")->isVisible());
     click("primary");
     QTRY_COMPARE_WITH_TIMEOUT(page(), std::size_t{2}, patience);
@@ -236,28 +245,27 @@ class TestWizardWindow : public QObject {
     click("primary");
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::linearization) == StageProgress::done,
                              patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->linearize().isMeasuring(), patience);
-    QVERIFY(wizard_->linearize().addsUp());
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<LinearizePage>().isMeasuring(), patience);
+    QVERIFY(wizard_->page<LinearizePage>().addsUp());
     press(QKeySequence("Ctrl+Return"));
     QTRY_COMPARE(page(), std::size_t{3});
   }
 
   void theLightTransportIsMeasuredWithAPause() {
-    const std::optional<WorkLeft> expected = wizard_->acquire().expected();
+    const std::optional<WorkLeft> expected = wizard_->page<AcquirePage>().expected();
     QVERIFY(expected && expected->shots > 0 && expected->seconds > 0.0);
-    QVERIFY(!wizard_->acquire().verificationError());
+    QVERIFY(!wizard_->page<AcquirePage>().verificationError());
     QVERIFY(find<ImageView>("pattern-view")->picture().isNull());  // of the step before
     QVERIFY(!find<QLabel>("room-light")->isVisible());
     click("primary");
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->acquire().photographs() > 5, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<AcquirePage>().photographs() > 5, patience);
     press(QKeySequence("Ctrl+P"));
-    QTRY_VERIFY(wizard_->acquire().isPaused());
+    QTRY_VERIFY(wizard_->page<AcquirePage>().isPaused());
     press(QKeySequence("Ctrl+P"));
-    QTRY_VERIFY(!wizard_->acquire().isPaused());
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
-                             patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->acquire().isMeasuring(), patience);
-    QVERIFY(wizard_->acquire().verificationError().has_value());
+    QTRY_VERIFY(!wizard_->page<AcquirePage>().isPaused());
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<AcquirePage>().isMeasuring(), patience);
+    QVERIFY(wizard_->page<AcquirePage>().verificationError().has_value());
     QVERIFY(wizard_->session().roomLight().has_value());
     QVERIFY(find<QLabel>("room-light")->isVisible());
     QVERIFY(find<QLabel>("room-light")->text().contains("steady"));
@@ -266,17 +274,17 @@ class TestWizardWindow : public QObject {
   }
 
   void theCutIsMovedByTheArrowKeys() {
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->threshold().kept().has_value(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<ThresholdPage>().kept().has_value(), patience);
     auto* histogram = find<CutHistogram>("cut-histogram");
     histogram->setFocus();
     for (int i = 0; i < 5; ++i) QTest::keyClick(histogram, Qt::Key_Right, Qt::ShiftModifier);
-    QVERIFY(wizard_->threshold().cut().absolute > 0.0f);
+    QVERIFY(wizard_->page<ThresholdPage>().cut().absolute > 0.0f);
     auto* flood = find<ImageView>("flood-view");
     QTest::mouseClick(flood, Qt::LeftButton, {}, flood->widgetFromPicture({24.5, 18.5}).toPoint());
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->threshold().footprint() != nullptr, patience);
-    QVERIFY(wizard_->threshold().footprint()->pixels > 0);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<ThresholdPage>().footprint() != nullptr, patience);
+    QVERIFY(wizard_->page<ThresholdPage>().footprint()->pixels > 0);
     // The picked row's strongest projector pixel is followed back, and both are an entry of T.
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->threshold().lit() != nullptr, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<ThresholdPage>().lit() != nullptr, patience);
     if (VtkView::isPossible())
       pickInTheMatrix();
     else
@@ -286,32 +294,33 @@ class TestWizardWindow : public QObject {
   }
 
   void theClustersFollowTheSlider() {
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->cluster().result() && !wizard_->cluster().isComputing(), patience);
-    auto before = wizard_->cluster().result();
+    QTRY_VERIFY_WITH_TIMEOUT(
+        wizard_->page<ClusterPage>().result() && !wizard_->page<ClusterPage>().isComputing(), patience);
+    auto before = wizard_->page<ClusterPage>().result();
     auto* distance = find<QSlider>("distance");
     distance->setFocus();
     QTest::keyClick(distance, Qt::Key_Left);
     // The map comes before its errors, and only with these it can be gone on.
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->cluster().result() != before, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->cluster().isComputing(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<ClusterPage>().result() != before, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<ClusterPage>().isComputing(), patience);
     click("primary");
     QTRY_COMPARE(page(), std::size_t{6});
   }
 
   void thePreviewComparesMethods() {
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->preview().table().size() >= 5, patience);
-    const std::vector<MethodPreview>& table = wizard_->preview().table();
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<PreviewPage>().table().size() >= 5, patience);
+    const std::vector<MethodPreview>& table = wizard_->page<PreviewPage>().table();
     // The law of the product: knowing the light transport is better than not correcting at all.
     QVERIFY(table[3].psnr > table[0].psnr);
     QVERIFY(table[4].psnr >= table[3].psnr - 0.5);
     auto* methods = find<QTableWidget>("methods");
     QTest::mouseClick(methods->viewport(), Qt::LeftButton, {},
                       methods->visualItemRect(methods->item(4, 0)).center());
-    QVERIFY(wizard_->preview().settings().method == Method::optimum);
+    QVERIFY(wizard_->page<PreviewPage>().settings().method == Method::optimum);
   }
 
   void theContentIsPlacedByMouseAndKeyboard() {
-    PreviewPage& preview = wizard_->preview();
+    PreviewPage& preview = wizard_->page<PreviewPage>();
     auto* view = find<CornerView>("preview-view");
     Corners before = *preview.corners();
     auto at = [&](double x, double y) { return view->widgetFromPicture({x, y}).toPoint(); };
@@ -360,12 +369,12 @@ class TestWizardWindow : public QObject {
   }
 
   void theOutputShinesOnTheSecondScreen() {
-    QVERIFY(wizard_->output().chosen().has_value());
-    QVERIFY(!wizard_->output().screens()[*wizard_->output().chosen()].operators);
+    QVERIFY(wizard_->page<OutputPage>().chosen().has_value());
+    QVERIFY(!wizard_->page<OutputPage>().screens()[*wizard_->page<OutputPage>().chosen()].operators);
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
     click("primary");
-    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->output().projection().onProjector().isNull(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<OutputPage>().projection().onProjector().isNull(), patience);
     QTRY_VERIFY_WITH_TIMEOUT(!allBlack(seenOn("DUMMY1")), patience);
     auto* view = find<ImageView>("output-view");
     // The operator sees it too, no larger than there is room.
@@ -378,16 +387,16 @@ class TestWizardWindow : public QObject {
     for (QWidget* where : {static_cast<QWidget*>(view), find<QWidget>("verify")}) {
       where->setFocus();
       QTest::keyPress(where, Qt::Key_A);
-      QVERIFY(!wizard_->output().isCompensated());
+      QVERIFY(!wizard_->page<OutputPage>().isCompensated());
       QTest::keyRelease(where, Qt::Key_A);
-      QVERIFY(wizard_->output().isCompensated());
+      QVERIFY(wizard_->page<OutputPage>().isCompensated());
     }
     find<QWidget>("playlist")->setFocus();
     QTest::keyPress(find<QWidget>("playlist"), Qt::Key_A);
-    QVERIFY(wizard_->output().isCompensated());
+    QVERIFY(wizard_->page<OutputPage>().isCompensated());
     view->setFocus();
     QTest::keyClick(view, Qt::Key_Space);
-    QVERIFY(wizard_->output().isFrozen());
+    QVERIFY(wizard_->page<OutputPage>().isFrozen());
     QTest::keyClick(view, Qt::Key_Space);
     QTest::keyClick(view, Qt::Key_B);
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
@@ -397,7 +406,7 @@ class TestWizardWindow : public QObject {
   }
 
   void thePlaylistIsEditedByMouseAndKeyboard() {
-    OutputPage& output = wizard_->output();
+    OutputPage& output = wizard_->page<OutputPage>();
     QImage picture(40, 30, QImage::Format_RGB32);
     picture.fill(Qt::darkGreen);
     QString file = folder_.filePath("green.png");
@@ -432,7 +441,7 @@ class TestWizardWindow : public QObject {
   }
 
   void aPhotographProvesIt() {
-    OutputPage& output = wizard_->output();
+    OutputPage& output = wizard_->page<OutputPage>();
     QVERIFY(output.primary().text == OutputPage::tr("Install without proof"));
     press(QKeySequence("Ctrl+Shift+V"));
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
@@ -451,7 +460,7 @@ class TestWizardWindow : public QObject {
   }
 
   void theVenueIsHandedOver() {
-    OutputPage& output = wizard_->output();
+    OutputPage& output = wizard_->page<OutputPage>();
     output.setConfigFolder(folder_.filePath("config"));
     QDesktopServices::setUrlHandler("file", this, "show");
     click("report");
@@ -533,8 +542,8 @@ class TestWizardWindow : public QObject {
   void aChangedThresholdMakesLaterStepsOutOfDate() {
     press(QKeySequence("Alt+5"));
     QTRY_COMPARE(page(), std::size_t{4});
-    wizard_->threshold().setAbsolute(1e-3);
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->threshold().kept().has_value(), patience);
+    wizard_->page<ThresholdPage>().setAbsolute(1e-3);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<ThresholdPage>().kept().has_value(), patience);
     click("primary");
     QTRY_COMPARE(page(), std::size_t{5});
     QVERIFY(wizard_->wizard().page(5).status().state == StepState::outOfDate);
@@ -547,21 +556,21 @@ class TestWizardWindow : public QObject {
     wizard_->window().close();
     wizard_.reset();
     start();
-    QCOMPARE(wizard_->venue().recent().size(), 1);
-    wizard_->venue().open(wizard_->venue().recent().front().folder);
+    QCOMPARE(wizard_->page<VenuePage>().recent().size(), 1);
+    wizard_->page<VenuePage>().open(wizard_->page<VenuePage>().recent().front().folder);
     QCOMPARE(page(), std::size_t{7});
   }
 
   void aProofIsRememberedAsLongAsItHolds() {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().isOpen(), patience);
-    QVERIFY(wizard_->output().proof().proof() != nullptr);
+    QVERIFY(wizard_->page<OutputPage>().proof().proof() != nullptr);
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
     ContentSettings other = wizard_->session().settings().content;
     other.blackLift += 0.01;
     CalibrateSettings settings = wizard_->session().settings();
     settings.content = other;
     wizard_->session().changeSettings(settings);
-    QVERIFY(wizard_->output().proof().proof() == nullptr);
+    QVERIFY(wizard_->page<OutputPage>().proof().proof() == nullptr);
   }
 
   void cleanupTestCase() { wizard_.reset(); }

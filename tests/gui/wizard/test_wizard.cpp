@@ -17,7 +17,7 @@ namespace {
 
 class ScriptedPage : public PageModel {
  public:
-  QString name() const override { return "page"; }
+  ScriptedPage() : PageModel({"page", "", "page"}) {}
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {state, {}}; }
   Command primary() const override { return {}; }

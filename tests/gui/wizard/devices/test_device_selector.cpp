@@ -12,8 +12,7 @@ namespace {
 
 class ScriptedPage : public DevicePage {
  public:
-  using DevicePage::DevicePage;
-  QString name() const override { return "page"; }
+  explicit ScriptedPage(Session& session) : DevicePage({"page", "", "page"}, session) {}
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
   Command primary() const override { return {}; }

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/frame/wizard_step.h"
+
+namespace relucent {
+
+WizardStep acquireStep();
+
+}  // namespace relucent

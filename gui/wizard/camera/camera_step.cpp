@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/camera/camera_step.h"
+
+#include "wizard/camera/camera_view.h"
+
+namespace relucent {
+
+WizardStep cameraStep() {
+  return stepOf<CameraPage>();
+}
+
+}  // namespace relucent

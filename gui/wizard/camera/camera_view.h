@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/camera/camera_page.h"
+#include "wizard/frame/page_view.h"
+
+namespace relucent {
+
+PageView viewOf(CameraPage& model);
+
+}  // namespace relucent

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/cluster/cluster_step.h"
+
+#include "wizard/cluster/cluster_view.h"
+
+namespace relucent {
+
+WizardStep clusterStep() {
+  return stepOf<ClusterPage>();
+}
+
+}  // namespace relucent

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/linearize/linearize_step.h"
+
+#include "wizard/linearize/linearize_view.h"
+
+namespace relucent {
+
+WizardStep linearizeStep() {
+  return stepOf<LinearizePage>();
+}
+
+}  // namespace relucent

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/output/output_step.h"
+
+#include "wizard/output/output_view.h"
+
+namespace relucent {
+
+WizardStep outputStep() {
+  return stepOf<OutputPage>();
+}
+
+}  // namespace relucent

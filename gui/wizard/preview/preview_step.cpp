@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/preview/preview_step.h"
+
+#include "wizard/preview/preview_view.h"
+
+namespace relucent {
+
+WizardStep previewStep() {
+  return stepOf<PreviewPage>();
+}
+
+}  // namespace relucent

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/frame/page_view.h"
+#include "wizard/preview/preview_page.h"
+
+namespace relucent {
+
+PageView viewOf(PreviewPage& model);
+
+}  // namespace relucent

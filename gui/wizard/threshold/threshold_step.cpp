@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/threshold/threshold_step.h"
+
+#include "wizard/threshold/threshold_view.h"
+
+namespace relucent {
+
+WizardStep thresholdStep() {
+  return stepOf<ThresholdPage>();
+}
+
+}  // namespace relucent

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/frame/page_view.h"
+#include "wizard/venue/venue_page.h"
+
+namespace relucent {
+
+PageView viewOf(VenuePage& model);
+
+}  // namespace relucent

@@ -46,12 +46,7 @@ std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
 
 /// Pages know no widgets and go on with what they do; the window round them is made anew in its place.
 void WizardWindow::speakAnew() {
-  PageModel* busy = nullptr;
-  for (std::size_t i = 0; i < wizard_.count(); ++i)
-    if (wizard_.page(i).name() == session_.busy()) busy = &wizard_.page(i);
   language_.choose(languageCode_);
-  // By its new name, by which it will say that it is done.
-  if (busy != nullptr) session_.setBusy(busy->name());
   std::unique_ptr<MainWindow> before = std::exchange(window_, makeWindow());
   window_->setGeometry(before->geometry());
   if (before->isVisible()) {

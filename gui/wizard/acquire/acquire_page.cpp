@@ -91,7 +91,7 @@ QString AcquirePage::hint() const {
   if (isLeaving())
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
-  if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
+  if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (isDone()) return tr("Measured in %1").arg(durationText(cost().value_or(StageCost()).seconds));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
@@ -110,7 +110,7 @@ Command AcquirePage::primary() const {
     return {tr("Show threshold"), Icon::next, !isMeasuring(), {}, [self] { Q_EMIT self->nextWanted(); }};
   return {kept_ > 0 ? tr("Resume") : tr("Start measuring"),
           Icon::play,
-          session_.busy().isEmpty() && session_.mayMeasure(),
+          session_.areDevicesFree() && session_.mayMeasure(),
           {},
           [self] { self->start(); }};
 }
@@ -140,7 +140,7 @@ std::optional<Banner> AcquirePage::banner() const {
         Banner::Kind::amber,
         tr("This measurement belongs to earlier settings"),
         tr("It still works and stays until the new one is ready."),
-        {tr("Measure again"), Icon::retry, session_.busy().isEmpty(), {}, [self] { self->start(); }},
+        {tr("Measure again"), Icon::retry, session_.areDevicesFree(), {}, [self] { self->start(); }},
         {}};
   if (progress == StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information,
@@ -149,7 +149,7 @@ std::optional<Banner> AcquirePage::banner() const {
                      nullptr, kept_),
                   {tr("Resume"),
                    Icon::play,
-                   session_.busy().isEmpty() && session_.mayMeasure(),
+                   session_.areDevicesFree() && session_.mayMeasure(),
                    {},
                    [self] { self->start(); }},
                   {}};
@@ -265,8 +265,8 @@ void AcquirePage::stopAndKeep() {
 }
 
 void AcquirePage::start() {
-  if (isMeasuring() || !session_.busy().isEmpty() || !session_.mayMeasure()) return;
-  session_.setBusy(name());
+  if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
+  lease_ = session_.leaseDevices(stepName);
   if (secondsToLeave_ == 0 || !session_.hasLight()) return begin();
   secondsLeftToLeave_ = secondsToLeave_;
   leaving_.start();
@@ -276,7 +276,7 @@ void AcquirePage::start() {
 void AcquirePage::stay() {
   if (!isLeaving()) return;
   leaving_.stop();
-  if (session_.busy() == name()) session_.setBusy({});
+  lease_.release();
   Q_EMIT changed();
 }
 
@@ -337,7 +337,7 @@ void AcquirePage::ended() {
     session_.reload();
     kept_ = session_.photographsKept(Stage::acquisition);
   }
-  if (session_.busy() == name()) session_.setBusy({});
+  lease_.release();
   if (job_.state() != Job::State::cancelled) Q_EMIT measured();
   if (job_.state() == Job::State::failed) {
     Command again{tr("Resume"), Icon::play, true, {}, [this] { start(); }};

@@ -129,6 +129,7 @@ class AcquirePage : public DevicePage {
   void tick();
   void lookAtResponse();
 
+  DeviceLease lease_;
   std::shared_ptr<Asking> asking_;
   AcquisitionTrace trace_;
   TimeLeft left_;

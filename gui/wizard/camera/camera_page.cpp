@@ -103,7 +103,7 @@ void CameraPage::chooseCamera(const std::string& address, std::optional<Size> si
 }
 
 void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> size) {
-  if (!mayChooseCamera() || isLooking() || !session_.busy().isEmpty()) return;
+  if (!mayChooseCamera() || isLooking() || !session_.areDevicesFree()) return;
   try {
     ScreenRigSettings rig = *session_.screenRig();
     rig.cameraAddress = address;
@@ -121,8 +121,8 @@ void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> 
 QString CameraPage::hint() const {
   if (needsCamera())
     return isListing() ? tr("Looking for cameras") : tr("Choose the camera that looks at the surface.");
-  if (!session_.busy().isEmpty() && !isLooking())
-    return tr("The camera is in use at %1.").arg(session_.busy());
+  if (!session_.areDevicesFree() && !isLooking())
+    return tr("The camera is in use at %1.").arg(session_.devicesUserName());
   if (isLooking() && exposures_.seconds.empty())
     return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
   if (tooBright_ && *tooBright_ > 0.05)
@@ -134,7 +134,7 @@ QString CameraPage::hint() const {
 Command CameraPage::primary() const {
   auto* self = const_cast<CameraPage*>(this);
   bool seen = look_.has_value() || session_.progress(Stage::camera) == StageProgress::done;
-  bool free = session_.busy().isEmpty() || isLooking();
+  bool free = session_.areDevicesFree() || isLooking();
   return {tr("Keep exposures"), Icon::next, seen && free, {}, [self] {
             if (self->look_) {
               self->goOn_ = true;
@@ -153,12 +153,12 @@ std::vector<Command> CameraPage::secondary() const {
   if (isLooking()) return {{tr("Pause"), Icon::pause, true, {}, [self] { self->finish(); }}};
   if (needsCamera()) return {};
   std::vector<Command> commands{
-      {tr("Check again"), Icon::retry, session_.busy().isEmpty() && session_.isOpen(), {}, [self] {
+      {tr("Check again"), Icon::retry, session_.areDevicesFree() && session_.isOpen(), {}, [self] {
          self->best_ = 0.0;
          self->start();
        }}};
   if (mayChooseCamera())
-    commands.push_back({tr("Choose another camera"), Icon::camera, session_.busy().isEmpty(), {}, [self] {
+    commands.push_back({tr("Choose another camera"), Icon::camera, session_.areDevicesFree(), {}, [self] {
                           self->exchangeCamera({}, std::nullopt);
                           self->listCameras();
                         }});
@@ -168,7 +168,7 @@ std::vector<Command> CameraPage::secondary() const {
 void CameraPage::enter() {
   if (needsCamera()) return listCameras();
   bool wanted = session_.progress(Stage::camera) != StageProgress::done;
-  if (wanted && session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty()) start();
+  if (wanted && session_.isOpen() && !job_.isRunning() && session_.areDevicesFree()) start();
 }
 
 void CameraPage::finish() {
@@ -211,11 +211,11 @@ void CameraPage::chooseExposure(std::size_t index) {
 }
 
 void CameraPage::start() {
-  if (needsCamera()) return;
+  if (needsCamera() || !session_.areDevicesFree()) return;
   goOn_ = false;
   shared_ = std::make_shared<Shared>();
   shared_->area = area_;
-  session_.setBusy(name());
+  lease_ = session_.leaseDevices(stepName);
   job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
     Progress opening = progress.part(0.4, tr("Opening the devices").toStdString());
     Rig& rig = work.devices->open(opening);
@@ -298,7 +298,7 @@ void CameraPage::takeNews() {
 
 void CameraPage::ended() {
   takeNews();
-  if (session_.busy() == name()) session_.setBusy({});
+  lease_.release();
   if (job_.state() == Job::State::failed)
     Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost."), {}, {}});
   if (std::exchange(goOn_, false)) keepLook();

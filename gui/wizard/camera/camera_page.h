@@ -90,6 +90,7 @@ class CameraPage : public PageModel {
   void ended();
 
   Session& session_;
+  DeviceLease lease_;
   Job job_;
   std::shared_ptr<Shared> shared_;
   std::optional<CameraLook> look_;

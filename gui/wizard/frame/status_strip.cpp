@@ -87,7 +87,7 @@ void StatusStrip::refresh() {
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
-  camera_->setText(session_.busy().isEmpty() ? kind : tr("%1, in use").arg(kind));
+  camera_->setText(session_.areDevicesFree() ? kind : tr("%1, in use").arg(kind));
   const QString folder = QString::fromStdString(session_.path().string());
   disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
   QString latest;

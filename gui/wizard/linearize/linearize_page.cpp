@@ -66,7 +66,7 @@ StepStatus LinearizePage::status() const {
 
 QString LinearizePage::hint() const {
   if (isMeasuring()) return job_.stage();
-  if (!session_.busy().isEmpty()) return tr("The devices are in use at %1.").arg(session_.busy());
+  if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (session_.progress(Stage::linearization) == StageProgress::done) {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
     if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
@@ -84,7 +84,7 @@ Command LinearizePage::primary() const {
             }};
   return {tr("Measure response"),
           Icon::play,
-          !isMeasuring() && session_.busy().isEmpty() && session_.mayMeasure(),
+          !isMeasuring() && session_.areDevicesFree() && session_.mayMeasure(),
           {},
           [self] { self->measure(false); }};
 }
@@ -94,7 +94,7 @@ std::vector<Command> LinearizePage::secondary() const {
   if (isMeasuring())
     return {{tr("Stop"), Icon::stop, !job_.isStopping(), QKeySequence("Ctrl+K"), [self] { self->finish(); }}};
   if (session_.progress(Stage::linearization) != StageProgress::done) return {};
-  return {{tr("Measure again"), Icon::retry, session_.busy().isEmpty() && session_.mayMeasure(),
+  return {{tr("Measure again"), Icon::retry, session_.areDevicesFree() && session_.mayMeasure(),
            QKeySequence("Ctrl+R"), [self] { self->measure(true); }}};
 }
 
@@ -148,8 +148,8 @@ void LinearizePage::keepLevels(int levels) {
 }
 
 void LinearizePage::measure(bool again) {
-  if (isMeasuring() || !session_.busy().isEmpty() || !session_.mayMeasure()) return;
-  session_.setBusy(name());
+  if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
+  lease_ = session_.leaseDevices(stepName);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again](Progress& progress) {
     Progress opening = progress.part(0.2, tr("Opening the devices").toStdString());
@@ -174,7 +174,7 @@ void LinearizePage::finish() {
 
 void LinearizePage::ended() {
   if (session_.isOpen()) session_.reload();
-  if (session_.busy() == name()) session_.setBusy({});
+  lease_.release();
   if (job_.state() == Job::State::failed) {
     Command again{tr("Try again"), Icon::retry, true, {}, [this] { measure(false); }};
     Q_EMIT failed({job_.failure(),

@@ -53,6 +53,7 @@ class LinearizePage : public DevicePage {
   void look();
   void ended();
 
+  DeviceLease lease_;
   Job job_;
   std::optional<Linearization> result_;
   std::string shown_;  // when the result was stored that is in result_

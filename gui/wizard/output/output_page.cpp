@@ -17,7 +17,7 @@ namespace relucent {
 
 OutputPage::OutputPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
-      proof_(session, [this] { return name(); }),
+      proof_(session, stepName),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   connect(&session_, &Session::opened, this, [this] {
     close();
@@ -104,7 +104,7 @@ Command OutputPage::primary() const {
   return {tr("Open output"),
           Icon::play,
           !projectorWithoutScreen() && !playlist_.isEmpty() && !projection_.isOpening() &&
-              session_.busy().isEmpty(),
+              session_.areDevicesFree(),
           {},
           [self] { self->open(); }};
 }
@@ -173,7 +173,7 @@ QString OutputPage::stillMethod() const {
 
 void OutputPage::open() {
   if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
-      !session_.busy().isEmpty())
+      !session_.areDevicesFree())
     return;
   std::vector<ScreenIdentity> screens;
   for (const auto& screen : chosen_) screens.push_back(screens_[*screen].identity);

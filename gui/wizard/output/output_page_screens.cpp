@@ -80,7 +80,7 @@ void OutputPage::followScreen() {
 
 void OutputPage::keepScreen() {
   const ScreenRigSettings* before = session_.screenRig();
-  if (before == nullptr || !session_.busy().isEmpty()) return;
+  if (before == nullptr || !session_.areDevicesFree()) return;
   for (const ScreenChoice& choice : screenChoicesFor(before->projector)) {
     if (!choice.refusal.isEmpty() || identityOf(choice.display) != screens_[*chosen()].identity) continue;
     if (choice.display == before->display) return;

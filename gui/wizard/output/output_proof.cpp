@@ -61,8 +61,8 @@ struct OutputProof::Found {
   QString report;
 };
 
-OutputProof::OutputProof(Session& session, std::function<QString()> who, QObject* parent)
-    : QObject(parent), session_(session), who_(std::move(who)) {
+OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent)
+    : QObject(parent), session_(session), step_(step) {
   connect(&session_, &Session::opened, this, [this] {
     job_.cancel();
     recall();
@@ -94,7 +94,7 @@ void OutputProof::forgetWhatIsNoProof() {
 
 void OutputProof::start(Work work, Job::Work job) {
   work_ = work;
-  session_.setBusy(who_());
+  lease_ = session_.leaseDevices(step_);
   job_.start(std::move(job));
   Q_EMIT changed();
 }
@@ -154,7 +154,7 @@ void OutputProof::report(const QString& picture) {
 
 void OutputProof::finished() {
   std::shared_ptr<Found> found = std::exchange(found_, nullptr);
-  if (session_.busy() == who_()) session_.setBusy({});
+  lease_.release();
   bool done = job_.state() == Job::State::done && found;
   if (done && found->proof) proof_ = found->proof;
   if (done && found->drift) drift_ = std::move(found->drift);

@@ -34,15 +34,15 @@ class OutputProof : public QObject {
  public:
   enum class Work { none, photograph, drift, report };
 
-  /// `who`: the page that the devices are used by, as it is called in the language of the moment.
-  OutputProof(Session& session, std::function<QString()> who, QObject* parent = nullptr);
+  /// `step`: that the devices are used by.
+  OutputProof(Session& session, const StepName& step, QObject* parent = nullptr);
   ~OutputProof() override { job_.cancel(); }
 
   Work work() const { return job_.isRunning() ? work_ : Work::none; }
   QString stage() const { return job_.stage(); }
   double fraction() const { return job_.fraction(); }
   /// Devices and light transport are free.
-  bool isPossible() const { return session_.isOpen() && !job_.isRunning() && session_.busy().isEmpty(); }
+  bool isPossible() const { return session_.isOpen() && !job_.isRunning() && session_.areDevicesFree(); }
   /// A dozen patterns one after the other: people must know.
   bool mayFlash() const { return session_.mayMeasure(); }
 
@@ -72,9 +72,10 @@ class OutputProof : public QObject {
   void forgetWhatIsNoProof();
 
   Session& session_;
+  StepName step_;
+  DeviceLease lease_;
   Job job_;
   Work work_ = Work::none;
-  std::function<QString()> who_;
   std::shared_ptr<const Proof> proof_;
   std::optional<VerifyResult> drift_;
   struct Found;

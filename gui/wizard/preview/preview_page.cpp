@@ -75,7 +75,7 @@ void PreviewPage::enter() {
 }
 
 void PreviewPage::prepare() {
-  if (!session_.isOpen() || job_.isRunning() || !session_.busy().isEmpty()) return;
+  if (!session_.isOpen() || job_.isRunning() || !session_.areDevicesFree()) return;
   const ThresholdSettings& cut = session_.settings().threshold;
   std::string wanted = fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept,
                                    session_.result(Stage::acquisition)->stored);
@@ -83,7 +83,7 @@ void PreviewPage::prepare() {
   preparedFor_ = wanted;
   engine_ = nullptr;
   made_ = std::make_shared<PreviewEngine>();
-  session_.setBusy(name());
+  lease_ = session_.leaseDevices(stepName);
   job_.start([made = made_, path = session_.path()](Progress& progress) {
     {
       CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
@@ -103,7 +103,7 @@ void PreviewPage::prepare() {
 }
 
 void PreviewPage::prepared() {
-  if (session_.busy() == name()) session_.setBusy({});
+  lease_.release();
   if (job_.state() == Job::State::done) {
     engine_ = std::exchange(made_, nullptr);
     session_.reload();
@@ -215,8 +215,8 @@ StepStatus PreviewPage::status() const {
 QString PreviewPage::hint() const {
   if (job_.isRunning()) return job_.stage();
   if (!engine_)
-    return session_.busy().isEmpty() ? tr("The preview is not prepared.")
-                                     : tr("The devices are in use at %1.").arg(session_.busy());
+    return session_.areDevicesFree() ? tr("The preview is not prepared.")
+                                     : tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (!problem_.isEmpty()) return problem_;
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};

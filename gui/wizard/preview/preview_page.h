@@ -66,6 +66,7 @@ class PreviewPage : public PageModel {
   void accept();
 
   Session& session_;
+  DeviceLease lease_;
   Job job_;
   ContentSettings settings_;
   std::shared_ptr<const Image> content_;

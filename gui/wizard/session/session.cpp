@@ -349,10 +349,16 @@ void Session::setRoomLight(const RoomLight& light) {
   if (std::exchange(roomLight_, light) != light) Q_EMIT changed();
 }
 
-void Session::setBusy(const QString& who) {
-  busy_ = who;
-  if (busy_.isEmpty() && devices_) devices_->rest();
+DeviceLease Session::leaseDevices(const StepName& step) {
+  require(areDevicesFree(), "the devices are in use");
+  devicesUser_ = step;
   Q_EMIT changed();
+  return DeviceLease(*this);
+}
+
+void Session::takeBackDevices() {
+  devicesUser_.reset();
+  if (devices_) devices_->rest();
 }
 
 }  // namespace relucent

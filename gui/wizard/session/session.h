@@ -18,6 +18,8 @@
 #include "pipeline/devices.h"
 #include "pipeline/measured_venue.h"
 #include "pipeline/stored_settings.h"
+#include "wizard/session/device_lease.h"
+#include "wizard/session/step_name.h"
 
 namespace relucent {
 
@@ -172,9 +174,13 @@ class Session : public QObject {
   const std::optional<RoomLight>& roomLight() const { return roomLight_; }
   void setRoomLight(const RoomLight& light);
 
-  /// Devices are used by one page at a time. `who`: its name; empty: nobody.
-  const QString& busy() const { return busy_; }
-  void setBusy(const QString& who);
+  /// Devices, and the light transport while it is rewritten, are used by one step at a time; none: by nobody.
+  const std::optional<StepName>& devicesUser() const { return devicesUser_; }
+  bool areDevicesFree() const { return !devicesUser_; }
+  /// In the language of the moment; empty: nobody uses them.
+  QString devicesUserName() const { return devicesUser_ ? devicesUser_->text() : QString(); }
+  /// For `step`, until the lease ends. Contract: areDevicesFree().
+  DeviceLease leaseDevices(const StepName& step);
 
  Q_SIGNALS:
   /// Another calibration, or none.
@@ -183,6 +189,7 @@ class Session : public QObject {
   void changed();
 
  private:
+  friend class DeviceLease;
   struct StageState {
     StageProgress progress = StageProgress::open;
     std::optional<StageResult> result;
@@ -193,6 +200,7 @@ class Session : public QObject {
   void adopt(const CalibrationFolder& folder);
   void slowDown();
   void equip();
+  void takeBackDevices();
   std::unique_ptr<ScreenProjector> openScreen(const ScreenRigSettings& settings);
 
   std::filesystem::path path_, cache_;
@@ -205,7 +213,7 @@ class Session : public QObject {
   std::shared_ptr<const Acquisition> acquisition_;
   std::string acquired_;  // when the result was stored that `acquisition_` is or will be
   std::optional<Failure> readFailure_;
-  QString busy_;
+  std::optional<StepName> devicesUser_;
   int flashLimit_ = 0;
   bool roomClear_ = false;
   bool screenMissing_ = false;

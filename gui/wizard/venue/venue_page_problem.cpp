@@ -67,7 +67,8 @@ std::pair<double, double> VenuePage::expectedSeconds() const {
 VenuePage::Problem VenuePage::firstProblem() const {
   if (mode_ == Mode::start) return {};
   if (mode_ == Mode::screen) {
-    if (!openScreen_.isChangeable()) return {tr("The devices are in use at %1.").arg(session_.busy())};
+    if (!openScreen_.isChangeable())
+      return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
     if (!openScreen_.isAnother()) return {tr("Choose another screen."), "screens"};
     return {};
   }

@@ -18,7 +18,7 @@ class VenueScreen : public QObject {
   explicit VenueScreen(Session& session, QObject* parent = nullptr);
 
   /// The projector is a screen, and nothing uses it.
-  bool isChangeable() const { return session_.screenRig() != nullptr && session_.busy().isEmpty(); }
+  bool isChangeable() const { return session_.screenRig() != nullptr && session_.areDevicesFree(); }
   /// The projector is a screen that is not there.
   bool isMissing() const;
   /// What can be chosen: once something is measured, screens of the same pixels.

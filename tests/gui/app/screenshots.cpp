@@ -118,7 +118,7 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   wizard.wizard().go(1);
   until([&] { return wizard.page<CameraPage>().tooDarkEverywhere().has_value(); });
   wizard.page<CameraPage>().primary().run();
-  until([&] { return wizard.session().busy().isEmpty() && wizard.wizard().current() == 2; });
+  until([&] { return wizard.session().areDevicesFree() && wizard.wizard().current() == 2; });
   wizard.page<LinearizePage>().primary().run();
   until([&] { return wizard.page<LinearizePage>().result() && !wizard.page<LinearizePage>().isMeasuring(); });
   wizard.wizard().go(3);
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
     steps.go(2);
   else
     wizard.page<CameraPage>().primary().run();
-  until([&] { return wizard.session().busy().isEmpty() && steps.current() == 2; });
+  until([&] { return wizard.session().areDevicesFree() && steps.current() == 2; });
   photographs.take("03-linearize");
   steps.go(3);
   photographs.take("04-acquire");

@@ -185,7 +185,7 @@ class TestLayouts : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().primary().enabled, patience);
     wizard_->page<CameraPage>().primary().run();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{2}, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().areDevicesFree(), patience);
   }
 
   void linearization() {
@@ -213,7 +213,7 @@ class TestLayouts : public QObject {
     wizard_->page<AcquirePage>().resume();
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done, patience);
     // Whoever measured in many languages says in the last that the devices are free.
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().areDevicesFree(), patience);
     wizard_->page<AcquirePage>().primary().run();
   }
 

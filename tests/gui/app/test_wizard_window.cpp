@@ -241,7 +241,7 @@ class TestWizardWindow : public QObject {
   }
 
   void theResponseIsMeasured() {
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().busy().isEmpty(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().areDevicesFree(), patience);
     click("primary");
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::linearization) == StageProgress::done,
                              patience);

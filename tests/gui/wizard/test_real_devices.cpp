@@ -328,7 +328,7 @@ class TestRealDevices : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!told.isEmpty(), 60000);
     QCOMPARE(told,
              QString("The camera sees DUMMY1, not DUMMY2. Choose DUMMY1, or aim the camera at DUMMY2."));
-    QTRY_VERIFY(session.busy().isEmpty());
+    QTRY_VERIFY(session.areDevicesFree());
   }
 
   /// Patterns never cover the wizard, wherever it stands.
@@ -394,7 +394,7 @@ class TestRealDevices : public QObject {
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
     QVERIFY(camera.primary().enabled);
     camera.primary().run();
-    QTRY_VERIFY(session.progress(Stage::camera) == StageProgress::done && session.busy().isEmpty());
+    QTRY_VERIFY(session.progress(Stage::camera) == StageProgress::done && session.areDevicesFree());
 
     CalibrateSettings quick = session.settings();
     quick.linearization.levels = 9;
@@ -402,7 +402,7 @@ class TestRealDevices : public QObject {
     session.changeSettings(quick);
     linearize.primary().run();
     QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::linearization) == StageProgress::done, 60000);
-    QTRY_VERIFY(session.busy().isEmpty());
+    QTRY_VERIFY(session.areDevicesFree());
     acquire.primary().run();
     QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::acquisition) == StageProgress::done, 60000);
 

@@ -59,12 +59,12 @@ class TestAcquirePage : public QObject {
     page.setSecondsToLeave(60);
     page.primary().run();
     QVERIFY(page.isLeaving() && !page.isMeasuring());
-    QCOMPARE(session_->busy(), page.name());
+    QVERIFY(session_->devicesUser() == AcquirePage::stepName);
     QVERIFY(page.status().state == StepState::busy && page.hint().contains("60"));
     // Not now: as if nothing had been pressed.
     QCOMPARE(page.secondary().size(), std::size_t{1});
     page.secondary().front().run();
-    QVERIFY(!page.isLeaving() && !page.isMeasuring() && session_->busy().isEmpty());
+    QVERIFY(!page.isLeaving() && !page.isMeasuring() && session_->areDevicesFree());
     // And again, not waiting for the rest of it. The scripts do not exist: it fails, but it has begun.
     page.primary().run();
     QVERIFY(page.isLeaving());
@@ -76,7 +76,7 @@ class TestAcquirePage : public QObject {
     page.primary().run();
     QVERIFY(page.isLeaving());
     session_->close();
-    QVERIFY(!page.isLeaving() && session_->busy().isEmpty());
+    QVERIFY(!page.isLeaving() && session_->areDevicesFree());
   }
 
   /// Law: each level has four times the blocks of the one before; patterns are planned, then known, then

@@ -6,7 +6,6 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
-#include <QScrollArea>
 #include <QShortcut>
 
 #include "app/help_window.h"
@@ -77,12 +76,11 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
     connect(page, &PageModel::failed, this,
             [this, page](const FailureReport& report) { tell(*page, report); });
   }
-  connect(&wizard_, &Wizard::changed, this, &MainWindow::refresh);
+  connect(&wizard_, &Wizard::statusChanged, this, &MainWindow::refresh);
   connect(&wizard_, &Wizard::moved, this, [this] {
     refresh();
     focusFirst(stages_);
   });
-  connect(actions_, &ActionBar::causeWanted, this, &MainWindow::focusCause);
   connect(qApp, &QApplication::focusChanged, this, &MainWindow::keepFocus);
   new QuietWheel(this);
   bindKeys();
@@ -180,32 +178,6 @@ void MainWindow::bindKeys() {
   key(QKeySequence("F6"), [this] { moveToNextRegion(); });
   key(QKeySequence("F9"), [this] { dim_->toggle(); });
   key(QKeySequence("F11"), [this] { isFullScreen() ? showNormal() : showFullScreen(); });
-}
-
-bool MainWindow::focusFirst(QWidget* region) {
-  for (QWidget* child : region->findChildren<QWidget*>()) {
-    if (!child->isVisibleTo(this) || !child->isEnabled() || (child->focusPolicy() & Qt::TabFocus) == 0)
-      continue;
-    child->setFocus(Qt::TabFocusReason);
-    return true;
-  }
-  return false;
-}
-
-void MainWindow::focusCause(const QString& name) {
-  for (QStackedWidget* region : {stages_, inspectors_}) {
-    // Stages of a page share names: what is in sight is meant, if only after scrolling.
-    for (QWidget* cause : region->findChildren<QWidget*>(name)) {
-      if (!cause->isVisible()) continue;
-      if (cause->focusPolicy() == Qt::NoFocus)
-        focusFirst(cause);
-      else
-        cause->setFocus(Qt::TabFocusReason);
-      for (QWidget* around = cause->parentWidget(); around != nullptr; around = around->parentWidget())
-        if (auto* scroll = qobject_cast<QScrollArea*>(around)) scroll->ensureWidgetVisible(cause);
-      return;
-    }
-  }
 }
 
 /// A button of the action bar that is done, and goes, would leave its focus to the rail, which is next: Enter

@@ -50,8 +50,6 @@ class MainWindow : public QMainWindow {
   void bindKeys();
   void refresh();
   void moveToNextRegion();
-  bool focusFirst(QWidget* region);
-  void focusCause(const QString& name);
   void keepFocus(QWidget* before, QWidget* now);
   void tell(const PageModel& page, const FailureReport& report);
 

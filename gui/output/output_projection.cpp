@@ -48,7 +48,7 @@ OutputProjection::OutputProjection(QObject* parent)
             Q_EMIT mirrored();
           },
           [this](const Failure& failure) { Q_EMIT failed(failure); }) {
-  connect(&job_, &Job::progressed, this, &OutputProjection::changed);
+  connect(&job_, &Job::progressed, this, &OutputProjection::progressed);
   connect(&job_, &Job::ended, this, &OutputProjection::opened);
   sampling_.setInterval(sampleInterval);
   connect(&sampling_, &QTimer::timeout, this, &OutputProjection::sample);
@@ -141,7 +141,7 @@ void OutputProjection::sample() {
   PlayerStatistics now = statistics();
   frameTimes_.push_back(now.frames > 0 ? 1000.0 * now.frameSeconds : 0.0);
   if (frameTimes_.size() > frameTimesKept) frameTimes_.pop_front();
-  Q_EMIT changed();
+  Q_EMIT progressed();
 }
 
 void OutputProjection::close() {

@@ -76,8 +76,10 @@ class OutputProjection : public QObject {
   const QImage& mirror() const { return mirror_; }
 
  Q_SIGNALS:
-  /// Opened, closed, switched; and twice a second while it plays.
+  /// Opened, closed or switched.
   void changed();
+  /// How far the preparation is; and what plays and how it goes, twice a second.
+  void progressed();
   /// A new mirror().
   void mirrored();
   void failed(const relucent::Failure& failure);

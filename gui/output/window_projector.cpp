@@ -44,9 +44,8 @@ QImage driveOf(const Image& encodedDrive) {
 
 /// Returns once the display server has done all that this program asked it to, and has told what it knows:
 /// reading a pixel is an answer that comes after all of that.
-void meetDisplayServer(const QScreen* screen) {
-  if (screen != nullptr && QGuiApplication::platformName() == "xcb")
-    const_cast<QScreen*>(screen)->grabWindow(0, 0, 0, 1, 1);
+void meetDisplayServer(QScreen* screen) {
+  if (screen != nullptr && QGuiApplication::platformName() == "xcb") screen->grabWindow(0, 0, 0, 1, 1);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ double until(PageModel& page, const Condition& condition) {
   QElapsedTimer timer;
   timer.start();
   QEventLoop waiting;
-  auto connection = QObject::connect(&page, &PageModel::changed, &waiting, [&] {
+  auto connection = QObject::connect(&page, &PageModel::resultChanged, &waiting, [&] {
     if (condition()) waiting.quit();
   });
   auto failing = QObject::connect(&page, &PageModel::failed, &waiting, [](const FailureReport& report) {

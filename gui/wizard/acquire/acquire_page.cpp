@@ -26,6 +26,7 @@ constexpr std::chrono::seconds beforeRetry{5};
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent), asking_(std::make_shared<Asking>()) {
+  makeCommands();
   connect(&session_, &Session::opened, this, [this] {
     finish();
     trace_.clear();
@@ -33,14 +34,17 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     left_ = {};
     kept_ = session_.isOpen() ? session_.photographsKept(Stage::acquisition) : 0;
     connect(&session_.live(), &LiveRig::seen, this, [this] {
-      if (isMeasuring()) Q_EMIT changed();
+      if (isMeasuring()) tellProgress();
     });
   });
-  connect(&session_, &Session::changed, this, [this] {
+  connect(&session_, &Session::stepsChanged, this, [this] {
     lookAtResponse();
-    Q_EMIT changed();
+    tellAll();
   });
-  connect(&job_, &Job::progressed, this, &AcquirePage::changed);
+  connect(&session_, &Session::acquisitionChanged, this, &AcquirePage::resultChanged);
+  connect(&session_, &Session::roomLightChanged, this, &AcquirePage::resultChanged);
+  connect(&session_, &Session::devicesChanged, this, &AcquirePage::tellStatus);
+  connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
   connect(&job_, &Job::expected, this, [this](const WorkLeft& left) {
     forecast_ = left;
     left_.expect(left, Clock::now());
@@ -48,15 +52,40 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
   connect(&trace_, &AcquisitionTrace::changed, this, [this] {
     if (auto light = trace_.roomLight()) session_.setRoomLight(*light);
-    Q_EMIT changed();
+    tellProgress();
   });
   leaving_.setInterval(1000);
   connect(&leaving_, &QTimer::timeout, this, [this] {
-    if (--secondsLeftToLeave_ > 0) return Q_EMIT changed();
+    if (--secondsLeftToLeave_ > 0) return tellStatus();
     begin();
   });
   second_.setInterval(1000);
   connect(&second_, &QTimer::timeout, this, &AcquirePage::tick);
+  updateCommands();
+}
+
+void AcquirePage::makeCommands() {
+  auto begins = [this] { start(); };
+  start_ = addCommand(Icon::play, begins);
+  startNow_ = addCommand(Icon::play, [this] { begin(); });
+  stay_ = addCommand(Icon::stop, [this] { stay(); });
+  next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
+  pause_ = addCommand(
+      Icon::pause, [this] { pause(); }, QKeySequence("Ctrl+P"));
+  resume_ = addCommand(
+      Icon::play, [this] { resume(); }, QKeySequence("Ctrl+P"));
+  keep_ = addCommand(
+      Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
+  again_ = addCommand(Icon::retry, begins);
+  goOn_ = addCommand(Icon::play, begins);
+  retryAlarm_ = answering(Icon::retry, Answer::retry);
+  keepAtAlarm_ = answering(Icon::save, Answer::keepAndStop);
+  skipAlarm_ = answering(Icon::next, Answer::skip);
+  retry_ = addCommand(Icon::play, begins);
+}
+
+Command* AcquirePage::answering(Icon icon, Answer answer) {
+  return addCommand(icon, [this, answer] { asking_->give(answer); });
 }
 
 AcquirePage::~AcquirePage() {
@@ -103,27 +132,32 @@ QString AcquirePage::hint() const {
   return tr("Leave the room dark and still, then start.");
 }
 
-Command AcquirePage::primary() const {
-  auto* self = const_cast<AcquirePage*>(this);
-  if (isLeaving()) return {tr("Start now"), Icon::play, true, {}, [self] { self->begin(); }};
-  if (isMeasuring() || isDone())
-    return {tr("Show threshold"), Icon::next, !isMeasuring(), {}, [self] { Q_EMIT self->nextWanted(); }};
-  return {kept_ > 0 ? tr("Resume") : tr("Start measuring"),
-          Icon::play,
-          session_.areDevicesFree() && session_.mayMeasure(),
-          {},
-          [self] { self->start(); }};
+void AcquirePage::updateCommands() {
+  const bool mayStart = session_.areDevicesFree() && session_.mayMeasure();
+  start_->show(kept_ > 0 ? tr("Resume") : tr("Start measuring"), mayStart);
+  startNow_->show(tr("Start now"));
+  stay_->show(tr("Not now"));
+  next_->show(tr("Show threshold"), !isMeasuring());
+  pause_->show(tr("Pause"), !isStopping());
+  resume_->show(tr("Resume"));
+  keep_->show(tr("Stop and keep"), !isStopping());
+  again_->show(tr("Measure again"), session_.areDevicesFree());
+  goOn_->show(tr("Resume"), mayStart);
+  retryAlarm_->show(tr("Measure again"));
+  keepAtAlarm_->show(tr("Stop and keep"));
+  skipAlarm_->show(tr("Continue anyway"));
+  retry_->show(tr("Resume"));
 }
 
-std::vector<Command> AcquirePage::secondary() const {
-  auto* self = const_cast<AcquirePage*>(this);
-  if (isLeaving()) return {{tr("Not now"), Icon::stop, true, {}, [self] { self->stay(); }}};
+Command* AcquirePage::primary() const {
+  if (isLeaving()) return startNow_;
+  return isMeasuring() || isDone() ? next_ : start_;
+}
+
+std::vector<Command*> AcquirePage::secondary() const {
+  if (isLeaving()) return {stay_};
   if (!isMeasuring()) return {};
-  Command keep{tr("Stop and keep"), Icon::save, !isStopping(), QKeySequence("Ctrl+K"),
-               [self] { self->stopAndKeep(); }};
-  if (isPaused())
-    return {{tr("Resume"), Icon::play, true, QKeySequence("Ctrl+P"), [self] { self->resume(); }}, keep};
-  return {{tr("Pause"), Icon::pause, !isStopping(), QKeySequence("Ctrl+P"), [self] { self->pause(); }}, keep};
+  return {isPaused() ? resume_ : pause_, keep_};
 }
 
 std::optional<double> AcquirePage::progress() const {
@@ -133,26 +167,15 @@ std::optional<double> AcquirePage::progress() const {
 std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (isMeasuring() || isLeaving()) return std::nullopt;
-  auto* self = const_cast<AcquirePage*>(this);
   StageProgress progress = session_.progress(Stage::acquisition);
   if (progress == StageProgress::stale)
-    return Banner{
-        Banner::Kind::amber,
-        tr("This measurement belongs to earlier settings"),
-        tr("It still works and stays until the new one is ready."),
-        {tr("Measure again"), Icon::retry, session_.areDevicesFree(), {}, [self] { self->start(); }},
-        {}};
+    return Banner{Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
+                  tr("It still works and stays until the new one is ready."), again_};
   if (progress == StageProgress::open && kept_ > 0)
-    return Banner{Banner::Kind::information,
-                  tr("The last session ended before it was finished"),
+    return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
                      nullptr, kept_),
-                  {tr("Resume"),
-                   Icon::play,
-                   session_.areDevicesFree() && session_.mayMeasure(),
-                   {},
-                   [self] { self->start(); }},
-                  {}};
+                  goOn_};
   return std::nullopt;
 }
 
@@ -184,7 +207,7 @@ void AcquirePage::keep(const AcquisitionSettings& acquisition) {
   try {
     session_.changeSettings(settings);
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
 }
 
@@ -250,13 +273,15 @@ void AcquirePage::lookAtResponse() {
 void AcquirePage::pause() {
   session_.live().pause();
   left_.pause(Clock::now());
-  Q_EMIT changed();
+  tellProgress();
+  tellStatus();
 }
 
 void AcquirePage::resume() {
   session_.live().resume();
   left_.resume(Clock::now());
-  Q_EMIT changed();
+  tellProgress();
+  tellStatus();
 }
 
 void AcquirePage::stopAndKeep() {
@@ -270,14 +295,14 @@ void AcquirePage::start() {
   if (secondsToLeave_ == 0 || !session_.hasLight()) return begin();
   secondsLeftToLeave_ = secondsToLeave_;
   leaving_.start();
-  Q_EMIT changed();
+  tellStatus();
 }
 
 void AcquirePage::stay() {
   if (!isLeaving()) return;
   leaving_.stop();
   lease_.release();
-  Q_EMIT changed();
+  tellStatus();
 }
 
 void AcquirePage::begin() {
@@ -304,7 +329,8 @@ void AcquirePage::begin() {
     Progress measuring = progress.part(0.95, tr("Measuring the light transport").toStdString());
     measureAcquisition(folder, rig, linearization, handler, *retrying, measuring);
   });
-  Q_EMIT changed();
+  tellProgress();
+  tellResult();
 }
 
 void AcquirePage::finish() {
@@ -317,17 +343,9 @@ void AcquirePage::finish() {
 void AcquirePage::askAbout(const Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
                   QString::fromStdString(alarm.sentence()), AcquisitionTrace::headingOf(alarm.kind)};
-  Command again{tr("Measure again"), Icon::retry, true, {}, [this] { answer(Answer::retry); }};
-  Command keep{tr("Stop and keep"), Icon::save, true, {}, [this] { answer(Answer::keepAndStop); }};
-  Command goOn;
-  if (mayBePutUpWith(alarm.kind))
-    goOn = {tr("Continue anyway"), Icon::next, true, {}, [this] { answer(Answer::skip); }};
-  Q_EMIT failed({failure, fullSentence(alarm.safe), again, keep, goOn});
+  Command* goOn = mayBePutUpWith(alarm.kind) ? skipAlarm_ : nullptr;
+  Q_EMIT failed({failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn});
   Q_EMIT asks();
-}
-
-void AcquirePage::answer(Answer answer) {
-  asking_->give(answer);
 }
 
 void AcquirePage::ended() {
@@ -340,14 +358,13 @@ void AcquirePage::ended() {
   lease_.release();
   if (job_.state() != Job::State::cancelled) Q_EMIT measured();
   if (job_.state() == Job::State::failed) {
-    Command again{tr("Resume"), Icon::play, true, {}, [this] { start(); }};
     Q_EMIT failed(
         {job_.failure(),
          tr("All %n photograph(s) are on the disk. The one being taken is not counted.", nullptr, kept_),
-         again,
-         {}});
+         retry_});
   }
-  Q_EMIT changed();
+  tellProgress();
+  tellResult();
 }
 
 void AcquirePage::tick() {
@@ -355,7 +372,7 @@ void AcquirePage::tick() {
   // Smoothed over some seconds.
   rate_ = rate_ == 0.0 ? count - lastCount_ : 0.8 * rate_ + 0.2 * (count - lastCount_);
   lastCount_ = count;
-  Q_EMIT changed();
+  tellProgress();
 }
 
 }  // namespace relucent

@@ -42,9 +42,9 @@ class AcquirePage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  QString cause() const override { return session_.mayMeasure() ? QString() : "room-is-clear"; }
-  Command primary() const override;
-  std::vector<Command> secondary() const override;
+  bool hasRemedy() const override { return !session_.mayMeasure(); }
+  Command* primary() const override;
+  std::vector<Command*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
   void finish() override;
@@ -114,7 +114,11 @@ class AcquirePage : public DevicePage {
   void secondsToLeaveChosen(int seconds);
   void soundChosen(bool sound);
 
+ protected:
+  void updateCommands() override;
+
  private:
+  void makeCommands();
   void start();
   void begin();
   void stay();
@@ -124,11 +128,14 @@ class AcquirePage : public DevicePage {
   void change(const QString& what, const AcquisitionSettings& settings);
   void keep(const AcquisitionSettings& settings);
   void askAbout(const Alarm& alarm);
-  void answer(Answer answer);
+  Command* answering(Icon icon, Answer answer);
   void ended();
   void tick();
   void lookAtResponse();
 
+  Command *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_;
+  Command *again_, *goOn_;                                    // of the banner
+  Command *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<Asking> asking_;
   AcquisitionTrace trace_;

@@ -75,13 +75,13 @@ Image AcquirePage::floodlight() const {
 void AcquirePage::setSecondsToLeave(int seconds) {
   if (std::exchange(secondsToLeave_, seconds) == seconds) return;
   Q_EMIT secondsToLeaveChosen(seconds);
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void AcquirePage::setSound(bool sound) {
   if (std::exchange(sound_, sound) == sound) return;
   Q_EMIT soundChosen(sound);
-  Q_EMIT changed();
+  tellSettings();
 }
 
 }  // namespace relucent

@@ -14,6 +14,7 @@
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/devices/device_selector.h"
+#include "wizard/frame/page_view.h"
 
 namespace relucent {
 namespace {
@@ -49,8 +50,7 @@ QWidget* startPart(AcquirePage& model) {
     const QSignalBlocker quiet(sound);
     sound->setChecked(model.hasSound());
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return part;
 }
 
@@ -89,8 +89,7 @@ QWidget* readyPart(AcquirePage& model) {
     else
       disk->show(Remark::Kind::failed, AcquirePage::tr("The disk is too full"), needs);
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return part;
 }
 
@@ -122,8 +121,7 @@ QWidget* resultPart(AcquirePage& model) {
     findings->setVisible(!found.isEmpty());
     findings->setText(AcquirePage::tr("Found while measuring"), found.join("\n\n"));
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::resultChanged);
   return part;
 }
 
@@ -146,8 +144,7 @@ QWidget* floodlightCard(AcquirePage& model) {
     const Image flood = wanted.first == 0 ? Image() : model.floodlight();
     view->setPicture(flood.empty() ? QImage() : pictureOf(flood, displayWhite(flood)));
   };
-  QObject::connect(&model, &AcquirePage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return card;
 }
 
@@ -191,8 +188,7 @@ QWidget* planOf(AcquirePage& model) {
     colour->setCurrent(model.isWhite() ? 1 : 0);
     start->setVisible(!model.isDone());
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return part;
 }
 

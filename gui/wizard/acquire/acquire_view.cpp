@@ -47,8 +47,8 @@ QWidget* livePart(AcquirePage& model) {
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
     seen->setSubtitle(exposureText(live.frame.seconds));
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::settingsChanged,
+            &AcquirePage::resultChanged);
   return part;
 }
 
@@ -99,8 +99,7 @@ QWidget* runOf(AcquirePage& model) {
       disk->setValue(bytesText(work->diskBytes));
     }
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::resultChanged);
   return part;
 }
 
@@ -111,14 +110,13 @@ QWidget* inspectorOf(AcquirePage& model) {
   QWidget* run = runOf(model);
   column->addWidget(plan);
   column->addWidget(run);
-  column->addWidget(consentPart(model.session()));
+  column->addWidget(consentPart(model));
   column->addStretch(1);
   auto refresh = [&model, plan, run] {
     plan->setVisible(!model.isMeasuring());
     run->setVisible(model.isMeasuring());
   };
-  QObject::connect(&model, &AcquirePage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &AcquirePage::resultChanged);
   return card;
 }
 

@@ -8,6 +8,7 @@
 #include "theme/theme.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
+#include "wizard/frame/page_view.h"
 
 namespace relucent {
 namespace {
@@ -92,8 +93,7 @@ QWidget* traceCard(AcquirePage& model) {
     chart->setMark(model.isMeasuring() ? now : std::numeric_limits<double>::quiet_NaN());
     chart->setAccessibleDescription(trace.states().front().figure);
   };
-  QObject::connect(&model, &AcquirePage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &AcquirePage::progressChanged, &AcquirePage::resultChanged);
   return card;
 }
 
@@ -142,8 +142,8 @@ QWidget* watchPart(AcquirePage& model) {
                        states[i].sentence, states[i].figure);
     often->setText(model.watching());
   };
-  QObject::connect(&model, &AcquirePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::settingsChanged,
+            &AcquirePage::resultChanged);
   return part;
 }
 

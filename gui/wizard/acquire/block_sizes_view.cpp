@@ -8,6 +8,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
+#include "wizard/frame/page_view.h"
 
 namespace relucent {
 namespace {
@@ -162,8 +163,8 @@ QWidget* blockSizesCard(AcquirePage& model) {
       card->setSubtitle(groupedText(AcquirePage::tr("%n pattern(s)", nullptr, count), count));
     view->show(std::move(levels), model.isMeasuring());
   };
-  QObject::connect(&model, &AcquirePage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &AcquirePage::progressChanged, &AcquirePage::settingsChanged,
+            &AcquirePage::resultChanged);
   return card;
 }
 

@@ -55,12 +55,12 @@ class CameraChoice : public Card {
     addAction(again_);
     connect(again_, &QPushButton::clicked, &model, &CameraPage::listCameras);
     connect(&model, &CameraPage::camerasListed, this, [this] { fill(); });
-    connect(&model, &CameraPage::changed, again_, [this] { again_->setEnabled(!model_.isListing()); });
     fill();
   }
 
  private:
   void fill() {
+    again_->setEnabled(!model_.isListing());
     while (QLayoutItem* item = body()->takeAt(0)) {
       delete item->widget();
       delete item;

@@ -43,12 +43,23 @@ CameraPage::CameraPage(Session& session, QObject* parent)
           [this](CameraList found) {
             cameras_ = std::move(found);
             Q_EMIT camerasListed();
-            Q_EMIT changed();
+            tellStatus();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("Nothing was changed."), {}, {}});
-            Q_EMIT changed();
+            Q_EMIT failed({failure, tr("Nothing was changed.")});
+            Q_EMIT camerasListed();
+            tellStatus();
           }) {
+  keep_ = addCommand(Icon::next, [this] { goOn(); });
+  pause_ = addCommand(Icon::pause, [this] { finish(); });
+  again_ = addCommand(Icon::retry, [this] {
+    best_ = 0.0;
+    start();
+  });
+  chooseAnother_ = addCommand(Icon::camera, [this] {
+    exchangeCamera({}, std::nullopt);
+    listCameras();
+  });
   connect(&session_, &Session::opened, this, [this] {
     finish();
     check_.reset();
@@ -59,9 +70,11 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     best_ = 0.0;
     area_ = {};
   });
-  connect(&session_, &Session::changed, this, &CameraPage::changed);
-  connect(&job_, &Job::progressed, this, &CameraPage::changed);
+  connect(&session_, &Session::stepsChanged, this, &CameraPage::tellAll);
+  connect(&session_, &Session::devicesChanged, this, &CameraPage::tellStatus);
+  connect(&job_, &Job::progressed, this, &CameraPage::tellProgress);
   connect(&job_, &Job::ended, this, &CameraPage::ended);
+  updateCommands();
 }
 
 CameraPage::~CameraPage() {
@@ -94,7 +107,7 @@ void CameraPage::listCameras() {
   if (isListing()) return;
   listing_.ask(lister_);
   Q_EMIT camerasListed();
-  Q_EMIT changed();
+  tellStatus();
 }
 
 void CameraPage::chooseCamera(const std::string& address, std::optional<Size> size) {
@@ -113,9 +126,9 @@ void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> 
     check_.reset();
     exposures_ = {};
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
-  Q_EMIT changed();
+  tellAll();
 }
 
 QString CameraPage::hint() const {
@@ -131,38 +144,34 @@ QString CameraPage::hint() const {
   return tr("Next: test patterns for the projector's response");
 }
 
-Command CameraPage::primary() const {
-  auto* self = const_cast<CameraPage*>(this);
-  bool seen = look_.has_value() || session_.progress(Stage::camera) == StageProgress::done;
-  bool free = session_.areDevicesFree() || isLooking();
-  return {tr("Keep exposures"), Icon::next, seen && free, {}, [self] {
-            if (self->look_) {
-              self->goOn_ = true;
-              if (self->isLooking())
-                self->job_.cancel();
-              else
-                self->ended();
-              return;
-            }
-            Q_EMIT self->nextWanted();
-          }};
+void CameraPage::updateCommands() {
+  const bool seen = look_.has_value() || session_.progress(Stage::camera) == StageProgress::done;
+  const bool free = session_.areDevicesFree();
+  keep_->show(tr("Keep exposures"), seen && (free || isLooking()));
+  pause_->show(tr("Pause"));
+  again_->show(tr("Check again"), free && session_.isOpen());
+  chooseAnother_->show(tr("Choose another camera"), free);
 }
 
-std::vector<Command> CameraPage::secondary() const {
-  auto* self = const_cast<CameraPage*>(this);
-  if (isLooking()) return {{tr("Pause"), Icon::pause, true, {}, [self] { self->finish(); }}};
+Command* CameraPage::primary() const {
+  return keep_;
+}
+
+std::vector<Command*> CameraPage::secondary() const {
+  if (isLooking()) return {pause_};
   if (needsCamera()) return {};
-  std::vector<Command> commands{
-      {tr("Check again"), Icon::retry, session_.areDevicesFree() && session_.isOpen(), {}, [self] {
-         self->best_ = 0.0;
-         self->start();
-       }}};
-  if (mayChooseCamera())
-    commands.push_back({tr("Choose another camera"), Icon::camera, session_.areDevicesFree(), {}, [self] {
-                          self->exchangeCamera({}, std::nullopt);
-                          self->listCameras();
-                        }});
-  return commands;
+  if (mayChooseCamera()) return {again_, chooseAnother_};
+  return {again_};
+}
+
+/// What is seen is kept when it is no longer being looked at.
+void CameraPage::goOn() {
+  if (!look_) return Q_EMIT nextWanted();
+  goOn_ = true;
+  if (isLooking())
+    job_.cancel();
+  else
+    ended();
 }
 
 void CameraPage::enter() {
@@ -188,7 +197,7 @@ void CameraPage::watch(const Region& area) {
     QMutexLocker lock(&shared_->guard);
     shared_->area = area;
   }
-  Q_EMIT changed();
+  tellSettings();
 }
 
 bool CameraPage::isFocusJudged() const {
@@ -207,7 +216,7 @@ void CameraPage::chooseExposure(std::size_t index) {
     QMutexLocker lock(&shared_->guard);
     shared_->exposure = index;
   }
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void CameraPage::start() {
@@ -274,7 +283,7 @@ void CameraPage::start() {
       }
     }
   });
-  Q_EMIT changed();
+  tellResult();
 }
 
 void CameraPage::takeNews() {
@@ -293,16 +302,16 @@ void CameraPage::takeNews() {
     look_ = shared_->look;
   }
   if (look_) best_ = std::max(best_, look_->sharpness);
-  Q_EMIT changed();
+  tellAll();
 }
 
 void CameraPage::ended() {
   takeNews();
   lease_.release();
   if (job_.state() == Job::State::failed)
-    Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost."), {}, {}});
+    Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost.")});
   if (std::exchange(goOn_, false)) keepLook();
-  Q_EMIT changed();
+  tellResult();
 }
 
 void CameraPage::keepLook() {
@@ -316,7 +325,7 @@ void CameraPage::keepLook() {
     session_.decide(kept);
     Q_EMIT nextWanted();
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
 }
 

@@ -37,8 +37,8 @@ class CameraPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command primary() const override;
-  std::vector<Command> secondary() const override;
+  Command* primary() const override;
+  std::vector<Command*> secondary() const override;
   void enter() override;
   void leave() override { finish(); }
   void finish() override;
@@ -77,12 +77,17 @@ class CameraPage : public PageModel {
   double focus() const { return best_ > 0.0 && look_ ? look_->sharpness / best_ : 0.0; }
 
  Q_SIGNALS:
+  /// It begins to look for cameras, or has.
   void camerasListed();
+
+ protected:
+  void updateCommands() override;
 
  private:
   struct Shared;
   bool mayChooseCamera() const;
   void exchangeCamera(const std::string& address, std::optional<Size> size);
+  void goOn();
   void keepLook();
   void start();
   void watch(const Region& area);
@@ -103,6 +108,7 @@ class CameraPage : public PageModel {
   CameraList cameras_;
   Latest<CameraList> listing_;
   std::optional<RigCheck> check_;
+  Command *keep_, *pause_, *again_, *chooseAnother_;
   bool goOn_ = false;  // the next step was asked for while looking
 };
 

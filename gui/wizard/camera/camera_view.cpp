@@ -125,8 +125,9 @@ class CameraStage : public Card {
     connect(&view_->link(), &ViewLink::picked, this, [this] {
       if (auto pick = view_->link().pick()) moveArea(*pick);
     });
-    connect(&model_, &CameraPage::changed, this, [this] { refresh(); });
-    refresh();
+    refreshOn(
+        model_, this, [this] { refresh(); }, &CameraPage::settingsChanged, &CameraPage::resultChanged,
+        &CameraPage::progressChanged);
   }
 
  private:
@@ -248,8 +249,7 @@ class CameraInspector {
             CameraPage::tr("%1 is too dark in every exposure"),
             CameraPage::tr("The projector may not reach there. Where it should, open the lens."));
     };
-    QObject::connect(&model, &CameraPage::changed, card, refresh);
-    refresh();
+    refreshOn(model, card, refresh, &CameraPage::settingsChanged, &CameraPage::resultChanged);
     return card;
   }
 };
@@ -261,8 +261,7 @@ PageView viewOf(CameraPage& model) {
   stages->addWidget(new CameraStage(model));
   stages->addWidget(cameraChoice(model));
   auto refresh = [&model, stages] { stages->setCurrentIndex(model.needsCamera() ? 1 : 0); };
-  QObject::connect(&model, &CameraPage::changed, stages, refresh);
-  refresh();
+  refreshOn(model, stages, refresh, &CameraPage::resultChanged);
   return {stages, CameraInspector::make(model)};
 }
 

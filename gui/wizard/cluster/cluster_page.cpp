@@ -68,12 +68,13 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
             compute();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+            Q_EMIT failed({failure, tr("What is measured is safe.")});
           }),
       computing_([this](std::shared_ptr<const ClusterResult> result) { show(std::move(result)); },
                  [this](const Failure& failure) {
-                   Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+                   Q_EMIT failed({failure, tr("What is measured is safe.")});
                  }) {
+  accept_ = addCommand(Icon::next, [this] { accept(); });
   connect(&session_, &Session::opened, this, [this] {
     settings_ = session_.settings().clustering;
     computing_.drop();
@@ -82,10 +83,12 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
     preparedFor_.clear();
     looked_ = false;
   });
-  connect(&session_, &Session::changed, this, [this] {
-    if (looked_) prepare();
-    Q_EMIT changed();
-  });
+  for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
+    connect(&session_, signal, this, [this] {
+      if (looked_) prepare();
+      tellAll();
+    });
+  updateCommands();
 }
 
 void ClusterPage::enter() {
@@ -131,7 +134,7 @@ void ClusterPage::compute() {
       Progress scaling = progress.part(0.6, "Scaling to the flood image");
       return withErrors(*map, cameras, errorOf(*prepared->graph, groups, settings, scaling));
     });
-  Q_EMIT changed();
+  tellSettings();
 }
 
 /// Until a map's own errors are known, those of the map before stand in for them.
@@ -147,7 +150,7 @@ void ClusterPage::show(std::shared_ptr<const ClusterResult> result) {
     result = std::move(together);
   }
   result_ = std::move(result);
-  Q_EMIT changed();
+  tellResult();
 }
 
 /// Nothing of another camera's errors stands in for this one's.
@@ -187,20 +190,14 @@ QString ClusterPage::sizesText() const {
       .arg(result_->statistics.medianUnknowns);
 }
 
-Command ClusterPage::primary() const {
-  auto* self = const_cast<ClusterPage*>(this);
-  return {tr("Preview content"), Icon::next, result_ && result_->exact && !isComputing(), {}, [self] {
-            self->accept();
-          }};
+void ClusterPage::updateCommands() {
+  accept_->show(tr("Preview content"), result_ && result_->exact && !isComputing());
 }
 
 std::optional<Banner> ClusterPage::banner() const {
   if (session_.progress(Stage::clustering) != StageProgress::stale) return std::nullopt;
-  return Banner{Banner::Kind::amber,
-                tr("The clusters that are kept belong to an earlier threshold"),
-                tr("What you see here is grouped anew. Going on keeps it."),
-                {},
-                {}};
+  return Banner{Banner::Kind::amber, tr("The clusters that are kept belong to an earlier threshold"),
+                tr("What you see here is grouped anew. Going on keeps it.")};
 }
 
 void ClusterPage::accept() {
@@ -212,7 +209,7 @@ void ClusterPage::accept() {
                                      result_->statistics.errorMedian});
     Q_EMIT nextWanted();
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
   }
 }
 

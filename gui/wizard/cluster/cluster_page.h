@@ -41,7 +41,7 @@ class ClusterPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command primary() const override;
+  Command* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override;
 
@@ -57,6 +57,9 @@ class ClusterPage : public DevicePage {
   /// The venue in full light.
   std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
 
+ protected:
+  void updateCommands() override;
+
  private:
   struct Prepared;
   void prepare();
@@ -65,6 +68,7 @@ class ClusterPage : public DevicePage {
   void show(std::shared_ptr<const ClusterResult> result);
   void accept();
 
+  Command* accept_;
   ClusteringSettings settings_;
   std::string preparedFor_;  // fingerprint of the threshold
   std::shared_ptr<const Acquisition> source_;

@@ -59,7 +59,7 @@ class ClusterStage : public QWidget {
     for (Card* card : {mapCard, errorCard_})
       card->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, card));
     auto fail = [&model](const Failure& failure) {
-      Q_EMIT model.failed({failure, ClusterPage::tr("What is measured is safe."), {}, {}});
+      Q_EMIT model.failed({failure, ClusterPage::tr("What is measured is safe.")});
     };
     addViewActions(*mapCard, *map_, {{}, {}}, fail);
     addViewActions(*errorCard_, *error_, {[view = error_] { return view->values(); }, "relative RMS error"},
@@ -76,8 +76,8 @@ class ClusterStage : public QWidget {
     sizes_->setFocusPolicy(Qt::NoFocus);
     sizeCard_->body()->addWidget(sizes_, 1);
     column->addWidget(sizeCard_, 3);
-    connect(&model_, &ClusterPage::changed, this, [this] { refresh(); });
-    refresh();
+    refreshOn(
+        model_, this, [this] { refresh(); }, &ClusterPage::settingsChanged, &ClusterPage::resultChanged);
   }
 
  private:
@@ -254,8 +254,7 @@ QWidget* inspectorOf(ClusterPage& model) {
         ClusterPage::tr("The surface is blurred across neighbouring pixels, so groups join up. The cap keeps "
                         "them apart."));
   };
-  QObject::connect(&model, &ClusterPage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &ClusterPage::settingsChanged, &ClusterPage::resultChanged);
   return card;
 }
 

@@ -12,14 +12,14 @@ void DevicePage::showProjector(std::size_t projector) {
   if (projector == projector_ || projector >= projectors()) return;
   projector_ = projector;
   projectorChanged();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void DevicePage::showCamera(std::size_t camera) {
   if (camera == camera_ || camera >= cameras()) return;
   camera_ = camera;
   cameraChanged();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 }  // namespace relucent

@@ -25,7 +25,7 @@ class DevicePage : public PageModel {
   void showCamera(std::size_t camera);
 
  protected:
-  /// Another one is shown now; before changed() tells.
+  /// Another one is shown now; before settingsChanged() tells.
   virtual void projectorChanged() {}
   virtual void cameraChanged() {}
 

@@ -12,7 +12,8 @@ DeviceSelector::DeviceSelector(Kind kind, DevicePage& page, QWidget* parent)
     auto device = static_cast<std::size_t>(index);
     projector ? page_.showProjector(device) : page_.showCamera(device);
   });
-  connect(&page_, &PageModel::changed, this, &DeviceSelector::refresh);
+  for (auto signal : {&PageModel::settingsChanged, &PageModel::resultChanged})
+    connect(&page_, signal, this, &DeviceSelector::refresh);
   refresh();
 }
 

@@ -5,6 +5,7 @@
 
 #include "theme/controls.h"
 #include "views/number_text.h"
+#include "wizard/frame/page_view.h"
 
 namespace relucent {
 
@@ -48,14 +49,18 @@ void FlashConsent::show(bool needed, bool given, std::optional<double> changes) 
                  tr("Flashing light can cause seizures. Clear the room and cover the entrance."));
 }
 
-QWidget* consentPart(Session& session) {
+QWidget* consentPart(DevicePage& page) {
+  Session& session = page.session();
   auto* part = new FlashConsent;
   QObject::connect(part, &FlashConsent::given, &session, &Session::setRoomClear);
   auto refresh = [part, &session] {
     part->show(session.needsConsent(), session.isRoomClear(), measuredChanges(session));
   };
-  QObject::connect(&session, &Session::changed, part, refresh);
-  QObject::connect(&session, &Session::opened, part, refresh);
+  for (auto signal : {&Session::opened, &Session::stepsChanged, &Session::devicesChanged})
+    QObject::connect(&session, signal, part, refresh);
+  QObject::connect(&page, &PageModel::remedyWanted, part, [part, &session] {
+    if (!session.mayMeasure()) pointOut(part->tick());
+  });
   refresh();
   return part;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "theme/tick.h"
-#include "wizard/session/session.h"
+#include "wizard/devices/device_page.h"
 
 namespace relucent {
 
@@ -21,6 +21,8 @@ class FlashConsent : public QWidget {
   explicit FlashConsent(QWidget* parent = nullptr);
   /// `changes`: patterns a second, where that is known.
   void show(bool needed, bool given, std::optional<double> changes);
+  /// Where to agree.
+  QWidget* tick() const { return tick_; }
 
  Q_SIGNALS:
   void given(bool clear);
@@ -30,7 +32,7 @@ class FlashConsent : public QWidget {
   Tick* tick_;
 };
 
-/// That of the open venue.
-QWidget* consentPart(Session& session);
+/// That of the open venue, for a page whose measurement asks for it.
+QWidget* consentPart(DevicePage& page);
 
 }  // namespace relucent

@@ -85,7 +85,8 @@ class ScreenCard : public QRasterWindow {
 }  // namespace
 
 int screenNumber(const QScreen& screen) {
-  return static_cast<int>(projectorScreens().indexOf(const_cast<QScreen*>(&screen))) + 1;
+  const QList<QScreen*> screens = projectorScreens();
+  return static_cast<int>(std::find(screens.begin(), screens.end(), &screen) - screens.begin()) + 1;
 }
 
 QString screenTitle(const QScreen& screen) {

@@ -12,9 +12,7 @@ inline Banner missingScreen() {
   return {Banner::Kind::amber,
           QCoreApplication::translate("MissingScreen", "The projector's screen is unplugged"),
           QCoreApplication::translate(
-              "MissingScreen", "Every photograph is safe. Plug it in again: measuring goes on by itself."),
-          {},
-          {}};
+              "MissingScreen", "Every photograph is safe. Plug it in again: measuring goes on by itself.")};
 }
 
 }  // namespace relucent

@@ -39,7 +39,8 @@ ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(
   all->addLayout(row, 1);
   connect(back_, &QPushButton::clicked, &wizard_, &Wizard::back);
   connect(primary_, &QPushButton::clicked, this, &ActionBar::runPrimary);
-  connect(&wizard_, &Wizard::changed, this, &ActionBar::refresh);
+  connect(&wizard_, &Wizard::statusChanged, this, &ActionBar::refresh);
+  connect(&wizard_, &Wizard::progressChanged, this, &ActionBar::refresh);
   connect(&wizard_, &Wizard::moved, this, &ActionBar::refresh);
   connect(&Theme::instance(), &Theme::changed, this, &ActionBar::refresh);
   refresh();
@@ -51,33 +52,35 @@ QWidget* ActionBar::firstFocus() const {
 
 bool ActionBar::eventFilter(QObject* watched, QEvent* event) {
   if (watched == hint_ && event->type() == QEvent::MouseButtonRelease)
-    if (QString cause = wizard_.currentPage().cause(); !cause.isEmpty()) Q_EMIT causeWanted(cause);
+    if (PageModel& page = wizard_.currentPage(); page.hasRemedy()) Q_EMIT page.remedyWanted();
   return QFrame::eventFilter(watched, event);
 }
 
 void ActionBar::runPrimary() {
-  Command command = wizard_.currentPage().primary();
-  if (command.run && command.enabled) command.run();
+  if (Command* command = wizard_.currentPage().primary()) command->trigger();
 }
 
 void ActionBar::refresh() {
   const PageModel& page = wizard_.currentPage();
-  Command primary = page.primary();
-  primary_->setVisible(static_cast<bool>(primary.run));
-  primary_->setText(primary.text);
-  primary_->setIcon(iconOf(primary.icon, primary.enabled ? colours().onAccent : colours().disabled));
-  // What leads on has its arrow behind its words.
-  Qt::LayoutDirection reading = layoutDirection();
-  Qt::LayoutDirection against = reading == Qt::LeftToRight ? Qt::RightToLeft : Qt::LeftToRight;
-  primary_->setLayoutDirection(primary.icon == Icon::next ? against : reading);
-  primary_->setEnabled(primary.enabled);
+  const Command* primary = page.primary();
+  primary_->setVisible(primary != nullptr);
+  if (primary != nullptr) {
+    primary_->setText(primary->text());
+    primary_->setIcon(
+        iconOf(primary->glyph(), primary->isEnabled() ? colours().onAccent : colours().disabled));
+    // What leads on has its arrow behind its words.
+    Qt::LayoutDirection reading = layoutDirection();
+    Qt::LayoutDirection against = reading == Qt::LeftToRight ? Qt::RightToLeft : Qt::LeftToRight;
+    primary_->setLayoutDirection(primary->glyph() == Icon::next ? against : reading);
+  }
+  primary_->setEnabled(primary != nullptr && primary->isEnabled());
   back_->setVisible(wizard_.canGoBack());
   back_->setIcon(iconOf(Icon::back, colours().text));
   hint_->setText(page.hint());
-  if (page.cause().isEmpty())
-    hint_->unsetCursor();
-  else
+  if (page.hasRemedy())
     hint_->setCursor(Qt::PointingHandCursor);
+  else
+    hint_->unsetCursor();
   std::optional<double> fraction = page.progress();
   progress_->setValue(static_cast<int>(1000.0 * fraction.value_or(0.0)));
   // The bar keeps its place, so that nothing moves when a measurement begins.
@@ -85,14 +88,14 @@ void ActionBar::refresh() {
   refreshSecondary(page.secondary());
 }
 
-void ActionBar::refreshSecondary(const std::vector<Command>& commands) {
-  commands_ = commands;
+void ActionBar::refreshSecondary(const std::vector<Command*>& commands) {
+  commands_.assign(commands.begin(), commands.end());
   while (buttons_.size() < commands.size()) {
     std::size_t index = buttons_.size();
     QPushButton* button = buttonOf({});
     button->setObjectName(QString("secondary-%1").arg(index));
     connect(button, &QPushButton::clicked, this, [this, index] {
-      if (index < commands_.size() && commands_[index].run) std::function<void()>(commands_[index].run)();
+      if (index < commands_.size() && commands_[index]) commands_[index]->trigger();
     });
     secondary_->addWidget(button);
     buttons_.push_back(button);
@@ -100,10 +103,11 @@ void ActionBar::refreshSecondary(const std::vector<Command>& commands) {
   for (std::size_t i = 0; i < buttons_.size(); ++i) {
     buttons_[i]->setVisible(i < commands.size());
     if (i >= commands.size()) continue;
-    buttons_[i]->setText(commands[i].text);
-    buttons_[i]->setIcon(iconOf(commands[i].icon, commands[i].enabled ? colours().text : colours().disabled));
-    buttons_[i]->setEnabled(commands[i].enabled);
-    if (buttons_[i]->shortcut() != commands[i].shortcut) buttons_[i]->setShortcut(commands[i].shortcut);
+    const Command& command = *commands[i];
+    buttons_[i]->setText(command.text());
+    buttons_[i]->setIcon(iconOf(command.glyph(), command.isEnabled() ? colours().text : colours().disabled));
+    buttons_[i]->setEnabled(command.isEnabled());
+    if (buttons_[i]->shortcut() != command.shortcut()) buttons_[i]->setShortcut(command.shortcut());
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <QFrame>
 #include <QHBoxLayout>
+#include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
 
@@ -21,23 +22,19 @@ class ActionBar : public QFrame {
   /// Triggers the primary command if it is enabled.
   void runPrimary();
 
- Q_SIGNALS:
-  /// The reason was clicked: show the widget of that name, with which the user can resolve it.
-  void causeWanted(const QString& name);
-
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void refresh();
-  void refreshSecondary(const std::vector<Command>& commands);
+  void refreshSecondary(const std::vector<Command*>& commands);
   Wizard& wizard_;
   QProgressBar* progress_;
   QPushButton *back_, *primary_;
   QLabel* hint_;
   QHBoxLayout* secondary_;
   std::vector<QPushButton*> buttons_;
-  std::vector<Command> commands_;
+  std::vector<QPointer<Command>> commands_;
 };
 
 }  // namespace relucent

@@ -19,16 +19,13 @@ BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_
   texts->addWidget(sentence_ = labelOf({}, "strong"));
   texts->addWidget(more_ = labelOf({}, "note"));
   row->addLayout(texts, 1);
-  row->addWidget(other_ = buttonOf({}, "flat"));
   row->addWidget(primary_ = buttonOf({}, "primary"));
   primary_->setObjectName("banner-primary");
   connect(primary_, &QPushButton::clicked, this, [this] {
-    if (auto banner = wizard_.currentPage().banner(); banner && banner->primary.run) banner->primary.run();
+    if (auto banner = wizard_.currentPage().banner(); banner && banner->primary != nullptr)
+      banner->primary->trigger();
   });
-  connect(other_, &QPushButton::clicked, this, [this] {
-    if (auto banner = wizard_.currentPage().banner(); banner && banner->other.run) banner->other.run();
-  });
-  connect(&wizard_, &Wizard::changed, this, &BannerBar::refresh);
+  connect(&wizard_, &Wizard::statusChanged, this, &BannerBar::refresh);
   connect(&wizard_, &Wizard::moved, this, &BannerBar::refresh);
   connect(&Theme::instance(), &Theme::changed, this, &BannerBar::refresh);
   refresh();
@@ -44,11 +41,10 @@ void BannerBar::refresh() {
   icon_->setIcon(amber ? Icon::stale : Icon::information, amber ? amberColour : informationColour);
   sentence_->setText(banner->sentence);
   more_->setText(banner->more);
-  other_->setVisible(static_cast<bool>(banner->other.run));
-  other_->setText(banner->other.text);
-  primary_->setVisible(static_cast<bool>(banner->primary.run));
-  primary_->setText(banner->primary.text);
-  primary_->setIcon(iconOf(banner->primary.icon, colours().onAccent));
+  primary_->setVisible(banner->primary != nullptr);
+  if (banner->primary == nullptr) return;
+  primary_->setText(banner->primary->text());
+  primary_->setIcon(iconOf(banner->primary->glyph(), colours().onAccent));
 }
 
 }  // namespace relucent

@@ -64,18 +64,18 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
   row->addWidget(copy);
   row->addStretch(1);
   QPushButton* first = nullptr;
-  auto action = [&](const Command& command, const char* role) {
-    if (!command.run) return;
-    QPushButton* button = buttonOf(command.text, role);
-    connect(button, &QPushButton::clicked, this, [this, run = command.run] {
+  auto action = [&](Command* command, const char* role) {
+    if (command == nullptr) return;
+    QPushButton* button = buttonOf(command->text(), role);
+    connect(button, &QPushButton::clicked, command, [this, command] {
       accept();
-      run();
+      command->trigger();
     });
     row->addWidget(first = button);
   };
   action(report.keep, "");
   action(report.goOn, "");
-  if (!report.resume.run) {
+  if (report.resume == nullptr) {
     QPushButton* close = buttonOf(tr("Close"), "primary");
     connect(close, &QPushButton::clicked, this, &QDialog::accept);
     row->addWidget(first = close);

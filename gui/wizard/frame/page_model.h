@@ -4,12 +4,11 @@
 #include <QKeySequence>
 #include <QObject>
 #include <QUndoStack>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "jobs/failure.h"
-#include "theme/icons.h"
+#include "wizard/frame/command.h"
 #include "wizard/frame/undoable.h"
 #include "wizard/session/step_name.h"
 
@@ -23,32 +22,24 @@ struct StepStatus {
   QString result;  // one short line
 };
 
-/// Something that the user can do now. Without `run` there is no such thing.
-struct Command {
-  QString text;
-  Icon icon = Icon::next;
-  bool enabled = true;
-  QKeySequence shortcut{};
-  std::function<void()> run{};
-};
-
 /// What stands above the stage. At most one.
 struct Banner {
   enum class Kind { information, amber };
   Kind kind = Kind::information;
   QString sentence, more;
-  Command primary{}, other{};
+  Command* primary = nullptr;  // the page's; nullptr: there is nothing to do about it
 };
 
 /// A failure as the user is told of it: what happened, what is safe, what to do.
 struct FailureReport {
   Failure failure;
   QString safe;
-  Command resume{}, keep{}, goOn{};
+  Command *resume = nullptr, *keep = nullptr, *goOn = nullptr;  // the page's; nullptr: not to be chosen
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the
-/// parts below; the page's own view knows the class itself. Everything is told by changed().
+/// parts below; the page's own view knows the class itself. What has changed is told by the narrowest
+/// signals.
 class PageModel : public QObject {
   Q_OBJECT
 
@@ -62,10 +53,11 @@ class PageModel : public QObject {
   virtual StepStatus status() const = 0;
   /// Beside the buttons: the time, or why the primary command is not possible.
   virtual QString hint() const { return {}; }
-  /// The name of the widget that can change what the hint says; empty: none can.
-  virtual QString cause() const { return {}; }
-  virtual Command primary() const = 0;
-  virtual std::vector<Command> secondary() const { return {}; }
+  /// What the hint says can be changed on this page: remedyWanted() asks where.
+  virtual bool hasRemedy() const { return false; }
+  /// The command that leads on; nullptr: there is none now.
+  virtual Command* primary() const = 0;
+  virtual std::vector<Command*> secondary() const { return {}; }
   /// Of a measurement under way, 0 to 1.
   virtual std::optional<double> progress() const { return std::nullopt; }
   virtual std::optional<Banner> banner() const { return std::nullopt; }
@@ -81,14 +73,59 @@ class PageModel : public QObject {
   virtual void finish() {}
   /// What the user changed on this page. Emptied when another calibration is opened.
   QUndoStack& undoStack() { return undo_; }
+  /// The language is another one.
+  void retranslate() { tellStatus(); }
 
  Q_SIGNALS:
-  void changed();
+  /// Title, status, hint, commands or banner: what the frame shows.
+  void statusChanged();
+  /// What is decided here, or which of several devices are shown.
+  void settingsChanged();
+  /// What was measured or computed, or whether it is being measured.
+  void resultChanged();
+  /// How far work is, and what its devices show and see.
+  void progressChanged();
+  /// The user asks where that can be changed which stands against going on: the view knows the place.
+  void remedyWanted();
   /// The step is done: the next one, please.
   void nextWanted();
   void failed(const relucent::FailureReport& report);
 
  protected:
+  /// A command of this page; text and all that changes come from updateCommands().
+  template <typename Run>
+  Command* addCommand(Icon icon, Run run, const QKeySequence& shortcut = {}) {
+    auto* command = new Command(icon, this);
+    command->setShortcut(shortcut);
+    connect(command, &QAction::triggered, this, run);
+    return command;
+  }
+  /// Shows the commands as things are now. Called before the frame is told; the constructor calls it last.
+  virtual void updateCommands() {}
+
+  void tellStatus() {
+    updateCommands();
+    if (Command* command = primary()) command->setToolTip(command->isEnabled() ? QString() : hint());
+    Q_EMIT statusChanged();
+  }
+  /// These change what the frame shows as well.
+  void tellSettings() {
+    Q_EMIT settingsChanged();
+    tellStatus();
+  }
+  void tellResult() {
+    Q_EMIT resultChanged();
+    tellStatus();
+  }
+  void tellProgress() {
+    updateCommands();
+    Q_EMIT progressChanged();
+  }
+  void tellAll() {
+    Q_EMIT settingsChanged();
+    tellResult();
+  }
+
   /// Makes a change that can be taken back: apply(after) now, apply(before) when it is undone. `name`: what
   /// was changed; changes of one name in quick succession are one.
   template <typename Value, typename Apply>

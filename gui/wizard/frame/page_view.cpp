@@ -8,6 +8,27 @@
 
 namespace relucent {
 
+bool focusFirst(QWidget* region) {
+  for (QWidget* child : region->findChildren<QWidget*>()) {
+    if (!child->isVisibleTo(region->window()) || !child->isEnabled() ||
+        (child->focusPolicy() & Qt::TabFocus) == 0)
+      continue;
+    child->setFocus(Qt::TabFocusReason);
+    return true;
+  }
+  return false;
+}
+
+void pointOut(QWidget* widget) {
+  if (!widget->isVisible()) return;
+  if (widget->focusPolicy() == Qt::NoFocus)
+    focusFirst(widget);
+  else
+    widget->setFocus(Qt::TabFocusReason);
+  for (QWidget* around = widget->parentWidget(); around != nullptr; around = around->parentWidget())
+    if (auto* scroll = qobject_cast<QScrollArea*>(around)) scroll->ensureWidgetVisible(widget);
+}
+
 QWidget* inspectorCard(QVBoxLayout*& contents) {
   auto* card = new Card;
   auto* scroll = new QScrollArea;

@@ -4,6 +4,8 @@
 #include <QVBoxLayout>
 #include <QWidget>
 
+#include "wizard/frame/page_model.h"
+
 namespace relucent {
 
 /// What a page looks like: the stage, and beside it the inspector with what is decided and what came out.
@@ -12,6 +14,19 @@ struct PageView {
   QWidget* stage = nullptr;
   QWidget* inspector = nullptr;
 };
+
+/// Refreshes now, and whenever one of these signals of the page comes.
+template <typename Refresh, typename... Signals>
+void refreshOn(PageModel& page, QObject* context, Refresh refresh, Signals... signal) {
+  refresh();
+  (QObject::connect(&page, signal, context, refresh), ...);
+}
+
+/// Gives the focus to the first of the region's widgets that takes it by Tab; false: none does.
+bool focusFirst(QWidget* region);
+/// Gives the focus to what the user can change there and scrolls it into sight, if it is on the page that is
+/// seen.
+void pointOut(QWidget* widget);
 
 /// The inspector's card, which scrolls where the window is low. Its contents go into the layout.
 QWidget* inspectorCard(QVBoxLayout*& contents);

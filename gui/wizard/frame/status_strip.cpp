@@ -46,7 +46,9 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   saved_->setWordWrap(false);
   often_.setInterval(5000);
   connect(&often_, &QTimer::timeout, this, &StatusStrip::refresh);
-  connect(&session_, &Session::changed, this, &StatusStrip::refresh);
+  for (auto signal :
+       {&Session::opened, &Session::stepsChanged, &Session::devicesChanged, &Session::roomLightChanged})
+    connect(&session_, signal, this, &StatusStrip::refresh);
   connect(qApp, &QGuiApplication::screenAdded, this, &StatusStrip::refresh);
   connect(qApp, &QGuiApplication::screenRemoved, this, &StatusStrip::refresh);
   often_.start();

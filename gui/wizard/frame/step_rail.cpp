@@ -179,7 +179,8 @@ StepRail::StepRail(Wizard& wizard, Session& session, QWidget* parent)
   auto* footer = new QHBoxLayout;
   footer_ = footer;
   column->addLayout(footer);
-  connect(&wizard_, &Wizard::changed, this, &StepRail::refresh);
+  connect(&wizard_, &Wizard::statusChanged, this, &StepRail::refresh);
+  connect(&wizard_, &Wizard::progressChanged, this, &StepRail::refresh);
   connect(&wizard_, &Wizard::moved, this, &StepRail::refresh);
   refresh();
 }

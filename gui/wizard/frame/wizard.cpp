@@ -12,7 +12,8 @@ Wizard::Wizard(Session& session, QObject* parent) : QObject(parent), session_(se
 
 void Wizard::add(PageModel& page) {
   pages_.push_back(&page);
-  connect(&page, &PageModel::changed, this, &Wizard::changed);
+  connect(&page, &PageModel::statusChanged, this, &Wizard::statusChanged);
+  connect(&page, &PageModel::progressChanged, this, &Wizard::progressChanged);
   connect(&page, &PageModel::nextWanted, this, &Wizard::next);
 }
 
@@ -32,7 +33,7 @@ bool Wizard::go(std::size_t index) {
     Q_EMIT moved();
   }
   currentPage().enter();
-  Q_EMIT changed();
+  Q_EMIT statusChanged();
   return true;
 }
 

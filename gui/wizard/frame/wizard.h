@@ -36,8 +36,10 @@ class Wizard : public QObject {
  Q_SIGNALS:
   /// Another page is looked at.
   void moved();
-  /// Something about some page.
-  void changed();
+  /// Of some page, or which of them are open.
+  void statusChanged();
+  /// Of some page.
+  void progressChanged();
 
  private:
   Session& session_;

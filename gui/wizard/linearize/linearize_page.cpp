@@ -13,21 +13,31 @@
 namespace relucent {
 
 LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(stepName, session, parent) {
+  next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
+  measure_ = addCommand(Icon::play, [this] { measure(false); });
+  stop_ = addCommand(
+      Icon::stop, [this] { finish(); }, QKeySequence("Ctrl+K"));
+  again_ = addCommand(
+      Icon::retry, [this] { measure(true); }, QKeySequence("Ctrl+R"));
+  renew_ = addCommand(Icon::retry, [this] { measure(false); });
+  retry_ = addCommand(Icon::retry, [this] { measure(false); });
   connect(&session_, &Session::opened, this, [this] {
     finish();
     result_.reset();
     shown_.clear();
     connect(&session_.live(), &LiveRig::seen, this, [this] {
-      if (isMeasuring()) Q_EMIT changed();
+      if (isMeasuring()) tellProgress();
     });
     look();
   });
-  connect(&session_, &Session::changed, this, [this] {
+  connect(&session_, &Session::stepsChanged, this, [this] {
     look();
-    Q_EMIT changed();
+    tellAll();
   });
-  connect(&job_, &Job::progressed, this, &LinearizePage::changed);
+  connect(&session_, &Session::devicesChanged, this, &LinearizePage::tellStatus);
+  connect(&job_, &Job::progressed, this, &LinearizePage::tellProgress);
   connect(&job_, &Job::ended, this, &LinearizePage::ended);
+  updateCommands();
 }
 
 /// Takes what the folder holds, once for every result.
@@ -39,10 +49,8 @@ void LinearizePage::look() {
     result_ = loadLinearization(*stored);
   } catch (...) {
     result_.reset();
-    Q_EMIT failed({failureOf(std::current_exception()),
-                   tr("The photographs of this step are still in the folder."),
-                   {},
-                   {}});
+    Q_EMIT failed(
+        {failureOf(std::current_exception()), tr("The photographs of this step are still in the folder.")});
   }
 }
 
@@ -75,27 +83,25 @@ QString LinearizePage::hint() const {
   return tr("About %n test pattern(s)", nullptr, static_cast<int>(projectors()) * (3 * levels() + 60));
 }
 
-Command LinearizePage::primary() const {
-  auto* self = const_cast<LinearizePage*>(this);
-  bool done = session_.progress(Stage::linearization) == StageProgress::done;
-  if (done && !isMeasuring())
-    return {addsUp() ? tr("Plan acquisition") : tr("Continue anyway"), Icon::next, true, {}, [self] {
-              Q_EMIT self->nextWanted();
-            }};
-  return {tr("Measure response"),
-          Icon::play,
-          !isMeasuring() && session_.areDevicesFree() && session_.mayMeasure(),
-          {},
-          [self] { self->measure(false); }};
+void LinearizePage::updateCommands() {
+  const bool free = session_.areDevicesFree() && session_.mayMeasure();
+  next_->show(addsUp() ? tr("Plan acquisition") : tr("Continue anyway"));
+  measure_->show(tr("Measure response"), !isMeasuring() && free);
+  stop_->show(tr("Stop"), !job_.isStopping());
+  again_->show(tr("Measure again"), free);
+  renew_->show(tr("Measure again"), session_.mayMeasure());
+  retry_->show(tr("Try again"));
 }
 
-std::vector<Command> LinearizePage::secondary() const {
-  auto* self = const_cast<LinearizePage*>(this);
-  if (isMeasuring())
-    return {{tr("Stop"), Icon::stop, !job_.isStopping(), QKeySequence("Ctrl+K"), [self] { self->finish(); }}};
+Command* LinearizePage::primary() const {
+  const bool done = session_.progress(Stage::linearization) == StageProgress::done;
+  return done && !isMeasuring() ? next_ : measure_;
+}
+
+std::vector<Command*> LinearizePage::secondary() const {
+  if (isMeasuring()) return {stop_};
   if (session_.progress(Stage::linearization) != StageProgress::done) return {};
-  return {{tr("Measure again"), Icon::retry, session_.areDevicesFree() && session_.mayMeasure(),
-           QKeySequence("Ctrl+R"), [self] { self->measure(true); }}};
+  return {again_};
 }
 
 std::optional<double> LinearizePage::progress() const {
@@ -105,13 +111,8 @@ std::optional<double> LinearizePage::progress() const {
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (isMeasuring() || session_.progress(Stage::linearization) != StageProgress::stale) return std::nullopt;
-  auto* self = const_cast<LinearizePage*>(this);
-  return Banner{
-      Banner::Kind::amber,
-      tr("These curves belong to earlier settings"),
-      tr("They still work and stay until the new ones are measured."),
-      {tr("Measure again"), Icon::retry, session_.mayMeasure(), {}, [self] { self->measure(false); }},
-      {}};
+  return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),
+                tr("They still work and stay until the new ones are measured."), renew_};
 }
 
 std::optional<double> LinearizePage::seconds() const {
@@ -143,7 +144,7 @@ void LinearizePage::keepLevels(int levels) {
   try {
     session_.changeSettings(settings);
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
 }
 
@@ -164,7 +165,7 @@ void LinearizePage::measure(bool again) {
     Progress measuring = progress.part(0.8, tr("Measuring the response").toStdString());
     measureLinearization(folder, rig, measuring);
   });
-  Q_EMIT changed();
+  tellResult();
 }
 
 void LinearizePage::finish() {
@@ -176,13 +177,11 @@ void LinearizePage::ended() {
   if (session_.isOpen()) session_.reload();
   lease_.release();
   if (job_.state() == Job::State::failed) {
-    Command again{tr("Try again"), Icon::retry, true, {}, [this] { measure(false); }};
     Q_EMIT failed({job_.failure(),
                    tr("Every photograph that was taken is on the disk. Trying again goes on from there."),
-                   again,
-                   {}});
+                   retry_});
   }
-  Q_EMIT changed();
+  tellResult();
 }
 
 }  // namespace relucent

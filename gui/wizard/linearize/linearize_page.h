@@ -24,9 +24,9 @@ class LinearizePage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  QString cause() const override { return session_.mayMeasure() ? QString() : "room-is-clear"; }
-  Command primary() const override;
-  std::vector<Command> secondary() const override;
+  bool hasRemedy() const override { return !session_.mayMeasure(); }
+  Command* primary() const override;
+  std::vector<Command*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
   void finish() override;
@@ -47,12 +47,16 @@ class LinearizePage : public DevicePage {
   /// The colours of a projector do not add up: going on is allowed, and is recorded.
   bool addsUp() const;
 
+ protected:
+  void updateCommands() override;
+
  private:
   void keepLevels(int levels);
   void measure(bool again);
   void look();
   void ended();
 
+  Command *next_, *measure_, *stop_, *again_, *renew_, *retry_;
   DeviceLease lease_;
   Job job_;
   std::optional<Linearization> result_;

@@ -80,7 +80,7 @@ QWidget* liveCards(LinearizePage& model) {
   seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   layout->addWidget(sent, 1);
   layout->addWidget(seen, 1);
-  QObject::connect(&model, &LinearizePage::changed, row, [&model, pattern, photograph, seen] {
+  auto refresh = [&model, pattern, photograph, seen] {
     if (!model.isMeasuring()) return;
     LivePictures live = model.pictures();
     if (live.pattern.empty() || live.frame.signal.empty()) return;
@@ -89,7 +89,8 @@ QWidget* liveCards(LinearizePage& model) {
     seen->setSubtitle(
         LinearizePage::tr("%1, photograph %2")
             .arg(exposureText(live.frame.seconds), countText(static_cast<std::uint64_t>(live.photographs))));
-  });
+  };
+  refreshOn(model, row, refresh, &LinearizePage::settingsChanged, &LinearizePage::progressChanged);
   return row;
 }
 
@@ -120,8 +121,8 @@ QWidget* stageOf(LinearizePage& model) {
       response->setSubtitle(LinearizePage::tr("not measured yet"));
     }
   };
-  QObject::connect(&model, &LinearizePage::changed, stage, refresh);
-  refresh();
+  refreshOn(model, stage, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged,
+            &LinearizePage::progressChanged);
   return stage;
 }
 
@@ -148,7 +149,7 @@ QWidget* inspectorOf(LinearizePage& model) {
   for (int count : {9, 17, 33, 65}) levels->addItem(QString::number(count), count);
   row->addWidget(levels);
   column->addLayout(row);
-  column->addWidget(consentPart(model.session()));
+  column->addWidget(consentPart(model));
   column->addStretch(1);
   QObject::connect(levels, &QComboBox::activated, &model,
                    [&model, levels] { model.setLevels(levels->currentData().toInt()); });
@@ -199,8 +200,7 @@ QWidget* inspectorOf(LinearizePage& model) {
     for (double seconds : result.exposures) times << exposureText(seconds);
     exposures->setValue(times.join(", "));
   };
-  QObject::connect(&model, &LinearizePage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged);
   return card;
 }
 

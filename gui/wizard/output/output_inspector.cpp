@@ -38,8 +38,8 @@ QComboBox* screenBox(OutputPage& page) {
     }
     box->setCurrentIndex(page.chosen() ? static_cast<int>(*page.chosen()) : -1);
   };
-  QObject::connect(&page, &OutputPage::changed, box, refresh);
-  refresh();
+  refreshOn(page, box, refresh, &OutputPage::settingsChanged);
+  QObject::connect(&page, &OutputPage::remedyWanted, box, [box] { pointOut(box); });
   return box;
 }
 
@@ -102,7 +102,7 @@ QWidget* proofPart(OutputPage& page) {
   drift->setObjectName("check-drift");
   drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
   column->addWidget(drift);
-  column->addWidget(consentPart(page.session()));
+  column->addWidget(consentPart(page));
   QObject::connect(take, &QPushButton::clicked, &page, &OutputPage::verify);
   QObject::connect(drift, &QPushButton::clicked, &page, &OutputPage::checkDrift);
   auto refresh = [=, &page] {
@@ -113,9 +113,8 @@ QWidget* proofPart(OutputPage& page) {
     take->setIcon(iconOf(Icon::camera, take->isEnabled() ? colours().text : colours().disabled));
     drift->setIcon(iconOf(Icon::drift, drift->isEnabled() ? colours().text : colours().disabled));
   };
-  QObject::connect(&page, &OutputPage::changed, part, refresh);
+  refreshOn(page, part, refresh, &OutputPage::resultChanged);
   QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
-  refresh();
   return part;
 }
 
@@ -157,9 +156,8 @@ QWidget* handOverPart(OutputPage& page) {
                    ? OutputPage::tr("Once installed, the show runs unattended, without camera or wizard.")
                    : OutputPage::tr("The show does not start by itself.")));
   };
-  QObject::connect(&page, &OutputPage::changed, part, refresh);
+  refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
   QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
-  refresh();
   return part;
 }
 
@@ -201,8 +199,7 @@ QWidget* outputInspector(OutputPage& page) {
     method->setText(OutputPage::tr("Still pictures: %1").arg(still),
                     OutputPage::tr("Films and cross-fades use windows and steps, which are quick enough."));
   };
-  QObject::connect(&page, &OutputPage::changed, card, refresh);
-  refresh();
+  refreshOn(page, card, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
   return card;
 }
 

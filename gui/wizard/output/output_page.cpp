@@ -19,6 +19,13 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
       proof_(session, stepName),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
+  open_ = addCommand(Icon::play, [this] { open(); });
+  install_ = addCommand(Icon::power, [this] { install(); });
+  freeze_ = addCommand(
+      Icon::pause, [this] { setFrozen(!isFrozen()); }, QKeySequence("Ctrl+P"));
+  black_ = addCommand(
+      Icon::black, [this] { setBlack(!isBlack()); }, QKeySequence("Ctrl+B"));
+  close_ = addCommand(Icon::stop, [this] { close(); });
   connect(&session_, &Session::opened, this, [this] {
     close();
     projection_.mirrorProjector(projector());
@@ -30,26 +37,32 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
                    preferred_);
   });
-  connect(&session_, &Session::changed, this, [this] {
+  connect(&session_, &Session::devicesChanged, this, &OutputPage::tellResult);
+  connect(&session_, &Session::stepsChanged, this, [this] {
     followScreen();
     QString picture = QString::fromStdString(session_.settings().content.picture);
     if (session_.isOpen() && std::exchange(preferred_, picture) != picture) playlist_.prefer(picture);
-    if (chosen_.size() != projectors()) return listScreens();
-    Q_EMIT changed();
+    if (chosen_.size() != projectors()) listScreens();
+    tellAll();
   });
   connect(&playlist_, &OutputPlaylist::unreadable, this, [this](const QString& sentence) {
     tell({ErrorKind::format, sentence, tr("Make the list again."), sentence});
   });
-  connect(&playlist_, &OutputPlaylist::changed, this, &OutputPage::changed);
-  connect(&proof_, &OutputProof::changed, this, &OutputPage::changed);
+  connect(&playlist_, &OutputPlaylist::changed, this, &OutputPage::tellSettings);
+  connect(&proof_, &OutputProof::changed, this, &OutputPage::tellResult);
+  connect(&proof_, &OutputProof::progressed, this, &OutputPage::tellProgress);
   connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
   connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
     reportFile_ = file;
     QDesktopServices::openUrl(QUrl::fromLocalFile(file));
-    Q_EMIT changed();
+    tellResult();
   });
-  connect(&projection_, &OutputProjection::changed, this, &OutputPage::changed);
+  connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
+  connect(&projection_, &OutputProjection::changed, this, [this] {
+    tellProgress();
+    tellStatus();
+  });
   connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
   connect(qApp, &QGuiApplication::screenRemoved, this, &OutputPage::listScreens);
@@ -91,32 +104,22 @@ QString OutputPage::hint() const {
   return tr("Nothing is projected before you open the output.");
 }
 
-Command OutputPage::primary() const {
-  auto* self = const_cast<OutputPage*>(this);
-  if (isOpen())
-    return {isInstalled()    ? tr("Install again")
-            : proof_.proof() ? tr("Install show")
-                             : tr("Install without proof"),
-            Icon::power,
-            !playlist_.isEmpty(),
-            {},
-            [self] { self->install(); }};
-  return {tr("Open output"),
-          Icon::play,
-          !projectorWithoutScreen() && !playlist_.isEmpty() && !projection_.isOpening() &&
-              session_.areDevicesFree(),
-          {},
-          [self] { self->open(); }};
+void OutputPage::updateCommands() {
+  open_->show(tr("Open output"), !projectorWithoutScreen() && !playlist_.isEmpty() &&
+                                     !projection_.isOpening() && session_.areDevicesFree());
+  install_->show(isInstalled()    ? tr("Install again")
+                 : proof_.proof() ? tr("Install show")
+                                  : tr("Install without proof"),
+                 !playlist_.isEmpty());
+  freeze_->setGlyph(isFrozen() ? Icon::play : Icon::pause);
+  freeze_->show(isFrozen() ? tr("Play") : tr("Freeze"));
+  black_->show(isBlack() ? tr("Show again") : tr("Black"));
+  close_->show(tr("Close output"));
 }
 
-std::vector<Command> OutputPage::secondary() const {
-  auto* self = const_cast<OutputPage*>(this);
+std::vector<Command*> OutputPage::secondary() const {
   if (!isOpen()) return {};
-  return {{isFrozen() ? tr("Play") : tr("Freeze"), isFrozen() ? Icon::play : Icon::pause, true,
-           QKeySequence("Ctrl+P"), [self] { self->setFrozen(!self->isFrozen()); }},
-          {isBlack() ? tr("Show again") : tr("Black"), Icon::black, true, QKeySequence("Ctrl+B"),
-           [self] { self->setBlack(!self->isBlack()); }},
-          {tr("Close output"), Icon::stop, true, {}, [self] { self->close(); }}};
+  return {freeze_, black_, close_};
 }
 
 std::optional<double> OutputPage::progress() const {
@@ -216,7 +219,7 @@ void OutputPage::report() {
 
 void OutputPage::setStartsWithComputer(bool starts) {
   starts_ = starts;
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void OutputPage::setConfigFolder(const QString& folder) {
@@ -228,7 +231,7 @@ void OutputPage::lookForShow() {
   const QString venue = QString::fromStdString(session_.path().string());
   installed_ = session_.isOpen() && (relucent::isInstalled(Start::service, config_, venue) ||
                                      relucent::isInstalled(Start::autostart, config_, venue));
-  Q_EMIT changed();
+  tellResult();
 }
 
 QStringList OutputPage::showArguments() const {
@@ -264,7 +267,7 @@ void OutputPage::install() {
 }
 
 void OutputPage::tell(const Failure& failure) {
-  Q_EMIT failed({failure, tr("The calibration is as it was."), {}, {}});
+  Q_EMIT failed({failure, tr("The calibration is as it was.")});
 }
 
 }  // namespace relucent

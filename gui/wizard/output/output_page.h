@@ -31,9 +31,9 @@ class OutputPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  QString cause() const override { return projectorWithoutScreen() ? "output-screen" : QString(); }
-  Command primary() const override;
-  std::vector<Command> secondary() const override;
+  bool hasRemedy() const override { return projectorWithoutScreen().has_value(); }
+  Command* primary() const override { return isOpen() ? install_ : open_; }
+  std::vector<Command*> secondary() const override;
   std::optional<double> progress() const override;
   void enter() override;
   void finish() override;
@@ -96,6 +96,9 @@ class OutputPage : public DevicePage {
   /// Of the user; tests have their own.
   void setConfigFolder(const QString& folder);
 
+ protected:
+  void updateCommands() override;
+
  private:
   void listScreens();
   void lookForShow();
@@ -114,6 +117,7 @@ class OutputPage : public DevicePage {
   QStringList showArguments() const;
   void tell(const Failure& failure);
 
+  Command *open_, *install_, *freeze_, *black_, *close_;
   OutputPlaylist playlist_;
   OutputProof proof_;
   OutputProjection projection_;

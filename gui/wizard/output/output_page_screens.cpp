@@ -28,7 +28,7 @@ void OutputPage::listScreens() {
   for (std::size_t projector = 0; projector < before.size(); ++projector)
     if (!chosen_[projector] && (!before[projector] || session_.screenRig() != nullptr))
       chosen_[projector] = usualScreen();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 /// The one that was measured, and no other in its place; where none was, one that nobody works at and no
@@ -53,7 +53,7 @@ void OutputPage::choose(std::size_t index) {
   if (other != chosen_.end()) *other = mine;
   mine = index;
   keepScreen();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 std::optional<std::size_t> OutputPage::projectorWithoutScreen() const {

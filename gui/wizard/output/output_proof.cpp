@@ -70,8 +70,8 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     drift_.reset();
     Q_EMIT changed();
   });
-  connect(&session_, &Session::changed, this, &OutputProof::forgetWhatIsNoProof);
-  connect(&job_, &Job::progressed, this, &OutputProof::changed);
+  connect(&session_, &Session::stepsChanged, this, &OutputProof::forgetWhatIsNoProof);
+  connect(&job_, &Job::progressed, this, &OutputProof::progressed);
   connect(&job_, &Job::ended, this, &OutputProof::finished);
 }
 

@@ -58,7 +58,9 @@ class OutputProof : public QObject {
   void cancel() { job_.cancel(); }
 
  Q_SIGNALS:
+  /// What is proved, or whether it is being proved.
   void changed();
+  void progressed();
   /// In any way, before failed() or reported().
   void ended(relucent::OutputProof::Work work);
   void failed(const relucent::Failure& failure);

@@ -45,8 +45,8 @@ class PlaybackCard : public Card {
                            {0.0, 20.0, false, OutputPage::tr("Frame time, ms")});
     chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
     body()->addWidget(chart_, 1);
-    connect(&page_, &OutputPage::changed, this, &PlaybackCard::refresh);
-    refresh();
+    refreshOn(
+        page_, this, [this] { refresh(); }, &OutputPage::progressChanged);
   }
 
  private:
@@ -133,9 +133,9 @@ class OutputStage : public QWidget {
     }
     connect(new QShortcut(QKeySequence("Ctrl+Shift+V"), this), &QShortcut::activated, &page_,
             &OutputPage::verify);
-    connect(&page_, &OutputPage::changed, this, [this] { refresh(); });
+    refreshOn(
+        page_, this, [this] { refresh(); }, &OutputPage::resultChanged, &OutputPage::progressChanged);
     qApp->installEventFilter(this);
-    refresh();
   }
 
  protected:

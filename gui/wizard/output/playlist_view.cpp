@@ -14,6 +14,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
+#include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 
 namespace relucent {
@@ -35,7 +36,8 @@ PlaylistView::PlaylistView(OutputPage& page, QWidget* parent) : QListWidget(pare
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setTextElideMode(Qt::ElideMiddle);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  connect(&page_, &OutputPage::changed, this, &PlaylistView::refresh);
+  for (auto signal : {&OutputPage::settingsChanged, &OutputPage::progressChanged})
+    connect(&page_, signal, this, &PlaylistView::refresh);
   connect(&Theme::instance(), &Theme::changed, this, [this] {
     clear();
     refresh();
@@ -175,8 +177,7 @@ QWidget* playlistPart(OutputPage& page) {
     if (!wrong.isEmpty())
       skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.last().toStdString())));
   };
-  QObject::connect(&page, &OutputPage::changed, part, refresh);
-  refresh();
+  refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::progressChanged);
   return part;
 }
 

@@ -114,8 +114,7 @@ QWidget* previewInspector(PreviewPage& page) {
       error->setValue(isolated(QString::fromUtf8("ΔE %1").arg(decimalText(preview->deltaEMean, 1))));
     }
   };
-  QObject::connect(&page, &PreviewPage::changed, card, refresh);
-  refresh();
+  refreshOn(page, card, refresh, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   return card;
 }
 

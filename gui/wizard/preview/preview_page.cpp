@@ -26,17 +26,17 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             problem_.clear();
             adoptContent(preview_->picture, preview_->content);
             if (table_.empty()) compareNext();
-            Q_EMIT changed();
+            tellAll();
           },
           [this](const Failure& failure) { refuse(failure); }),
       comparing_(
           [this](std::pair<int, MethodPreview> answer) {
             if (answer.first == round_) table_.push_back(answer.second);
             compareNext();
-            Q_EMIT changed();
+            tellResult();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
+            Q_EMIT failed({failure, tr("What is measured is safe.")});
           }),
       reading_(
           [this](std::pair<std::string, std::shared_ptr<const Image>> read) {
@@ -46,8 +46,9 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             setSettings(after, tr("Picture"));
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("The picture of before stays."), {}, {}});
+            Q_EMIT failed({failure, tr("The picture of before stays.")});
           }) {
+  accept_ = addCommand(Icon::next, [this] { accept(); });
   connect(&session_, &Session::opened, this, [this] {
     finish();
     settings_ = session_.settings().content;
@@ -59,12 +60,17 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     table_.clear();
     looked_ = false;
   });
-  connect(&session_, &Session::changed, this, [this] {
+  connect(&session_, &Session::stepsChanged, this, [this] {
     if (looked_) prepare();
-    Q_EMIT changed();
+    tellAll();
   });
-  connect(&job_, &Job::progressed, this, &PreviewPage::changed);
+  connect(&session_, &Session::devicesChanged, this, [this] {
+    if (looked_) prepare();
+    tellStatus();
+  });
+  connect(&job_, &Job::progressed, this, &PreviewPage::tellProgress);
   connect(&job_, &Job::ended, this, &PreviewPage::prepared);
+  updateCommands();
 }
 
 void PreviewPage::enter() {
@@ -99,7 +105,7 @@ void PreviewPage::prepare() {
     settings.clustering = settingsOf(folder).clustering;
     made->compensator.emplace(made->measured.venue, made->measured.inverse, settings);
   });
-  Q_EMIT changed();
+  tellStatus();
 }
 
 void PreviewPage::prepared() {
@@ -110,10 +116,9 @@ void PreviewPage::prepared() {
     compute();
   } else {
     if (job_.state() == Job::State::cancelled) preparedFor_.clear();
-    if (job_.state() == Job::State::failed)
-      Q_EMIT failed({job_.failure(), tr("What is measured is safe."), {}, {}});
+    if (job_.state() == Job::State::failed) Q_EMIT failed({job_.failure(), tr("What is measured is safe.")});
   }
-  Q_EMIT changed();
+  tellResult();
 }
 
 QString PreviewPage::pictureName() const {
@@ -145,13 +150,13 @@ void PreviewPage::adopt(const ContentSettings& settings) {
   settings_ = settings;
   problem_.clear();
   compute();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void PreviewPage::setCorners(const Corners& corners) {
   if (!isConvex(corners)) {
     problem_ = tr("The corners cross over. Drag them apart.");
-    Q_EMIT changed();
+    tellSettings();
     return;
   }
   ContentSettings after = settings_;
@@ -175,8 +180,8 @@ void PreviewPage::refuse(const Failure& failure) {
   if (failure.kind == ErrorKind::input)
     problem_ = failure.what + ' ' + failure.advice;
   else
-    Q_EMIT failed({failure, tr("What is measured is safe."), {}, {}});
-  Q_EMIT changed();
+    Q_EMIT failed({failure, tr("What is measured is safe.")});
+  tellSettings();
 }
 
 void PreviewPage::compute() {
@@ -184,7 +189,7 @@ void PreviewPage::compute() {
   ++round_;
   computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
                   settings = settings_] { return previewOf(*engine, settings, known); });
-  Q_EMIT changed();
+  tellStatus();
 }
 
 /// The table fills row by row while the pictures are there already.
@@ -223,9 +228,8 @@ QString PreviewPage::hint() const {
   return tr("Predicted from the measurement. Nothing is projected yet.");
 }
 
-Command PreviewPage::primary() const {
-  auto* self = const_cast<PreviewPage*>(this);
-  return {tr("Go to output"), Icon::next, preview_ != nullptr, {}, [self] { self->accept(); }};
+void PreviewPage::updateCommands() {
+  accept_->show(tr("Go to output"), preview_ != nullptr);
 }
 
 std::optional<double> PreviewPage::progress() const {
@@ -240,7 +244,7 @@ void PreviewPage::accept() {
     session_.decide(ContentResult{preview_->reachableShare, preview_->deltaEMean});
     Q_EMIT nextWanted();
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
   }
 }
 

@@ -27,7 +27,7 @@ class PreviewPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command primary() const override;
+  Command* primary() const override { return accept_; }
   std::optional<double> progress() const override;
   void enter() override;
   void leave() override { looked_ = false; }
@@ -55,6 +55,9 @@ class PreviewPage : public PageModel {
   const std::vector<MethodPreview>& table() const { return table_; }
   bool isComputing() const { return computing_.isBusy(); }
 
+ protected:
+  void updateCommands() override;
+
  private:
   void prepare();
   void prepared();
@@ -66,6 +69,7 @@ class PreviewPage : public PageModel {
   void accept();
 
   Session& session_;
+  Command* accept_;
   DeviceLease lease_;
   Job job_;
   ContentSettings settings_;

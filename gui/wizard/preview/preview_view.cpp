@@ -76,8 +76,8 @@ class PreviewStage : public QWidget {
     connect(kind_, &Segmented::chosen, this, [this](int index) {
       for (int i = 0; i < 3; ++i) views_[static_cast<std::size_t>(i)]->setVisible(i == index);
     });
-    connect(&page_, &PreviewPage::changed, this, [this] { refresh(); });
-    refresh();
+    refreshOn(
+        page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   }
 
  private:

@@ -21,14 +21,14 @@ DeviceLease& DeviceLease::operator=(DeviceLease&& other) noexcept {
 DeviceLease::~DeviceLease() {
   if (!session_) return;
   session_->takeBackDevices();
-  QMetaObject::invokeMethod(session_, &Session::changed, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(session_, &Session::devicesChanged, Qt::QueuedConnection);
 }
 
 void DeviceLease::release() {
   QPointer<Session> session = std::exchange(session_, nullptr);
   if (!session) return;
   session->takeBackDevices();
-  Q_EMIT session->changed();
+  Q_EMIT session->devicesChanged();
 }
 
 }  // namespace relucent

@@ -12,13 +12,13 @@ class Session;
 class DeviceLease {
  public:
   DeviceLease() = default;
-  /// Session::changed() comes later then: whoever held it may be half gone.
+  /// Session::devicesChanged() comes later then: whoever held it may be half gone.
   ~DeviceLease();
   DeviceLease(DeviceLease&& other) noexcept;
   DeviceLease& operator=(DeviceLease&& other) noexcept;
 
   bool isHeld() const { return !session_.isNull(); }
-  /// Before its time ends. Session::changed() tells.
+  /// Before its time ends. Session::devicesChanged() tells.
   void release();
 
  private:

@@ -139,11 +139,11 @@ Session::Session(fs::path cache, QObject* parent)
       reading_(
           [this](std::shared_ptr<const Acquisition> acquisition) {
             acquisition_ = std::move(acquisition);
-            Q_EMIT changed();
+            Q_EMIT acquisitionChanged();
           },
           [this](const Failure& failure) {
             readFailure_ = failure;
-            Q_EMIT changed();
+            Q_EMIT acquisitionChanged();
           }) {}
 
 QString Session::name() const {
@@ -173,7 +173,9 @@ void Session::adopt(const CalibrationFolder& folder) {
   slowDown();
   equip();
   Q_EMIT opened();
-  Q_EMIT changed();
+  Q_EMIT stepsChanged();
+  Q_EMIT acquisitionChanged();
+  Q_EMIT devicesChanged();
 }
 
 /// Devices by the settings; those of before are let go of.
@@ -192,7 +194,7 @@ std::unique_ptr<ScreenProjector> Session::openScreen(const ScreenRigSettings& se
                                            [self = QPointer<Session>(this)](bool waits) {
                                              if (!self) return;
                                              self->screenMissing_ = waits;
-                                             Q_EMIT self->changed();
+                                             Q_EMIT self->devicesChanged();
                                            });
 }
 
@@ -209,7 +211,7 @@ void Session::changeRig(const RigSettings& rig) {
     look(folder);
   }
   equip();
-  Q_EMIT changed();
+  Q_EMIT stepsChanged();
 }
 
 void Session::changeScreen(const ScreenRigSettings& screen) {
@@ -225,7 +227,7 @@ void Session::changeScreen(const ScreenRigSettings& screen) {
     look(folder);
   }
   equip();
-  Q_EMIT changed();
+  Q_EMIT stepsChanged();
 }
 
 void Session::close() {
@@ -237,7 +239,9 @@ void Session::close() {
   figures_ = {};
   settings_ = {};
   Q_EMIT opened();
-  Q_EMIT changed();
+  Q_EMIT stepsChanged();
+  Q_EMIT acquisitionChanged();
+  Q_EMIT devicesChanged();
 }
 
 void Session::look(const CalibrationFolder& folder) {
@@ -252,7 +256,7 @@ void Session::look(const CalibrationFolder& folder) {
 
 void Session::reload() {
   look(CalibrationFolder::open(path_, CalibrationFolder::Access::read));
-  Q_EMIT changed();
+  Q_EMIT stepsChanged();
 }
 
 bool Session::isSimulated() const {
@@ -308,7 +312,7 @@ void Session::change(const std::function<void(CalibrationFolder&)>& write) {
     write(folder);
     look(folder);
   }
-  Q_EMIT changed();
+  Q_EMIT stepsChanged();
 }
 
 void Session::changeSettings(const CalibrateSettings& settings) {
@@ -329,7 +333,7 @@ void Session::wantAcquisition() {
 void Session::setFlashLimit(int changesPerSecond) {
   flashLimit_ = changesPerSecond;
   slowDown();
-  Q_EMIT changed();
+  Q_EMIT devicesChanged();
 }
 
 void Session::slowDown() {
@@ -342,17 +346,17 @@ void Session::slowDown() {
 void Session::setRoomClear(bool clear) {
   roomClear_ = clear;
   slowDown();
-  Q_EMIT changed();
+  Q_EMIT devicesChanged();
 }
 
 void Session::setRoomLight(const RoomLight& light) {
-  if (std::exchange(roomLight_, light) != light) Q_EMIT changed();
+  if (std::exchange(roomLight_, light) != light) Q_EMIT roomLightChanged();
 }
 
 DeviceLease Session::leaseDevices(const StepName& step) {
   require(areDevicesFree(), "the devices are in use");
   devicesUser_ = step;
-  Q_EMIT changed();
+  Q_EMIT devicesChanged();
   return DeviceLease(*this);
 }
 

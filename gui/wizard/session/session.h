@@ -151,7 +151,7 @@ class Session : public QObject {
 
   /// What acquisition measured, with all of T; none until it has been read.
   std::shared_ptr<const Acquisition> acquisition() const { return acquisition_; }
-  /// Reads it on another thread, once; changed() tells.
+  /// Reads it on another thread, once; acquisitionChanged() tells.
   void wantAcquisition();
   /// Why it could not be read; none while it may still be.
   const std::optional<Failure>& acquisitionFailure() const { return readFailure_; }
@@ -185,8 +185,13 @@ class Session : public QObject {
  Q_SIGNALS:
   /// Another calibration, or none.
   void opened();
-  /// Results, settings, data or what goes on.
-  void changed();
+  /// Settings, devices chosen, results, and how far each step is.
+  void stepsChanged();
+  /// acquisition(), or why it cannot be read.
+  void acquisitionChanged();
+  /// Who uses the devices, whether they may be used, and whether a screen is missed.
+  void devicesChanged();
+  void roomLightChanged();
 
  private:
   friend class DeviceLease;

@@ -52,20 +52,20 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           [this](TransportStatistics statistics) {
             // Lowered to nothing meanwhile, the cut leaves everything.
             if (!dropsNothing(cut_)) kept_ = statistics;
-            Q_EMIT changed();
+            tellResult();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}, {}, {}});
+            Q_EMIT failed({failure, {}});
           }),
       first_(
           [this](TransportStatistics statistics) {
             whole_ = statistics;
             if (dropsNothing(cut_)) kept_ = statistics;
             suggested_ = cutKeeping(statistics.histogram, suggestedShare);
-            Q_EMIT changed();
+            tellResult();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}, {}, {}});
+            Q_EMIT failed({failure, {}});
           }),
       looking_(
           [this](std::shared_ptr<const PixelFootprint> footprint) {
@@ -75,40 +75,43 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             footprint_ = std::move(footprint);
             // Not the answer of before, while a newer one is on its way.
             if (!looking_.isBusy() && std::exchange(follows_, false)) followFootprint();
-            Q_EMIT changed();
+            tellResult();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}, {}, {}});
+            Q_EMIT failed({failure, {}});
           }),
       lighting_(
           [this](std::shared_ptr<const std::vector<float>> lit) {
             if (!adopted_ || !pickedProjector_ || lit->size() != adopted_->transport.cameras().count())
               return;
             lit_ = std::move(lit);
-            Q_EMIT changed();
+            tellResult();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}, {}, {}});
+            Q_EMIT failed({failure, {}});
           }),
       picturing_(
           [this](std::shared_ptr<const MatrixPictures> matrix) {
             if (!adopted_ || &matrix->transport() != &adopted_->transport) return;
             matrix_ = std::move(matrix);
-            Q_EMIT changed();
+            tellResult();
           },
           [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}, {}, {}});
+            Q_EMIT failed({failure, {}});
           }) {
+  accept_ = addCommand(Icon::next, [this] { accept(); });
   connect(&session_, &Session::opened, this, [this] {
     cut_ = session_.settings().threshold;
     shareOfRow_ = cut_.shareOfRowMax > 0.0f;
     absoluteBefore_ = shareBefore_ = 0.0f;
     forget();
   });
-  connect(&session_, &Session::changed, this, [this] {
-    adopt();
-    Q_EMIT changed();
-  });
+  for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
+    connect(&session_, signal, this, [this] {
+      adopt();
+      tellAll();
+    });
+  updateCommands();
 }
 
 void ThresholdPage::adopt() {
@@ -136,7 +139,7 @@ void ThresholdPage::compute() {
       return std::make_shared<MatrixPictures>(transport, cut);
     });
   }
-  Q_EMIT changed();
+  tellAll();
 }
 
 StepStatus ThresholdPage::status() const {
@@ -159,18 +162,14 @@ QString ThresholdPage::hint() const {
   return tr("Next: groups of pixels that can be solved on their own");
 }
 
-Command ThresholdPage::primary() const {
-  auto* self = const_cast<ThresholdPage*>(this);
-  return {tr("Group into clusters"), Icon::next, kept_.has_value(), {}, [self] { self->accept(); }};
+void ThresholdPage::updateCommands() {
+  accept_->show(tr("Group into clusters"), kept_.has_value());
 }
 
 std::optional<Banner> ThresholdPage::banner() const {
   if (session_.progress(Stage::threshold) != StageProgress::stale) return std::nullopt;
-  return Banner{Banner::Kind::amber,
-                tr("The threshold was chosen for an earlier measurement"),
-                tr("Look at it again, then go on."),
-                {},
-                {}};
+  return Banner{Banner::Kind::amber, tr("The threshold was chosen for an earlier measurement"),
+                tr("Look at it again, then go on.")};
 }
 
 void ThresholdPage::setShareOfRow(bool share) {
@@ -213,7 +212,7 @@ void ThresholdPage::pick(Pixel pixel) {
   picked_ = pixel;
   follows_ = true;
   lookAtRow();
-  Q_EMIT changed();
+  tellResult();
 }
 
 void ThresholdPage::pickProjector(Pixel pixel) {
@@ -221,7 +220,7 @@ void ThresholdPage::pickProjector(Pixel pixel) {
   pickedProjector_ = pixel;
   follows_ = false;
   lookAtColumn();
-  Q_EMIT changed();
+  tellResult();
 }
 
 void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
@@ -235,7 +234,7 @@ void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
   follows_ = false;
   lookAtRow();
   lookAtColumn();
-  Q_EMIT changed();
+  tellResult();
 }
 
 std::optional<std::size_t> ThresholdPage::pickedRow() const {
@@ -296,7 +295,7 @@ void ThresholdPage::accept() {
     session_.decide(ThresholdResult{kept_->energyKept, kept_->leaves});
     Q_EMIT nextWanted();
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
   }
 }
 

@@ -25,7 +25,7 @@ class ThresholdPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command primary() const override;
+  Command* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override { session_.wantAcquisition(); }
 
@@ -64,6 +64,9 @@ class ThresholdPage : public DevicePage {
   std::optional<std::size_t> pickedRow() const;
   std::optional<std::size_t> pickedColumn() const;
 
+ protected:
+  void updateCommands() override;
+
  private:
   void adopt();
   void forget();
@@ -75,6 +78,7 @@ class ThresholdPage : public DevicePage {
   void compute();
   void accept();
 
+  Command* accept_;
   std::shared_ptr<const Acquisition> adopted_;
   ThresholdSettings cut_;
   bool shareOfRow_ = false;

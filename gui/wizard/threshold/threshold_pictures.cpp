@@ -11,6 +11,7 @@
 #include "views/number_text.h"
 #include "views/view_actions.h"
 #include "wizard/devices/device_selector.h"
+#include "wizard/frame/page_view.h"
 #include "wizard/threshold/threshold_page.h"
 
 namespace relucent {
@@ -74,8 +75,8 @@ class DeviceViews : public Card {
       if (auto pick = print_->link().pick(); pick && !following_)
         model_.pickProjector({pick->x(), pick->y()});
     });
-    connect(&model, &ThresholdPage::changed, this, [this] { refresh(); });
-    refresh();
+    refreshOn(
+        model, this, [this] { refresh(); }, &ThresholdPage::settingsChanged, &ThresholdPage::resultChanged);
   }
 
  private:
@@ -156,14 +157,14 @@ class MatrixCard : public Card {
     body()->addWidget(view_, 1);
     addViewActions(*this, *view_, {[view = view_] { return view->values(); }, "camera signal per second"},
                    [&model](const Failure& failure) {
-                     Q_EMIT model.failed({failure, ThresholdPage::tr("What is measured is safe."), {}, {}});
+                     Q_EMIT model.failed({failure, ThresholdPage::tr("What is measured is safe.")});
                    });
     connect(&view_->link(), &ViewLink::picked, &model, [this] {
       if (auto pick = view_->link().pick(); pick && !following_)
         model_.pickEntry(static_cast<std::size_t>(pick->y()), static_cast<std::size_t>(pick->x()));
     });
-    connect(&model, &ThresholdPage::changed, this, [this] { refresh(); });
-    refresh();
+    refreshOn(
+        model, this, [this] { refresh(); }, &ThresholdPage::settingsChanged, &ThresholdPage::resultChanged);
   }
 
  private:

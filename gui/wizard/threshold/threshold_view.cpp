@@ -63,8 +63,7 @@ QWidget* stageOf(ThresholdPage& model) {
     histogram->setCutText(cut > 0.0 ? ThresholdPage::tr("Cut at %1, keeps %2").arg(numberText(cut), kept)
                                     : ThresholdPage::tr("Everything is kept"));
   };
-  QObject::connect(&model, &ThresholdPage::changed, histogram, refresh);
-  refresh();
+  refreshOn(model, histogram, refresh, &ThresholdPage::settingsChanged, &ThresholdPage::resultChanged);
   return stage;
 }
 
@@ -141,8 +140,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     direct->setValue(percentText(footprint.nearShare));
     elsewhere->setValue(percentText(1.0 - footprint.nearShare));
   };
-  QObject::connect(&model, &ThresholdPage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &ThresholdPage::settingsChanged, &ThresholdPage::resultChanged);
   return card;
 }
 

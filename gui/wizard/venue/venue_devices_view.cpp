@@ -14,8 +14,10 @@ QWidget* consentToBegin(VenuePage& model) {
   auto* part = new FlashConsent;
   QObject::connect(part, &FlashConsent::given, &model, &VenuePage::setRoomClear);
   auto refresh = [part, &model] { part->show(model.needsConsent(), model.isRoomClear(), std::nullopt); };
-  QObject::connect(&model, &VenuePage::changed, part, refresh);
-  refresh();
+  refreshOn(model, part, refresh, &VenuePage::settingsChanged);
+  QObject::connect(&model, &VenuePage::remedyWanted, part, [part, &model] {
+    if (model.remedy() == VenuePage::Remedy::consent) pointOut(part->tick());
+  });
   return part;
 }
 
@@ -24,10 +26,9 @@ QWidget* devicesStage(VenuePage& model) {
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  column->addWidget(screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
-                                  model.chooseScreen(choice);
-                                })),
-                    1);
+  auto* list = new ScreenList([&model](const ScreenChoice& choice) { model.chooseScreen(choice); });
+  column->addWidget(screensCard(stage, list), 1);
+  pointOutScreens(model, list);
   auto* note = new Note(Note::Kind::amber);
   column->addWidget(note);
   auto refresh = [&model, note] {
@@ -35,8 +36,7 @@ QWidget* devicesStage(VenuePage& model) {
     note->setVisible(!warning.isEmpty());
     note->setText(VenuePage::tr("The projector shares your screen"), warning);
   };
-  QObject::connect(&model, &VenuePage::changed, note, refresh);
-  refresh();
+  refreshOn(model, note, refresh, &VenuePage::settingsChanged);
   return stage;
 }
 
@@ -58,8 +58,7 @@ QWidget* devicesInspector(VenuePage& model) {
                          : QString("%1, %2").arg(QString::fromStdString(chosen.display.connector),
                                                  sizeText(chosen.projector.width, chosen.projector.height)));
   };
-  QObject::connect(&model, &VenuePage::changed, screen, refresh);
-  refresh();
+  refreshOn(model, screen, refresh, &VenuePage::settingsChanged);
   return card;
 }
 

@@ -21,6 +21,10 @@ QString sizeText(Size size) {
 
 VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
     : PageModel(stepName, parent), session_(session), recent_(recent), openScreen_(session) {
+  checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
+  begin_ = addCommand(Icon::next, [this] { begin(); });
+  useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
+  changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = {
       {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
@@ -41,12 +45,14 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
             {{512, 384}, {320, 240}, QT_TR_NOOP("%1, fine")}});
   size_ = 1;
   script_.projector = {1024, 768};
-  connect(&session_, &Session::changed, this, &VenuePage::changed);
-  connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::changed);
+  connect(&session_, &Session::stepsChanged, this, &VenuePage::tellSettings);
+  connect(&session_, &Session::devicesChanged, this, &VenuePage::tellSettings);
+  connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::tellSettings);
   connect(&session_, &Session::opened, this, [this] {
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
     mode_ = Mode::start;
   });
+  updateCommands();
 }
 
 QString VenuePage::title() const {
@@ -102,37 +108,31 @@ QString VenuePage::hint() const {
       .arg(bytesText(work.diskBytes));
 }
 
-Command VenuePage::primary() const {
-  auto* self = const_cast<VenuePage*>(this);
-  if (mode_ == Mode::start) {
-    if (!session_.isOpen()) return {};
-    return {tr("Check camera"), Icon::next, true, {}, [self] { Q_EMIT self->nextWanted(); }};
-  }
-  if (mode_ == Mode::screen)
-    return {tr("Use this screen"), Icon::projector, problem().isEmpty(), {}, [self] { self->useScreen(); }};
-  return {mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"),
-          mode_ == Mode::rehearse ? Icon::play : Icon::next,
-          problem().isEmpty(),
-          {},
-          [self] { self->begin(); }};
+void VenuePage::updateCommands() {
+  checkCamera_->show(tr("Check camera"));
+  useScreen_->show(tr("Use this screen"), problem().isEmpty());
+  begin_->setGlyph(mode_ == Mode::rehearse ? Icon::play : Icon::next);
+  begin_->show(mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"), problem().isEmpty());
+  changeScreen_->show(tr("Change the screen"));
 }
 
-std::vector<Command> VenuePage::secondary() const {
+Command* VenuePage::primary() const {
+  if (mode_ == Mode::start) return session_.isOpen() ? checkCamera_ : nullptr;
+  return mode_ == Mode::screen ? useScreen_ : begin_;
+}
+
+std::vector<Command*> VenuePage::secondary() const {
   // Where it is missing, the banner has the same.
   if (mode_ != Mode::start || !openScreen_.isChangeable() || openScreen_.isMissing()) return {};
-  auto* self = const_cast<VenuePage*>(this);
-  return {{tr("Change the screen"), Icon::projector, true, {}, [self] { self->setMode(Mode::screen); }}};
+  return {changeScreen_};
 }
 
 std::optional<Banner> VenuePage::banner() const {
   if (mode_ != Mode::start || !openScreen_.isChangeable() || !openScreen_.isMissing()) return std::nullopt;
-  auto* self = const_cast<VenuePage*>(this);
   return Banner{Banner::Kind::amber,
                 tr("The projector's screen %1 is not there")
                     .arg(QString::fromStdString(session_.screenRig()->display.connector)),
-                tr("Plug it in, or say which screen the projector is now."),
-                {tr("Change the screen"), Icon::projector, true, {}, [self] { self->setMode(Mode::screen); }},
-                {}};
+                tr("Plug it in, or say which screen the projector is now."), changeScreen_};
 }
 
 bool VenuePage::goBack() {
@@ -143,7 +143,7 @@ bool VenuePage::goBack() {
 
 void VenuePage::setRoomClear(bool clear) {
   roomClear_ = clear;
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::setMode(Mode mode) {
@@ -151,7 +151,7 @@ void VenuePage::setMode(Mode mode) {
   roomClear_ = false;
   openScreen_.forget();
   if (mode != Mode::start) suggestName();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 bool VenuePage::isOpenNow(const RecentVenue& venue) const {
@@ -167,7 +167,7 @@ void VenuePage::open(const QString& path) {
     if (folder.exists() && !folder.exists(manifestName)) return tellNoVenue(folder);
     session_.open(folder.path().toStdString());
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder.")});
   }
 }
 
@@ -180,18 +180,18 @@ void VenuePage::tellNoVenue(const QDir& folder) {
                   within > 0 ? tr("There are %n venue(s) within it: open one of them.", nullptr, within)
                              : tr("Choose a venue's own folder. It has the venue's name."),
                   folder.path(), tr("This folder is not a venue")};
-  Q_EMIT failed({failure, tr("Nothing was changed in that folder."), {}, {}});
+  Q_EMIT failed({failure, tr("Nothing was changed in that folder.")});
 }
 
 void VenuePage::chooseVenue(std::size_t index) {
   venue_ = index;
   suggestName();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::chooseSize(std::size_t index) {
   size_ = index;
-  Q_EMIT changed();
+  tellSettings();
 }
 
 QString VenuePage::nameOf(const RehearsalSize& size) {
@@ -201,12 +201,12 @@ QString VenuePage::nameOf(const RehearsalSize& size) {
 void VenuePage::setSizes(std::vector<RehearsalSize> sizes) {
   sizes_ = std::move(sizes);
   size_ = 0;
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::setScript(const CommandRigSettings& script) {
   script_ = script;
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::chooseScreen(const ScreenChoice& choice) {
@@ -215,19 +215,19 @@ void VenuePage::chooseScreen(const ScreenChoice& choice) {
   screen_.projector = choice.size;
   screen_.frameRate = choice.frameRate;
   screenWarning_ = choice.warning;
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::setVenueName(const QString& name) {
   venueName_ = name;
   named_ = !name.isEmpty();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::setFolder(const QString& folder) {
   parent_ = QDir::cleanPath(folder);
   suggestName();
-  Q_EMIT changed();
+  tellSettings();
 }
 
 void VenuePage::setUsualFolder(const QString& folder) {
@@ -249,7 +249,7 @@ void VenuePage::useScreen() {
     openScreen_.apply();
     setMode(Mode::start);
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
 }
 
@@ -262,7 +262,7 @@ void VenuePage::begin() {
     session_.setRoomClear(clear);
     named_ = false;
   } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was measured yet."), {}, {}});
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was measured yet.")});
   }
 }
 

@@ -34,6 +34,8 @@ class VenuePage : public PageModel {
                                      QT_TRANSLATE_NOOP("relucent::VenuePage", "Venue")};
 
   enum class Mode { start, rehearse, script, devices, screen };
+  /// What has to be changed before the venue can begin.
+  enum class Remedy { none, name, folder, screen, consent };
 
   VenuePage(Session& session, RecentVenues recent, QObject* parent = nullptr);
 
@@ -41,9 +43,9 @@ class VenuePage : public PageModel {
   QString subtitle() const override;
   StepStatus status() const override;
   QString hint() const override;
-  QString cause() const override { return firstProblem().cause; }
-  Command primary() const override;
-  std::vector<Command> secondary() const override;
+  bool hasRemedy() const override { return remedy() != Remedy::none; }
+  Command* primary() const override;
+  std::vector<Command*> secondary() const override;
   std::optional<Banner> banner() const override;
   bool goBack() override;
   bool canGoBack() const override { return mode_ != Mode::start; }
@@ -105,11 +107,15 @@ class VenuePage : public PageModel {
 
   /// The first sentence against beginning; empty: nothing.
   QString problem() const { return firstProblem().sentence; }
+  Remedy remedy() const { return firstProblem().remedy; }
+
+ protected:
+  void updateCommands() override;
 
  private:
   struct Problem {
     QString sentence;
-    QString cause{};  // the widget's name
+    Remedy remedy = Remedy::none;
   };
   Problem firstProblem() const;
   CalibrateSettings wanted() const;
@@ -133,6 +139,7 @@ class VenuePage : public PageModel {
   QString usualFolder_;
   bool roomClear_ = false;
   bool named_ = false;  // by the user
+  Command *checkCamera_, *begin_, *useScreen_, *changeScreen_;
 };
 
 }  // namespace relucent

@@ -69,24 +69,24 @@ VenuePage::Problem VenuePage::firstProblem() const {
   if (mode_ == Mode::screen) {
     if (!openScreen_.isChangeable())
       return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
-    if (!openScreen_.isAnother()) return {tr("Choose another screen."), "screens"};
+    if (!openScreen_.isAnother()) return {tr("Choose another screen."), Remedy::screen};
     return {};
   }
-  if (venueName_.trimmed().isEmpty()) return {tr("Give the venue a name."), "venue-name"};
-  if (venueName_.contains('/')) return {tr("A name cannot hold a slash."), "venue-name"};
+  if (venueName_.trimmed().isEmpty()) return {tr("Give the venue a name."), Remedy::name};
+  if (venueName_.contains('/')) return {tr("A name cannot hold a slash."), Remedy::name};
   if (QFileInfo::exists(target()))
-    return {tr("There is a folder of that name. Choose another name."), "venue-name"};
+    return {tr("There is a folder of that name. Choose another name."), Remedy::name};
   if (mode_ == Mode::devices && screen_.projector.empty())
     return {hasOneScreen()
                 ? tr("Only your own screen is there. Plug the projector in, and extend the desktop to it.")
                 : tr("Choose the screen that shines on the surface."),
-            "screens"};
+            Remedy::screen};
   if (std::vector<std::string> found = problems(wanted()); !found.empty())
     return {fullSentence(found.front())};
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)
-    return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), "venue-folder"};
-  if (needsConsent() && !roomClear_) return {tr("Confirm that the room is clear."), "room-is-clear"};
+    return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), Remedy::folder};
+  if (needsConsent() && !roomClear_) return {tr("Confirm that the room is clear."), Remedy::consent};
   return {};
 }
 

@@ -18,6 +18,8 @@ QWidget* devicesInspector(VenuePage& model);
 /// Another screen for the calibration that is open.
 QWidget* screenStage(VenuePage& model);
 QWidget* screenInspector(VenuePage& model);
+/// A list of screens is shown where one has to be chosen first.
+void pointOutScreens(VenuePage& model, QWidget* list);
 /// The warning of flashing light with its tick, for venues that are begun with real devices.
 QWidget* consentToBegin(VenuePage& model);
 /// Name, folder, and what it will take: the same for every kind of new venue.

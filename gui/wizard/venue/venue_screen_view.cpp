@@ -30,12 +30,20 @@ class OpenScreenList : public ScreenList {
 
 }  // namespace
 
+void pointOutScreens(VenuePage& model, QWidget* list) {
+  QObject::connect(&model, &VenuePage::remedyWanted, list, [&model, list] {
+    if (model.remedy() == VenuePage::Remedy::screen) pointOut(list);
+  });
+}
+
 QWidget* screenStage(VenuePage& model) {
   auto* stage = new QWidget;
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  column->addWidget(screensCard(stage, new OpenScreenList(model)), 1);
+  auto* list = new OpenScreenList(model);
+  column->addWidget(screensCard(stage, list), 1);
+  pointOutScreens(model, list);
   auto* note = new Note(Note::Kind::amber);
   note->setObjectName("moved-screen");
   column->addWidget(note);
@@ -44,8 +52,7 @@ QWidget* screenStage(VenuePage& model) {
     note->setVisible(!meaning.isEmpty());
     note->setText(VenuePage::tr("Nothing is measured again"), meaning);
   };
-  QObject::connect(&model, &VenuePage::changed, note, refresh);
-  refresh();
+  refreshOn(model, note, refresh, &VenuePage::settingsChanged);
   return stage;
 }
 
@@ -70,8 +77,7 @@ QWidget* screenInspector(VenuePage& model) {
     used->setValue(QString::fromStdString(screen->display.connector));
     pixels->setValue(sizeText(screen->projector.width, screen->projector.height));
   };
-  QObject::connect(&model, &VenuePage::changed, card, refresh);
-  refresh();
+  refreshOn(model, card, refresh, &VenuePage::settingsChanged);
   return card;
 }
 

@@ -71,7 +71,7 @@ QWidget* scriptInspector(VenuePage& model) {
       script.projector.*side = value;
       model.setScript(script);
     });
-    QObject::connect(&model, &VenuePage::changed, box, [&model, box, side] {
+    QObject::connect(&model, &VenuePage::settingsChanged, box, [&model, box, side] {
       QSignalBlocker quiet(box);
       box->setValue(model.script().projector.*side);
     });

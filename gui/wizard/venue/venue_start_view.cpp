@@ -77,7 +77,7 @@ class StartStage : public QWidget {
     all->addWidget(labelOf(VenuePage::tr("Recent"), "heading"));
     recent_ = new Card;
     all->addWidget(recent_, 1);
-    connect(&model, &VenuePage::changed, this, [this] { refresh(); });
+    connect(&model, &VenuePage::statusChanged, this, [this] { refresh(); });
     fill();
   }
 

@@ -51,8 +51,12 @@ class KeepingPart : public QWidget {
           QFileDialog::getExistingDirectory(this, VenuePage::tr("Choose a folder"), model_.folder());
       if (!chosen.isEmpty()) model_.setFolder(chosen);
     });
-    connect(&model, &VenuePage::changed, this, [this] { refresh(); });
-    refresh();
+    refreshOn(
+        model, this, [this] { refresh(); }, &VenuePage::settingsChanged);
+    connect(&model, &VenuePage::remedyWanted, this, [this] {
+      if (model_.remedy() == VenuePage::Remedy::name) pointOut(name_);
+      if (model_.remedy() == VenuePage::Remedy::folder) pointOut(folder_);
+    });
   }
 
  private:
@@ -143,8 +147,7 @@ PageView viewOf(VenuePage& model) {
     stages->setCurrentIndex(mode);
     inspectors->setCurrentIndex(mode);
   };
-  QObject::connect(&model, &VenuePage::changed, stages, refresh);
-  refresh();
+  refreshOn(model, stages, refresh, &VenuePage::settingsChanged);
   return {stages, inspectors};
 }
 

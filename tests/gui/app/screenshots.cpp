@@ -117,13 +117,13 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   wizard.session().begin(own.filePath("Rehearsal").toStdString(), settings);
   wizard.wizard().go(1);
   until([&] { return wizard.page<CameraPage>().tooDarkEverywhere().has_value(); });
-  wizard.page<CameraPage>().primary().run();
+  wizard.page<CameraPage>().primary()->trigger();
   until([&] { return wizard.session().areDevicesFree() && wizard.wizard().current() == 2; });
-  wizard.page<LinearizePage>().primary().run();
+  wizard.page<LinearizePage>().primary()->trigger();
   until([&] { return wizard.page<LinearizePage>().result() && !wizard.page<LinearizePage>().isMeasuring(); });
   wizard.wizard().go(3);
   photographs.take("04-plan");
-  wizard.page<AcquirePage>().primary().run();
+  wizard.page<AcquirePage>().primary()->trigger();
   wizard.session().live().setLeastInterval(25);  // as real devices would be, and longer
   until([&] { return wizard.page<AcquirePage>().trace().points().size() > 40; });
   photographs.take("04-measuring");
@@ -170,7 +170,7 @@ int main(int argc, char** argv) {
   if (isDecided)
     steps.go(2);
   else
-    wizard.page<CameraPage>().primary().run();
+    wizard.page<CameraPage>().primary()->trigger();
   until([&] { return wizard.session().areDevicesFree() && steps.current() == 2; });
   photographs.take("03-linearize");
   steps.go(3);
@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
   matrix->setWholeScreen(false);
   wizard.page<ThresholdPage>().setAbsolute(0.0);
   until([&] { return wizard.page<ThresholdPage>().kept()->energyKept == 1.0; });
-  wizard.page<ThresholdPage>().primary().run();
+  wizard.page<ThresholdPage>().primary()->trigger();
   until([&] { return wizard.page<ClusterPage>().result() && !wizard.page<ClusterPage>().isComputing(); });
   photographs.take("06-cluster");
   auto* error = wizard.window().findChild<MapView*>("error-view");
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
   photographs.take("06-cluster-relief");
   error->asSeen().save(folder.filePath("06-saved-relief.png"));
   error->setRelief(false);
-  wizard.page<ClusterPage>().primary().run();
+  wizard.page<ClusterPage>().primary()->trigger();
   until(
       [&] { return wizard.page<PreviewPage>().preview() && wizard.page<PreviewPage>().table().size() >= 5; });
   photographs.take("07-preview");
@@ -210,7 +210,7 @@ int main(int argc, char** argv) {
   });
   wizard.window().findChild<QWidget*>("preview-view")->setFocus(Qt::TabFocusReason);
   photographs.take("07-preview-corners");
-  wizard.page<PreviewPage>().primary().run();
+  wizard.page<PreviewPage>().primary()->trigger();
   wizard.page<OutputPage>().open();
   until([&] { return !wizard.page<OutputPage>().projection().mirror().isNull(); });
   wizard.page<OutputPage>().verify();

@@ -163,10 +163,11 @@ class TestLayouts : public QObject {
                              ErrorKind::input, ErrorKind::numerics}) {
         Failure failure{
             kind, "What happened, as long as it takes to say it.", "What to do about that now.", {}};
-        Command resume{AcquirePage::tr("Resume"), Icon::play, true, {}, [] {}};
-        Command keep{AcquirePage::tr("Stop and keep"), Icon::save, true, {}, [] {}};
-        Command goOn{AcquirePage::tr("Continue anyway"), Icon::next, true, {}, [] {}};
-        FailureDialog dialog({failure, AcquirePage::tr("Nothing was changed."), resume, keep, goOn},
+        Command resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr);
+        resume.show(AcquirePage::tr("Resume"));
+        keep.show(AcquirePage::tr("Stop and keep"));
+        goOn.show(AcquirePage::tr("Continue anyway"));
+        FailureDialog dialog({failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn},
                              wizard_->page<AcquirePage>().name());
         dialog.show();
         faults << seen(dialog, language, "failure");
@@ -178,23 +179,23 @@ class TestLayouts : public QObject {
   void camera() {
     wizard_->page<VenuePage>().setMode(VenuePage::Mode::rehearse);
     wizard_->page<VenuePage>().chooseVenue(wizard_->page<VenuePage>().venues().size() - 1);
-    wizard_->page<VenuePage>().primary().run();
+    wizard_->page<VenuePage>().primary()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{1}, patience);
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().tooDarkEverywhere().has_value(), patience);
     page("looking");
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().primary().enabled, patience);
-    wizard_->page<CameraPage>().primary().run();
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().primary()->isEnabled(), patience);
+    wizard_->page<CameraPage>().primary()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{2}, patience);
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().areDevicesFree(), patience);
   }
 
   void linearization() {
     page("before");
-    wizard_->page<LinearizePage>().primary().run();
+    wizard_->page<LinearizePage>().primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(
         wizard_->page<LinearizePage>().result() && !wizard_->page<LinearizePage>().isMeasuring(), patience);
     page("measured");
-    wizard_->page<LinearizePage>().primary().run();
+    wizard_->page<LinearizePage>().primary()->trigger();
   }
 
   void acquisition() {
@@ -207,14 +208,14 @@ class TestLayouts : public QObject {
           disconnect(figures);
           acquire.pause();
         });
-    acquire.primary().run();
+    acquire.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<AcquirePage>().isPaused(), patience);
     page("paused");
     wizard_->page<AcquirePage>().resume();
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done, patience);
     // Whoever measured in many languages says in the last that the devices are free.
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().areDevicesFree(), patience);
-    wizard_->page<AcquirePage>().primary().run();
+    wizard_->page<AcquirePage>().primary()->trigger();
   }
 
   void decisions() {
@@ -222,14 +223,14 @@ class TestLayouts : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(threshold.kept() && threshold.whole(), patience);
     threshold.pick({24, 18});
     QTRY_VERIFY_WITH_TIMEOUT(threshold.footprint() != nullptr, patience);
-    threshold.primary().run();
+    threshold.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(
         wizard_->page<ClusterPage>().result() && !wizard_->page<ClusterPage>().isComputing(), patience);
-    wizard_->page<ClusterPage>().primary().run();
+    wizard_->page<ClusterPage>().primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(
         wizard_->page<PreviewPage>().table().size() >= 5 && !wizard_->page<PreviewPage>().isComputing(),
         patience);
-    wizard_->page<PreviewPage>().primary().run();
+    wizard_->page<PreviewPage>().primary()->trigger();
     QTRY_COMPARE(steps().current(), std::size_t{7});
     pages({0, 1, 2, 3, 4, 5, 6, 7}, "done");
     threshold.setShareOfRow(true);

@@ -442,7 +442,7 @@ class TestWizardWindow : public QObject {
 
   void aPhotographProvesIt() {
     OutputPage& output = wizard_->page<OutputPage>();
-    QVERIFY(output.primary().text == OutputPage::tr("Install without proof"));
+    QVERIFY(output.primary()->text() == OutputPage::tr("Install without proof"));
     press(QKeySequence("Ctrl+Shift+V"));
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
     const Proof& proof = *output.proof().proof();
@@ -453,7 +453,7 @@ class TestWizardWindow : public QObject {
     QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
     QVERIFY(output.isOpen());  // a simulated camera is in nobody's way
-    QVERIFY(output.primary().text == OutputPage::tr("Install show"));
+    QVERIFY(output.primary()->text() == OutputPage::tr("Install show"));
     click("check-drift");
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
     QVERIFY(output.proof().drift()->judgement.verdict == Verdict::stillGood);

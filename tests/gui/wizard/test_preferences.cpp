@@ -51,20 +51,20 @@ class TestPreferences : public QObject {
     settings.rig = script;
     session.begin(folder_.filePath("real").toStdString(), settings);
     QVERIFY(session.needsConsent());
-    QVERIFY(!linearize.primary().enabled && !acquire.primary().enabled);
+    QVERIFY(!linearize.primary()->isEnabled() && !acquire.primary()->isEnabled());
     QCOMPARE(linearize.hint(), LinearizePage::tr("Confirm that the room is clear."));
     session.setRoomClear(true);
-    QVERIFY(linearize.primary().enabled && acquire.primary().enabled);
+    QVERIFY(linearize.primary()->isEnabled() && acquire.primary()->isEnabled());
     // It is asked for each time.
     session.open(session.path());
-    QVERIFY(!linearize.primary().enabled);
+    QVERIFY(!linearize.primary()->isEnabled());
     // Three changes a second harm nobody.
     session.setFlashLimit(3);
-    QVERIFY(!session.needsConsent() && linearize.primary().enabled);
+    QVERIFY(!session.needsConsent() && linearize.primary()->isEnabled());
     session.setFlashLimit(0);
     settings.rig = VenueSettings();
     session.begin(folder_.filePath("simulated").toStdString(), settings);
-    QVERIFY(!session.needsConsent() && linearize.primary().enabled);
+    QVERIFY(!session.needsConsent() && linearize.primary()->isEnabled());
   }
 };
 

@@ -368,7 +368,7 @@ class TestRealDevices : public QObject {
 
     venue.setFolder(QString::fromStdString((root() / "venues").string()));
     venue.setMode(VenuePage::Mode::devices);
-    QVERIFY(!venue.primary().enabled);  // no screen is chosen
+    QVERIFY(!venue.primary()->isEnabled());  // no screen is chosen
     const std::vector<ScreenChoice> screens = screenChoices();
     QCOMPARE(screens.size(), std::size_t{2});
     for (ScreenChoice screen : screens) {
@@ -378,11 +378,11 @@ class TestRealDevices : public QObject {
     }
     QCOMPARE(venue.screen().display.connector, std::string("DUMMY1"));
     venue.setRoomClear(true);
-    QVERIFY2(venue.primary().enabled, qPrintable(venue.problem()));
-    venue.primary().run();
+    QVERIFY2(venue.primary()->isEnabled(), qPrintable(venue.problem()));
+    venue.primary()->trigger();
     QVERIFY(session.isOpen() && session.screenRig() != nullptr && session.needsConsent());
 
-    QVERIFY(camera.needsCamera() && !camera.primary().enabled);
+    QVERIFY(camera.needsCamera() && !camera.primary()->isEnabled());
     QSignalSpy listed(&camera, &CameraPage::camerasListed);
     camera.enter();
     QTRY_VERIFY_WITH_TIMEOUT(!camera.cameras().cameras.empty(), 10000);
@@ -392,18 +392,18 @@ class TestRealDevices : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value() && camera.check().has_value(), 30000);
     for (const CheckVerdict& verdict : verdictsOf(*camera.check())) qInfo("%s", sentence(verdict).c_str());
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
-    QVERIFY(camera.primary().enabled);
-    camera.primary().run();
+    QVERIFY(camera.primary()->isEnabled());
+    camera.primary()->trigger();
     QTRY_VERIFY(session.progress(Stage::camera) == StageProgress::done && session.areDevicesFree());
 
     CalibrateSettings quick = session.settings();
     quick.linearization.levels = 9;
     quick.acquisition = settingsOf(AcquisitionMode::fast);
     session.changeSettings(quick);
-    linearize.primary().run();
+    linearize.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::linearization) == StageProgress::done, 60000);
     QTRY_VERIFY(session.areDevicesFree());
-    acquire.primary().run();
+    acquire.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::acquisition) == StageProgress::done, 60000);
 
     // Remembered: another session knows screen, camera and latency.

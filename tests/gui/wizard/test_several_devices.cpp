@@ -114,7 +114,7 @@ class TestSeveralDevices : public QObject {
   void whatIsShownIsChosenAndBeginsAnew() {
     session_->reload();
     ThresholdPage page(*session_);
-    QSignalSpy changed(&page, &PageModel::changed);
+    QSignalSpy changed(&page, &PageModel::settingsChanged);
     QCOMPARE(page.projector(), std::size_t{0});
     page.showProjector(1);
     page.showCamera(1);

@@ -57,23 +57,23 @@ class TestAcquirePage : public QObject {
     session_->setRoomClear(true);
     AcquirePage page(*session_);
     page.setSecondsToLeave(60);
-    page.primary().run();
+    page.primary()->trigger();
     QVERIFY(page.isLeaving() && !page.isMeasuring());
     QVERIFY(session_->devicesUser() == AcquirePage::stepName);
     QVERIFY(page.status().state == StepState::busy && page.hint().contains("60"));
     // Not now: as if nothing had been pressed.
     QCOMPARE(page.secondary().size(), std::size_t{1});
-    page.secondary().front().run();
+    page.secondary().front()->trigger();
     QVERIFY(!page.isLeaving() && !page.isMeasuring() && session_->areDevicesFree());
     // And again, not waiting for the rest of it. The scripts do not exist: it fails, but it has begun.
-    page.primary().run();
+    page.primary()->trigger();
     QVERIFY(page.isLeaving());
     QSignalSpy measured(&page, &AcquirePage::measured);
-    page.primary().run();
+    page.primary()->trigger();
     QVERIFY(!page.isLeaving());
     QTRY_COMPARE_WITH_TIMEOUT(measured.size(), 1, patience);
     // Going elsewhere calls it off.
-    page.primary().run();
+    page.primary()->trigger();
     QVERIFY(page.isLeaving());
     session_->close();
     QVERIFY(!page.isLeaving() && session_->areDevicesFree());
@@ -92,7 +92,7 @@ class TestAcquirePage : public QObject {
       QCOMPARE(plan[i].block, 32 >> i);
       QVERIFY(!plan[i].isKnown && plan[i].patterns.likely > 0.0);
     }
-    page.primary().run();
+    page.primary()->trigger();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     QVERIFY(page.isDone());

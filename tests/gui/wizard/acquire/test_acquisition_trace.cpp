@@ -224,7 +224,7 @@ class TestAcquisitionTrace : public QObject {
     settings.acquisition.checkInterval = 15;
     session.begin(folder_.filePath("traced").toStdString(), settings);
     QVERIFY(page.trace().points().empty());
-    page.primary().run();
+    page.primary()->trigger();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), 120000);
     QVERIFY(session.progress(Stage::acquisition) == StageProgress::done);

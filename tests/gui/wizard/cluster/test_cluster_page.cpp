@@ -58,7 +58,7 @@ class TestClusterPage : public QObject {
     session_->reload();
     page_ = std::make_unique<ClusterPage>(*session_);
     shown_.clear();
-    connect(page_.get(), &PageModel::changed, this, [this] {
+    connect(page_.get(), &PageModel::resultChanged, this, [this] {
       if (page_->result() && (shown_.empty() || shown_.back() != page_->result()))
         shown_.push_back(page_->result());
     });
@@ -80,10 +80,10 @@ class TestClusterPage : public QObject {
     ClusteringSettings settings = page_->settings();
     settings.patchCut = 0.2;
     page_->setSettings(settings);
-    QVERIFY(page_->isComputing() && !page_->primary().enabled);
+    QVERIFY(page_->isComputing() && !page_->primary()->isEnabled());
     QCOMPARE(page_->hint(), ClusterPage::tr("Grouping again"));
     QTRY_VERIFY(isExact());
-    QVERIFY(page_->primary().enabled);
+    QVERIFY(page_->primary()->isEnabled());
     QCOMPARE(shown_.size(), std::size_t{4});
     QVERIFY(!shown_[2]->exact && shown_[3]->exact);
     QVERIFY(shown_[2]->map == shown_[3]->map && shown_[2]->map != shown_[1]->map);

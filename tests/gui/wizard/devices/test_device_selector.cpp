@@ -15,7 +15,7 @@ class ScriptedPage : public DevicePage {
   explicit ScriptedPage(Session& session) : DevicePage({"page", "", "page"}, session) {}
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
-  Command primary() const override { return {}; }
+  Command* primary() const override { return nullptr; }
 };
 
 }  // namespace
@@ -40,7 +40,7 @@ class TestDeviceSelector : public QObject {
     session_ = std::make_unique<Session>(std::filesystem::path());
     page_ = std::make_unique<ScriptedPage>(*session_);
     // As pages do.
-    connect(session_.get(), &Session::changed, page_.get(), &PageModel::changed);
+    connect(session_.get(), &Session::stepsChanged, page_.get(), &PageModel::settingsChanged);
   }
   void cleanup() {
     page_.reset();

@@ -71,7 +71,7 @@ class TestTwoOutputs : public QObject {
     QCOMPARE(page_->projectors(), std::size_t{2});
     QCOMPARE(page_->screenOf(0), std::optional(screen("DUMMY1")));
     QVERIFY(!page_->screenOf(1));
-    QVERIFY(!page_->primary().enabled);
+    QVERIFY(!page_->primary()->isEnabled());
     QCOMPARE(page_->hint(), OutputPage::tr("Choose a screen for projector %1.").arg(2));
     page_->open();
     QVERIFY(!page_->projection().isOpening() && !page_->isOpen());
@@ -80,7 +80,7 @@ class TestTwoOutputs : public QObject {
   void tooFewScreensAreSaidToBe() {
     unplug();
     QTRY_COMPARE(page_->screens().size(), std::size_t{1});
-    QVERIFY(!page_->primary().enabled);
+    QVERIFY(!page_->primary()->isEnabled());
     QCOMPARE(page_->hint(),
              OutputPage::tr("Each of the %n projector(s) needs a screen of its own. Plug in another one.",
                             nullptr, 2));
@@ -94,7 +94,7 @@ class TestTwoOutputs : public QObject {
     page_->showProjector(1);
     page_->choose(screen("DUMMY0"));
     QCOMPARE(page_->chosen(), std::optional(screen("DUMMY0")));
-    QVERIFY(page_->primary().enabled);
+    QVERIFY(page_->primary()->isEnabled());
     page_->choose(screen("DUMMY1"));
     QCOMPARE(page_->screenOf(0), std::optional(screen("DUMMY0")));
     QCOMPARE(page_->screenOf(1), std::optional(screen("DUMMY1")));

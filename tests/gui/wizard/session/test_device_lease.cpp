@@ -72,7 +72,7 @@ class TestDeviceLease : public QObject {
   }
 
   void itTellsBeginAndEnd() {
-    QSignalSpy changed(session_.get(), &Session::changed);
+    QSignalSpy changed(session_.get(), &Session::devicesChanged);
     DeviceLease lease = session_->leaseDevices(camera);
     QCOMPARE(changed.size(), 1);
     lease.release();
@@ -80,7 +80,7 @@ class TestDeviceLease : public QObject {
   }
 
   void aLeaseThatGoesAwayTellsLater() {
-    QSignalSpy changed(session_.get(), &Session::changed);
+    QSignalSpy changed(session_.get(), &Session::devicesChanged);
     { const DeviceLease lease = session_->leaseDevices(camera); }
     QCOMPARE(changed.size(), 1);
     QVERIFY(session_->areDevicesFree());

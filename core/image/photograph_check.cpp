@@ -39,6 +39,16 @@ PhotographCheck checkPhotograph(const Image& signal, double saturation, double d
   return check;
 }
 
+double tooBrightWithin(const PhotographCheck& check, Size size, const Region& region) {
+  require(check.exposed.size() == size.count(), "a check of {} pixels is not of {}", check.exposed.size(),
+          size.count());
+  std::size_t bright = 0, all = 0;
+  for (int y = std::max(0, region.y); y < std::min(size.height, region.y + region.height); ++y)
+    for (int x = std::max(0, region.x); x < std::min(size.width, region.x + region.width); ++x, ++all)
+      if (check.exposed[indexOf(size, {x, y})] == Exposed::tooBright) ++bright;
+  return all > 0 ? static_cast<double>(bright) / static_cast<double>(all) : 0.0;
+}
+
 double sharpness(const Image& signal, const Region& region) {
   require(signal.channels() == 3, "a photograph has three channels, not {}", signal.channels());
   int left = std::clamp(region.x, 0, signal.width()), top = std::clamp(region.y, 0, signal.height());

@@ -31,6 +31,10 @@ struct PhotographCheck {
 /// too dark and in no bin.  Shape: three channels, full scale 1.
 PhotographCheck checkPhotograph(const Image& signal, double saturation, double dark);
 
+/// Share of the region's pixels that are too bright; of the part of it that lies in the photograph, 0 where
+/// none does.  Shape: `size` is the photograph's.
+double tooBrightWithin(const PhotographCheck& check, Size size, const Region& region);
+
 /// How sharp a region is: the mean squared difference of its brightness between neighbours, over its mean
 /// squared brightness. Without unit, and the same for any exposure of an unsaturated photograph; worth
 /// comparing only within one view. 0 for a region of less than two pixels or without light.

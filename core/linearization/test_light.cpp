@@ -23,6 +23,11 @@ std::vector<Image> evenPatterns(const Rig& rig, std::size_t projector, Drive dri
   return patterns;
 }
 
+void showEven(Rig& rig, Drive drive) {
+  const std::vector<Image> patterns = evenPatterns(rig, drive);
+  for (std::size_t i = 0; i < patterns.size(); ++i) rig.projectors[i]->show(patterns[i]);
+}
+
 LightMeter::LightMeter(ShotTaker& shots, std::vector<CameraModel> cameras, std::vector<double> exposures)
     : shots_(shots),
       cameras_(std::move(cameras)),

@@ -16,6 +16,9 @@ std::vector<Image> evenPatterns(const Rig& rig, Drive drive);
 /// Every pixel of one projector at `drive`, the others black.
 std::vector<Image> evenPatterns(const Rig& rig, std::size_t projector, Drive drive);
 
+/// Shows the first of these on all projectors, one after the other.
+void showEven(Rig& rig, Drive drive);
+
 /// Takes shots at the chosen exposures and merges them.
 class LightMeter {
  public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "transport/footprint.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "image/colour.h"
 
@@ -10,8 +12,7 @@ namespace {
 /// Light of the projector pixels of one device that are near one of them.
 double lightNear(const std::vector<float>& luminance, const Rasters& projectors, std::size_t centre,
                  double radius) {
-  std::size_t device = 0;
-  while (device + 1 < projectors.devices() && centre >= projectors.offset(device + 1)) ++device;
+  const std::size_t device = deviceOfPixel(projectors, centre);
   Size size = projectors.size(device);
   Pixel middle = pixelAt(size, centre - projectors.offset(device));
   double sum = 0.0;
@@ -46,6 +47,24 @@ PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, do
     footprint.nearShare =
         lightNear(footprint.luminance, transport.projectors(), footprint.strongest, near) / all;
   return footprint;
+}
+
+std::optional<std::size_t> strongestPixel(const PixelFootprint& footprint, const Rasters& projectors,
+                                          std::size_t device) {
+  require(footprint.luminance.size() == projectors.count(), "a footprint of {} pixels is not of {}",
+          footprint.luminance.size(), projectors.count());
+  const auto begin = footprint.luminance.begin() + static_cast<std::ptrdiff_t>(projectors.offset(device));
+  const auto end = begin + static_cast<std::ptrdiff_t>(projectors.size(device).count());
+  const auto strongest = std::max_element(begin, end);
+  if (strongest == end || !(*strongest > 0.0f)) return std::nullopt;
+  return static_cast<std::size_t>(strongest - begin);
+}
+
+std::size_t deviceOfPixel(const Rasters& rasters, std::size_t index) {
+  require(index < rasters.count(), "pixel {} of {}", index, rasters.count());
+  std::size_t device = 0;
+  while (index >= rasters.offset(device) + rasters.size(device).count()) ++device;
+  return device;
 }
 
 std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pixel) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "transport/transport_matrix.h"
 
 namespace relucent {
@@ -16,6 +19,14 @@ struct PixelFootprint {
 /// `near`: in projector pixels. Source: T^T of light in that camera pixel alone; luminance of ITU-R BT.709.
 /// Contract: row < transport.cameras().count().
 PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near = 4.0);
+
+/// The pixel of one projector that lights the camera pixel most, numbered within the projector; none where it
+/// does not light it.  Contract: the footprint is of T with these projectors, device < projectors.devices().
+std::optional<std::size_t> strongestPixel(const PixelFootprint& footprint, const Rasters& projectors,
+                                          std::size_t device);
+
+/// Which device has pixel `index` of all devices' pixels.  Contract: index < rasters.count().
+std::size_t deviceOfPixel(const Rasters& rasters, std::size_t index);
 
 /// A column of T: luminance of what every camera pixel sees of one projector pixel in white.
 /// Contract: pixel < transport.projectors().count().

@@ -163,7 +163,7 @@ class WindowProjector::Stage : public QObject {
   }
 
   void swapped() {
-    const QScreen* screen = findScreen(display_);
+    QScreen* screen = findScreen(display_);
     if (!window_->isShining() || !window_->isExposed() || screen == nullptr ||
         window_->geometry() != screen->geometry())
       return;

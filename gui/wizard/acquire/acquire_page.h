@@ -124,7 +124,6 @@ class AcquirePage : public DevicePage {
   void stay();
   std::optional<WorkLeft> expected(const AcquisitionSettings& settings) const;
   AcquisitionSettings settingsOf(Fineness fineness) const;
-  Rasters projectorRasters() const;
   void change(const QString& what, const AcquisitionSettings& settings);
   void keep(const AcquisitionSettings& settings);
   void askAbout(const Alarm& alarm);

@@ -8,18 +8,12 @@
 
 namespace relucent {
 
-Rasters AcquirePage::projectorRasters() const {
-  std::vector<Size> sizes;
-  for (std::size_t i = 0; i < session_.projectors(); ++i) sizes.push_back(session_.projectorSize(i));
-  return Rasters(std::move(sizes));
-}
-
 std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& settings) const {
   if (!response_ || response_->exposures.empty()) return std::nullopt;
   const std::vector<double>& exposures = response_->exposures;
   const double mean =
       std::accumulate(exposures.begin(), exposures.end(), 0.0) / static_cast<double>(exposures.size());
-  const Rasters projectors = projectorRasters();
+  const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return std::nullopt;
   // Photographs are counted, not their pixels.
   const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
@@ -27,7 +21,7 @@ std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& setting
 }
 
 std::vector<BlockLevel> AcquirePage::levels() const {
-  const Rasters projectors = projectorRasters();
+  const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return {};
   const AcquisitionTrace::Growth growth = trace_.growth();
   // Of an earlier session only the sum is on record.

@@ -201,13 +201,7 @@ void CameraPage::watch(const Region& area) {
 }
 
 bool CameraPage::isFocusJudged() const {
-  if (!look_) return false;
-  const Size size = look_->frame.signal.size();
-  int bright = 0, all = 0;
-  for (int y = std::max(0, area_.y); y < std::min(size.height, area_.y + area_.height); ++y)
-    for (int x = std::max(0, area_.x); x < std::min(size.width, area_.x + area_.width); ++x, ++all)
-      if (look_->check.exposed[indexOf(size, {x, y})] == Exposed::tooBright) ++bright;
-  return 2 * bright <= all;
+  return look_ && tooBrightWithin(look_->check, look_->frame.signal.size(), area_) <= 0.5;
 }
 
 void CameraPage::chooseExposure(std::size_t index) {
@@ -246,8 +240,7 @@ void CameraPage::start() {
       if (shared->area == Region{}) shared->area = centre(rig.cameras[0]->size());
     }
     Progress looking = progress.part(0.0, tr("Looking through the camera").toStdString());
-    for (std::size_t i = 0; i < rig.projectors.size(); ++i)
-      rig.projectors[i]->show(evenPatterns(rig, {1, 1, 1})[i]);
+    showEven(rig, {1, 1, 1});
     for (int number = shots.shots();; ++number) {
       looking.checkpoint();
       QElapsedTimer since;

@@ -297,6 +297,12 @@ Size Session::projectorSize(std::size_t projector) const {
   return std::visit(ProjectorSize{}, settings_.rig);
 }
 
+Rasters Session::projectorRasters() const {
+  std::vector<Size> sizes;
+  for (std::size_t i = 0; i < projectors(); ++i) sizes.push_back(projectorSize(i));
+  return Rasters(std::move(sizes));
+}
+
 int Session::photographsKept(Stage stage) const {
   int count = 0;
   std::error_code code;

@@ -123,6 +123,7 @@ class Session : public QObject {
   /// As a rig is described; only its measurement tells how many a recording has.
   static std::size_t projectorsOf(const RigSettings& rig);
   Size projectorSize(std::size_t projector = 0) const;
+  Rasters projectorRasters() const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
   int photographsKept(Stage stage) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transport/cut_estimate.h"
 #include "views/number_text.h"
 
 namespace relucent {
@@ -12,36 +13,8 @@ namespace {
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
 
-std::size_t deviceOf(const Rasters& rasters, std::size_t index) {
-  std::size_t device = 0;
-  while (index >= rasters.offset(device) + rasters.size(device).count()) ++device;
-  return device;
-}
-
 bool dropsNothing(const ThresholdSettings& cut) {
   return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
-}
-
-/// What a cut leaves, as a histogram has it: to a bin, and its brightest part as far as the cut goes into it.
-TransportStatistics estimated(const TransportStatistics& whole, double cut) {
-  TransportStatistics kept = whole;
-  double energy = 0.0, leaves = 0.0, all = 0.0;
-  for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
-    double low = std::log10(strengthOfBin(bin)), high = low + 1.0 / StrengthHistogram::binsPerDecade;
-    double share = cut > 0.0 ? std::clamp((high - std::log10(cut)) / (high - low), 0.0, 1.0) : 1.0;
-    energy += share * whole.histogram.energy[bin];
-    leaves += share * static_cast<double>(whole.histogram.leaves[bin]);
-    all += whole.histogram.energy[bin];
-    kept.histogram.energy[bin] *= share;
-    kept.histogram.leaves[bin] =
-        static_cast<std::uint64_t>(share * static_cast<double>(whole.histogram.leaves[bin]));
-  }
-  if (all > 0.0) kept.energyKept = energy / all;
-  double left = whole.leaves > 0 ? leaves / static_cast<double>(whole.leaves) : 1.0;
-  kept.leaves = static_cast<std::uint64_t>(leaves);
-  kept.bytes = static_cast<std::uint64_t>(left * static_cast<double>(whole.bytes));
-  kept.connections = static_cast<std::uint64_t>(left * static_cast<double>(whole.connections));
-  return kept;
 }
 
 }  // namespace
@@ -130,7 +103,7 @@ void ThresholdPage::compute() {
   if (adopted_) {
     if (whole_ && dropsNothing(cut_)) kept_ = whole_;
     if (!dropsNothing(cut_)) {
-      if (whole_ && !shareOfRow_) kept_ = estimated(*whole_, static_cast<double>(cut_.absolute));
+      if (whole_ && !shareOfRow_) kept_ = estimatedAfterCut(*whole_, static_cast<double>(cut_.absolute));
       statistics_.ask(
           [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
     }
@@ -227,8 +200,8 @@ void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
   if (!adopted_) return;
   const Rasters &cameras = adopted_->transport.cameras(), &projectors = adopted_->transport.projectors();
   if (row >= cameras.count() || column >= projectors.count()) return;
-  showCamera(deviceOf(cameras, row));
-  showProjector(deviceOf(projectors, column));
+  showCamera(deviceOfPixel(cameras, row));
+  showProjector(deviceOfPixel(projectors, column));
   picked_ = pixelAt(cameras.size(camera()), row - cameras.offset(camera()));
   pickedProjector_ = pixelAt(projectors.size(projector()), column - projectors.offset(projector()));
   follows_ = false;
@@ -265,11 +238,9 @@ void ThresholdPage::lookAtColumn() {
 /// The pixel of the shown projector that lights the picked camera pixel most, if any does.
 void ThresholdPage::followFootprint() {
   const Rasters& projectors = adopted_->transport.projectors();
-  auto begin = footprint_->luminance.begin() + static_cast<std::ptrdiff_t>(projectors.offset(projector()));
-  auto end = begin + static_cast<std::ptrdiff_t>(projectors.size(projector()).count());
-  auto strongest = std::max_element(begin, end);
-  if (!(*strongest > 0.0f)) return;
-  pickedProjector_ = pixelAt(projectors.size(projector()), static_cast<std::size_t>(strongest - begin));
+  const std::optional<std::size_t> strongest = strongestPixel(*footprint_, projectors, projector());
+  if (!strongest) return;
+  pickedProjector_ = pixelAt(projectors.size(projector()), *strongest);
   lookAtColumn();
 }
 

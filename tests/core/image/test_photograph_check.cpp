@@ -57,6 +57,24 @@ class TestPhotographCheck : public QObject {
     QCOMPARE(check.tooDark, 0.5);
   }
 
+  void brightPixelsAreAShareOfTheRegionWithinThePhotograph_data() {
+    QTest::addColumn<QRect>("area");
+    QTest::addColumn<double>("share");
+    QTest::newRow("bright half") << QRect(0, 0, 2, 4) << 1.0;
+    QTest::newRow("both halves") << QRect(0, 0, 4, 4) << 0.5;
+    QTest::newRow("dark half") << QRect(2, 1, 2, 2) << 0.0;
+    QTest::newRow("over the edge") << QRect(-2, -2, 5, 5) << 2.0 / 3.0;
+    QTest::newRow("outside") << QRect(9, 9, 3, 3) << 0.0;
+  }
+  void brightPixelsAreAShareOfTheRegionWithinThePhotograph() {
+    QFETCH(QRect, area);
+    Image image({4, 4}, 3, 0.5f);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 2; ++x) image.at(x, y, 1) = 1.0f;
+    const PhotographCheck check = checkPhotograph(image, 0.97, 0.01);
+    QTEST(tooBrightWithin(check, image.size(), {area.x(), area.y(), area.width(), area.height()}), "share");
+  }
+
   void sharpnessDoesNotDependOnTheExposure() {
     Image image = noise({40, 30}, 5), half = image;
     for (float& value : half.data()) value *= 0.5f;

@@ -55,6 +55,23 @@ class TestFootprint : public QObject {
     QVERIFY(std::abs(footprint.nearShare - 4.0 / 6.0) < 1e-3);  // 16-bit codes
     QVERIFY(std::abs(footprintOf(transport, 0, 0.0).nearShare - 3.0 / 6.0) < 1e-3);
   }
+
+  void theStrongestPixelIsThatOfOneProjector() {
+    const Rasters projectors = std::vector<Size>{{3, 1}, {2, 2}, {2, 1}};
+    PixelFootprint footprint;
+    footprint.luminance = {0.1f, 0.5f, 0.2f, 0.0f, 0.0f, 0.0f, 0.9f, 0.0f, 0.0f};
+    QCOMPARE(strongestPixel(footprint, projectors, 0), std::optional<std::size_t>(1));
+    QCOMPARE(strongestPixel(footprint, projectors, 1), std::optional<std::size_t>(3));
+    QVERIFY(!strongestPixel(footprint, projectors, 2));  // it does not light the camera's pixel
+  }
+
+  void everyPixelIsOfTheDeviceThatItIsCountedIn() {
+    const Rasters rasters = std::vector<Size>{{3, 1}, {2, 2}, {2, 1}};
+    for (std::size_t device = 0; device < rasters.devices(); ++device)
+      for (std::size_t i = 0; i < rasters.size(device).count(); ++i)
+        QCOMPARE(deviceOfPixel(rasters, rasters.offset(device) + i), device);
+    QVERIFY_EXCEPTION_THROWN(deviceOfPixel(rasters, rasters.count()), std::logic_error);
+  }
 };
 
 QTEST_GUILESS_MAIN(TestFootprint)

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "random_blocks.h"
+#include "transport/cut_estimate.h"
 
 using namespace relucent;
 
@@ -185,6 +186,32 @@ class TestStatistics : public QObject {
     QCOMPARE(cutKeeping(StrengthHistogram(), share), 0.0);
     if (share == 0.9) QCOMPARE(cut, strengthOfBin(14));
     if (share == 1.0) QCOMPARE(cut, 0.0);
+  }
+
+  void theEstimateIsTheCountAtTheEdgeOfABin() {
+    const TransportMatrix transport = randomTransport(Size{6, 5}, Size{8, 8}, 0.6, 3);
+    const TransportStatistics whole = statisticsOf(transport);
+    for (std::size_t bin = 0; bin < StrengthHistogram::bins; bin += 3) {
+      const double cut = strengthOfBin(bin);
+      std::uint64_t above = 0;
+      for (std::size_t i = bin; i < StrengthHistogram::bins; ++i) above += whole.histogram.leaves[i];
+      const TransportStatistics estimate = estimatedAfterCut(whole, cut);
+      // An edge may fall a rounding into its bin.
+      QVERIFY(std::abs(static_cast<double>(estimate.leaves) - static_cast<double>(above)) <= 1.0);
+    }
+    QCOMPARE(estimatedAfterCut(whole, 0.0).leaves, whole.leaves);
+    QCOMPARE(estimatedAfterCut(whole, 0.0).energyKept, 1.0);
+  }
+
+  void ofAHigherCutLessIsEstimated() {
+    const TransportStatistics whole = statisticsOf(randomTransport(Size{6, 5}, Size{8, 8}, 0.6, 4));
+    double energy = 1.0;
+    for (double cut = 1e-6; cut < 1e2; cut *= 1.3) {
+      const TransportStatistics kept = estimatedAfterCut(whole, cut);
+      QVERIFY(kept.energyKept <= energy && kept.energyKept >= 0.0);
+      QVERIFY(kept.leaves <= whole.leaves && kept.bytes <= whole.bytes);
+      energy = kept.energyKept;
+    }
   }
 };
 

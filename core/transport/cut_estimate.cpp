@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "transport/cut_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relucent {
+
+TransportStatistics estimatedAfterCut(const TransportStatistics& whole, double cut) {
+  TransportStatistics kept = whole;
+  double energy = 0.0, leaves = 0.0, all = 0.0;
+  for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
+    double low = std::log10(strengthOfBin(bin)), high = low + 1.0 / StrengthHistogram::binsPerDecade;
+    double share = cut > 0.0 ? std::clamp((high - std::log10(cut)) / (high - low), 0.0, 1.0) : 1.0;
+    energy += share * whole.histogram.energy[bin];
+    leaves += share * static_cast<double>(whole.histogram.leaves[bin]);
+    all += whole.histogram.energy[bin];
+    kept.histogram.energy[bin] *= share;
+    kept.histogram.leaves[bin] =
+        static_cast<std::uint64_t>(share * static_cast<double>(whole.histogram.leaves[bin]));
+  }
+  if (all > 0.0) kept.energyKept = energy / all;
+  double left = whole.leaves > 0 ? leaves / static_cast<double>(whole.leaves) : 1.0;
+  kept.leaves = static_cast<std::uint64_t>(leaves);
+  kept.bytes = static_cast<std::uint64_t>(left * static_cast<double>(whole.bytes));
+  kept.connections = static_cast<std::uint64_t>(left * static_cast<double>(whole.connections));
+  return kept;
+}
+
+}  // namespace relucent

@@ -43,13 +43,16 @@ Line lineThrough(const Eigen::VectorXf& drive, const Eigen::VectorXf& signal, co
 
 }  // namespace
 
-FrameReader::FrameReader(const PictureSequence& patterns, const PictureSequence& photographs,
-                         const ImportFrames& frames, const SequencePyramid& pyramid, const DriveTable& drive)
-    : photographs_(photographs), frames_(frames), pyramid_(pyramid), mean_(meansOf(patterns, frames, drive)) {
-  for (int frame : frames.fitted) {
-    auto found = std::find(frames.spatial.begin(), frames.spatial.end(), frame);
-    spatialPlace_.push_back(found == frames.spatial.end() ? -1
-                                                          : static_cast<int>(found - frames.spatial.begin()));
+FrameReader::FrameReader(const ImportPictures& pictures, const SequencePyramid& pyramid,
+                         const DriveTable& drive)
+    : photographs_(pictures.photographs),
+      frames_(pictures.frames),
+      pyramid_(pyramid),
+      mean_(meansOf(pictures.patterns, pictures.frames, drive)) {
+  const std::vector<int>& spatial = frames_.spatial;
+  for (int frame : frames_.fitted) {
+    auto found = std::find(spatial.begin(), spatial.end(), frame);
+    spatialPlace_.push_back(found == spatial.end() ? -1 : static_cast<int>(found - spatial.begin()));
   }
 }
 

@@ -22,8 +22,8 @@ struct PixelFrames {
 /// Reads PixelFrames for the fitted frames.
 class FrameReader {
  public:
-  FrameReader(const PictureSequence& patterns, const PictureSequence& photographs, const ImportFrames& frames,
-              const SequencePyramid& pyramid, const DriveTable& drive);
+  /// Keeps references: pictures and pyramid outlive it.
+  FrameReader(const ImportPictures& pictures, const SequencePyramid& pyramid, const DriveTable& drive);
 
   PixelFrames read(std::size_t cameraPixel, const std::vector<NodeShare>& shares) const;
   /// For camera pixels whose light comes from everywhere: the patterns' means.

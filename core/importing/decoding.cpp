@@ -21,11 +21,10 @@ struct Candidate {
 /// One camera pixel's sequence, centred; values that do not count are zero.
 class Probe {
  public:
-  Probe(const SequencePyramid& pyramid, const PictureSequence& photographs, const ImportFrames& frames,
-        std::size_t pixel)
-      : pyramid_(pyramid), channels_(static_cast<std::size_t>(frames.channels)) {
+  Probe(const DecodingInput& input, std::size_t pixel)
+      : pyramid_(input.pyramid), channels_(static_cast<std::size_t>(input.frames.channels)) {
     CameraSequence sequence;
-    readSequence(photographs, frames, pixel, sequence);
+    readSequence(input.photographs, input.frames, pixel, sequence);
     // Cut-off values still say "bright", which is all that correlation needs.
     centre(sequence.value);
     for (std::size_t c = 0; c < channels_; ++c) {
@@ -119,13 +118,12 @@ Decoded descended(const SequencePyramid& pyramid, const Probe& probe, std::size_
 
 }  // namespace
 
-std::vector<Decoded> decodePixels(const SequencePyramid& pyramid, const PictureSequence& photographs,
-                                  const ImportFrames& frames, const std::vector<std::uint32_t>& pixels,
+std::vector<Decoded> decodePixels(const DecodingInput& input, const std::vector<std::uint32_t>& pixels,
                                   int beam, Progress& progress) {
-  std::vector<Decoded> decoded(photographs.size().count());
+  std::vector<Decoded> decoded(input.photographs.size().count());
   parallelInParts(pixels, progress, [&](std::uint32_t pixel) {
-    Probe probe(pyramid, photographs, frames, pixel);
-    decoded[pixel] = descended(pyramid, probe, static_cast<std::size_t>(beam));
+    Probe probe(input, pixel);
+    decoded[pixel] = descended(input.pyramid, probe, static_cast<std::size_t>(beam));
   });
   return decoded;
 }
@@ -135,15 +133,13 @@ namespace {
 /// Tries the places that neighbours in a row's predecessors suggest, and a few around the pixel's own.
 class Propagation {
  public:
-  Propagation(const SequencePyramid& pyramid, const PictureSequence& photographs, const ImportFrames& frames,
-              const std::vector<std::uint8_t>& lit)
-      : pyramid_(pyramid), photographs_(photographs), frames_(frames), lit_(lit) {}
+  Propagation(const DecodingInput& input, const std::vector<std::uint8_t>& lit) : input_(input), lit_(lit) {}
 
   /// Each pixel reads what the last sweep left around it and writes its own place: the same on any number of
   /// threads.
   void sweep(const std::vector<Decoded>& before, std::vector<Decoded>& after, int number,
              Progress& progress) const {
-    Size camera = photographs_.size();
+    Size camera = input_.photographs.size();
     std::vector<std::uint32_t> rows(static_cast<std::size_t>(camera.height));
     for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = static_cast<std::uint32_t>(y);
     parallelInParts(rows, progress, [&](std::uint32_t y) {
@@ -156,17 +152,17 @@ class Propagation {
 
  private:
   Decoded improved(const std::vector<Decoded>& before, Pixel at, int number) const {
-    Size camera = photographs_.size();
-    Size projector = pyramid_.levels.front().grid;
+    Size camera = input_.photographs.size();
+    Size projector = input_.pyramid.levels.front().grid;
     std::size_t pixel = indexOf(camera, at);
     Decoded best = before[pixel];
     // Well explained already: neighbours can only agree.
     if (best.correlation > sufficient_) return best;
-    Probe probe(pyramid_, photographs_, frames_, pixel);
+    Probe probe(input_, pixel);
     auto attempt = [&](Pixel place) {
       if (place.x < 0 || place.y < 0 || place.x >= projector.width || place.y >= projector.height) return;
       std::size_t node = indexOf(projector, place);
-      float score = std::sqrt(probe.explained(pyramid_.levels.front(), node));
+      float score = std::sqrt(probe.explained(input_.pyramid.levels.front(), node));
       if (score > best.correlation) best = {static_cast<std::int32_t>(node), score, 0.0f, 0.0f};
     };
     // Near neighbours and, as sweeps go on, less near ones: good places spread quickly.
@@ -196,18 +192,16 @@ class Propagation {
   }
 
   static constexpr float sufficient_ = 0.9f;
-  const SequencePyramid& pyramid_;
-  const PictureSequence& photographs_;
-  const ImportFrames& frames_;
+  const DecodingInput& input_;
   const std::vector<std::uint8_t>& lit_;
 };
 
 }  // namespace
 
-void propagate(const SequencePyramid& pyramid, const PictureSequence& photographs, const ImportFrames& frames,
-               const std::vector<std::uint8_t>& lit, int sweeps, std::vector<Decoded>& decoded,
-               Progress& progress) {
-  Propagation propagation(pyramid, photographs, frames, lit);
+void propagate(const DecodingInput& input, const std::vector<std::uint8_t>& lit,
+               std::vector<Decoded>& decoded, Progress& progress) {
+  constexpr int sweeps = 4;
+  Propagation propagation(input, lit);
   std::vector<Decoded> next = decoded;
   for (int number = 0; number < sweeps; ++number) {
     Progress sweeping = progress.part(1.0 / sweeps, progress.stage());

@@ -78,9 +78,9 @@ class Importing {
   void decode(Progress& progress) {
     pyramid_ = sequencePyramid(patterns_, frames_, DriveTable(response_));
     Progress descending = progress.part(0.7, "Decoding");
-    decoded_ = decodePixels(pyramid_, photographs_, frames_, litPixels_, settings_.beam, descending);
+    decoded_ = decodePixels({pyramid_, photographs_, frames_}, litPixels_, settings_.beam, descending);
     Progress propagating = progress.part(0.3, "Decoding");
-    propagate(pyramid_, photographs_, frames_, lit_, 4, decoded_, propagating);
+    propagate({pyramid_, photographs_, frames_}, lit_, decoded_, propagating);
     agreeOnPlaces(pyramid_, photographs_.size(), decoded_);
     footprint_.resize(decoded_.size());
     residual_.resize(decoded_.size());
@@ -98,7 +98,7 @@ class Importing {
       Progress fitting = progress.part(1.0 / rounds, progress.stage());
       fitFootprints(chosen, fitting);
       updatePrior(chosen);
-      FrameReader reader(patterns_, photographs_, frames_, pyramid_, DriveTable(response_));
+      FrameReader reader({patterns_, photographs_, frames_}, pyramid_, DriveTable(response_));
       std::vector<PixelFrames> seen;
       std::vector<SamplePixel> sampled;
       for (std::uint32_t pixel : chosen) {
@@ -111,7 +111,7 @@ class Importing {
       if (!levels || round + 1 == rounds) continue;
       for (std::size_t i = 0; i < seen.size(); ++i)
         sampled[i].colour = fitColour(blackAndWhite(seen[i]), mixing_, prior_.noise, false);
-      response_ = estimateResponse(patterns_, photographs_, frames_, sampled, response_);
+      response_ = estimateResponse({patterns_, photographs_, frames_}, sampled, response_);
       pyramid_ = sequencePyramid(patterns_, frames_, DriveTable(response_));
     }
   }
@@ -176,7 +176,7 @@ class Importing {
     result.heldOut = frames_.heldOut;
     Acquisition& acquisition = result.acquisition;
     acquisition.flagged.assign(pixels, 0);
-    FrameReader reader(patterns_, photographs_, frames_, pyramid_, DriveTable(response_));
+    FrameReader reader({patterns_, photographs_, frames_}, pyramid_, DriveTable(response_));
     std::vector<std::uint32_t> all(pixels);
     std::iota(all.begin(), all.end(), 0u);
     Progress colouring = progress.part(0.6, progress.stage());
@@ -289,11 +289,11 @@ Import importTransport(const PictureSequence& patterns, const PictureSequence& p
           patterns.pictures(), photographs.pictures());
   std::vector<int> heldOut = heldOutPatterns(patterns, settings.holdOutEvery);
   Progress predicting = progress.part(settings.refit ? 0.5 : 1.0, progress.stage());
-  Import predicted = Importing(patterns, photographs, settings, heldOut).run(predicting);
+  const Import predicted = Importing(patterns, photographs, settings, heldOut).run(predicting);
   if (!settings.refit) return predicted;
   Progress refitting = progress.part(0.5, progress.stage());
   Import import = Importing(patterns, photographs, settings, {}).run(refitting);
-  import.heldOut = std::move(predicted.heldOut);
+  import.heldOut = predicted.heldOut;
   import.error = predicted.error;
   import.acquisition.verificationError = predicted.acquisition.verificationError;
   return import;

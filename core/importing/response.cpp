@@ -26,6 +26,12 @@ std::vector<int> knotsOf(const std::vector<int>& codes) {
   return knots;
 }
 
+/// A row of a system: what each interior knot weighs in it, and what white contributes.
+struct KnotRow {
+  Eigen::VectorXd weight;
+  double known = 0.0;
+};
+
 /// Where the interior knots of all channels stand among the unknowns, and the hat functions between them.
 class Knots {
  public:
@@ -42,23 +48,22 @@ class Knots {
   Eigen::Index unknown(std::size_t channel, std::size_t knot) const {
     return first_[channel] + static_cast<Eigen::Index>(knot) - 1;
   }
-  /// Adds weight * (hat functions at code) to the row of a system; what white contributes goes to `known`.
-  void add(std::size_t channel, int code, float weight, Eigen::VectorXd& row, double& known) const {
+  /// Adds weight * (hat functions at code) of a channel to a row of a system.
+  void add(std::size_t channel, int code, float weight, KnotRow& row) const {
     const std::vector<int>& codes = codes_[channel];
     auto above = static_cast<std::size_t>(std::upper_bound(codes.begin(), codes.end(), code) - codes.begin());
     above = std::min(above, codes.size() - 1);
     double t = static_cast<double>(code - codes[above - 1]) / (codes[above] - codes[above - 1]);
-    addKnot(channel, above - 1, weight * (1.0 - t), row, known);
-    addKnot(channel, above, weight * t, row, known);
+    addKnot(channel, above - 1, weight * (1.0 - t), row);
+    addKnot(channel, above, weight * t, row);
   }
 
  private:
-  void addKnot(std::size_t channel, std::size_t knot, double weight, Eigen::VectorXd& row,
-               double& known) const {
+  void addKnot(std::size_t channel, std::size_t knot, double weight, KnotRow& row) const {
     if (knot + 1 == codes_[channel].size())
-      known += weight;
+      row.known += weight;
     else if (knot > 0)
-      row[unknown(channel, knot)] += weight;
+      row.weight[unknown(channel, knot)] += weight;
   }
 
   std::array<std::vector<int>, 3> codes_;
@@ -82,10 +87,9 @@ class System {
   void add(const SamplePixel& sample) {
     std::vector<NodeShare> shares = sharesOf(sample.footprint, patterns_.size());
     for (int frame : frames_.fitted) {
-      std::array<Eigen::VectorXd, 3> row;
-      std::array<double, 3> known{};
-      for (std::size_t c = 0; c < 3; ++c) row[c] = Eigen::VectorXd::Zero(knots_.unknowns());
-      for (const NodeShare& share : shares) addNode(share, frame, row, known);
+      std::array<KnotRow, 3> rows;
+      for (KnotRow& row : rows) row.weight = Eigen::VectorXd::Zero(knots_.unknowns());
+      for (const NodeShare& share : shares) addNode(share, frame, rows);
       for (int camera = 0; camera < 3; ++camera) {
         float signal = photographs_.value(sample.pixel, frame, camera);
         if (signal >= importSaturation) continue;
@@ -93,8 +97,8 @@ class System {
         double rest = static_cast<double>(signal - sample.colour.black[camera]);
         for (int c = 0; c < 3; ++c) {
           auto gain = static_cast<double>(sample.colour.block(camera, c));
-          line += gain * row[static_cast<std::size_t>(c)];
-          rest -= gain * known[static_cast<std::size_t>(c)];
+          line += gain * rows[static_cast<std::size_t>(c)].weight;
+          rest -= gain * rows[static_cast<std::size_t>(c)].known;
         }
         normal_.selfadjointView<Eigen::Lower>().rankUpdate(line);
         wanted_ += rest * line;
@@ -119,8 +123,7 @@ class System {
   }
 
  private:
-  void addNode(const NodeShare& share, int frame, std::array<Eigen::VectorXd, 3>& row,
-               std::array<double, 3>& known) const {
+  void addNode(const NodeShare& share, int frame, std::array<KnotRow, 3>& rows) const {
     Size size = patterns_.size();
     int side = 1 << share.level;
     int x0 = share.x * side, y0 = share.y * side;
@@ -133,7 +136,7 @@ class System {
       for (int x = x0; x < x1; x += step)
         for (std::size_t c = 0; c < 3; ++c) {
           int code = (patterns_.code(indexOf(size, {x, y}), frame, static_cast<int>(c)) + 128) / 257;
-          knots_.add(c, code, weight, row[c], known[c]);
+          knots_.add(c, code, weight, rows[c]);
         }
   }
 
@@ -176,10 +179,9 @@ std::vector<int> codesOf(const PictureSequence& patterns, const ImportFrames& fr
   return codes;
 }
 
-ProjectorResponse estimateResponse(const PictureSequence& patterns, const PictureSequence& photographs,
-                                   const ImportFrames& frames, const std::vector<SamplePixel>& sample,
+ProjectorResponse estimateResponse(const ImportPictures& pictures, const std::vector<SamplePixel>& sample,
                                    const ProjectorResponse& before) {
-  System system(patterns, photographs, frames);
+  System system(pictures.patterns, pictures.photographs, pictures.frames);
   if (system.knots().unknowns() == 0) return before;
   for (const SamplePixel& pixel : sample) system.add(pixel);
   return system.solve(before);

@@ -22,8 +22,7 @@ struct SamplePixel {
 ///   signal = e + sum over channels c of B_c * (sum over nodes j of share_j * r_c(drive_jc)),
 /// piecewise linear between up to 33 of the codes that the patterns hold, least squares, then isotonic and
 /// smooth (curveFromRamp). A channel without codes between black and white keeps its curve.
-ProjectorResponse estimateResponse(const PictureSequence& patterns, const PictureSequence& photographs,
-                                   const ImportFrames& frames, const std::vector<SamplePixel>& sample,
+ProjectorResponse estimateResponse(const ImportPictures& pictures, const std::vector<SamplePixel>& sample,
                                    const ProjectorResponse& before);
 
 /// What most projectors do, a power of 2.2; stands where the patterns cannot tell.

@@ -22,6 +22,12 @@ struct ImportFrames {
   /// Values of a sequence: one for each spatial frame and channel, frame after frame.
   int samples() const { return static_cast<int>(spatial.size()) * channels; }
 };
+/// The pictures of an import, and which of them serve for what.
+struct ImportPictures {
+  const PictureSequence& patterns;
+  const PictureSequence& photographs;
+  const ImportFrames& frames;
+};
 /// Whether a pattern holds nothing between black and white.
 bool isBinary(const PictureSequence& patterns, int picture);
 /// Mean difference between neighbouring pixels, all channels: how fine a pattern is. 0: even all over.

@@ -59,10 +59,18 @@ struct SplineWeights {
   }
 };
 
+/// Where a halo lies: its centre in projector pixels, and the nodes that carry it.
+struct HaloPlace {
+  float x = 0.0f, y = 0.0f;
+  int level = 0;
+  Size grid;
+};
+
 template <typename Visit>
-void visitHalo(float x, float y, int level, Size grid, const Visit& visit) {
-  auto side = static_cast<float>(1 << level);
-  SplineWeights across(x / side), down(y / side);
+void visitHalo(const HaloPlace& halo, const Visit& visit) {
+  auto side = static_cast<float>(1 << halo.level);
+  Size grid = halo.grid;
+  SplineWeights across(halo.x / side), down(halo.y / side);
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) {
       int nodeX = across.first + i, nodeY = down.first + j;
@@ -86,8 +94,8 @@ struct Seen {
 /// One camera pixel's problem.
 class Problem {
  public:
-  Problem(const SequencePyramid& pyramid, const CameraSequence& camera, const FootprintPrior& prior, float x,
-          float y)
+  Problem(const SequencePyramid& pyramid, const CameraSequence& camera, const FootprintPrior& prior,
+          const Decoded& start)
       : pyramid_(pyramid),
         level_(pyramid.levels.front()),
         channels_(pyramid.channels),
@@ -95,8 +103,8 @@ class Problem {
         samples_(pyramid.samples),
         weight_(Eigen::Map<const Eigen::VectorXf>(camera.weight.data(), samples_)),
         wanted_(Eigen::Map<const Eigen::VectorXf>(camera.value.data(), samples_).cwiseProduct(weight_)),
-        halo_(haloAt(x, y)),
-        prior_(x, y, std::log(prior.sigmaX), std::log(prior.sigmaY)) {}
+        halo_(haloAt(start.x, start.y)),
+        prior_(start.x, start.y, std::log(prior.sigmaX), std::log(prior.sigmaY)) {}
 
   /// A place in parameter space, its cost and what a step needs to know.
   struct State {
@@ -131,7 +139,7 @@ class Problem {
     int level = std::min(haloLevel(projector), static_cast<int>(pyramid_.levels.size()) - 1);
     const SequencePyramid::Level& coarse = pyramid_.levels[static_cast<std::size_t>(level)];
     Eigen::VectorXf sum = Eigen::VectorXf::Zero(samples_);
-    visitHalo(x, y, level, coarse.grid, [&](int nodeX, int nodeY, float weight) {
+    visitHalo({x, y, level, coarse.grid}, [&](int nodeX, int nodeY, float weight) {
       sum += weight * Eigen::Map<const Eigen::VectorXf>(
                           coarse.node(indexOf(coarse.grid, {nodeX, nodeY}), samples_), samples_);
     });
@@ -242,7 +250,7 @@ FootprintFitter::Fit FootprintFitter::fit(std::size_t cameraPixel, const Decoded
   if (start.pixel < 0) return {};
   CameraSequence camera;
   readSequence(photographs_, frames_, cameraPixel, camera);
-  Problem problem(pyramid_, camera, prior_, start.x, start.y);
+  Problem problem(pyramid_, camera, prior_, start);
 
   Problem::State state = problem.evaluate(problem.prior());
   float damping = 1e-2f;
@@ -312,7 +320,7 @@ std::vector<NodeShare> sharesOf(const Footprint& footprint, Size projector) {
   if (footprint.halo > 0.0f) {
     int wide = haloLevel(projector);
     Size wideGrid = gridAt(projector, wide);
-    visitHalo(footprint.x, footprint.y, wide, wideGrid, [&](int x, int y, float weight) {
+    visitHalo({footprint.x, footprint.y, wide, wideGrid}, [&](int x, int y, float weight) {
       shares.push_back({wide, x, y, footprint.halo * weight});
     });
     if (wide == level) shares = merged(std::move(shares));

@@ -26,11 +26,9 @@ class Calibrating {
     measured.linearization = measureLinearization(folder_, devices_.rig, linearizing);
     linearizing.report(1.0);
     Progress acquiring = progress.part(0.75, "Measuring the light transport");
-    measured.acquisition =
-        measureAcquisition(folder_, devices_.rig, measured.linearization, handler_, acquiring);
+    measureVenue(measured, acquiring);
     acquiring.report(1.0);
     Progress inverting = progress.part(0.1, "Inverting the light transport");
-    measured.venue = takeMeasuredVenue(measured.acquisition, settings_.threshold);
     measureInverse(folder_, measured.venue, inverting);
     progress.report(1.0);
     CalibrateResult result = summaryOf(folder_, measured);
@@ -39,6 +37,14 @@ class Calibrating {
   }
 
  private:
+  /// The acquisition itself is let go of: there is no room for two T beside the inverse.
+  void measureVenue(MeasuredCalibration& measured, Progress& progress) {
+    const Acquisition acquisition =
+        measureAcquisition(folder_, devices_.rig, measured.linearization, handler_, progress);
+    measured.acquisition = figuresOf(acquisition);
+    measured.venue = measuredVenueOf(acquisition, settings_.threshold);
+  }
+
   CalibrationFolder& folder_;
   OpenedRig& devices_;
   const AlarmHandler& handler_;

@@ -171,6 +171,37 @@ void storeInverse(const fs::path& path, const RidgeChoice& choice, double second
   storeInverse(folder, inverseResultOf(choice, {seconds}));
 }
 
+/// What is estimated from the pictures, which are let go of. Sets the rig that they came from.
+Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stages, Progress& progress) {
+  Progress reading = progress.part(0.1, "Reading the pictures");
+  Pictures pictures = readPictures(settings, reading);
+  stages.rig = pictures.rig;
+  Progress estimating = progress.part(0.7, "Estimating the light transport");
+  Import import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
+  if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
+  if (pictures.developed)
+    import.linearization.findings.emplace_back(
+        "The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only "
+        "roughly; develop them linearly, as TIFF or EXR, to measure more exactly.");
+  return import;
+}
+
+ImportResult resultOf(const Import& import, const ImportedRigSettings& rig) {
+  ImportResult result;
+  result.projector = rig.projector;
+  result.camera = rig.camera;
+  result.patterns = rig.pictures;
+  result.heldOut = static_cast<int>(import.heldOut.size());
+  result.fitted = result.patterns - result.heldOut;
+  result.error = import.error;
+  result.leaves = import.acquisition.transport.leaves().blocks();
+  result.flaggedShare = flaggedShare(import.acquisition);
+  result.findings = import.linearization.findings;
+  result.findings.insert(result.findings.end(), import.acquisition.findings.begin(),
+                         import.acquisition.findings.end());
+  return result;
+}
+
 }  // namespace
 
 ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& settings,
@@ -180,37 +211,17 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
   checkFolderIsFree(path);
   Stopwatch watch;
   ImportResult result;
-  Import import;
   CalibrateSettings stages;
+  MeasuredVenue venue;
   {
-    Progress reading = progress.part(0.1, "Reading the pictures");
-    Pictures pictures = readPictures(settings, reading);
-    stages.rig = pictures.rig;
-    result.projector = pictures.rig.projector;
-    result.camera = pictures.rig.camera;
-    result.patterns = pictures.rig.pictures;
-    Progress estimating = progress.part(0.7, "Estimating the light transport");
-    import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
-    if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
-    if (pictures.developed)
-      import.linearization.findings.emplace_back(
-          "The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only "
-          "roughly; develop them linearly, as TIFF or EXR, to measure more exactly.");
+    const Import import = estimated(settings, stages, progress);
+    result = resultOf(import, std::get<ImportedRigSettings>(stages.rig));
+    // What was estimated is safe before it is inverted.
+    store(path, stages, import, watch.seconds());
+    venue = measuredVenueOf(import.acquisition, stages.threshold);
   }
-  result.heldOut = static_cast<int>(import.heldOut.size());
-  result.fitted = result.patterns - result.heldOut;
-  result.error = import.error;
-  result.leaves = import.acquisition.transport.leaves().blocks();
-  result.flaggedShare = flaggedShare(import.acquisition);
-  result.findings = import.linearization.findings;
-  result.findings.insert(result.findings.end(), import.acquisition.findings.begin(),
-                         import.acquisition.findings.end());
-
-  // What was estimated is safe before it is inverted.
-  store(path, stages, import, watch.seconds());
   Stopwatch invertingWatch;
   Progress inverting = progress.part(0.2, "Inverting the light transport");
-  MeasuredVenue venue = takeMeasuredVenue(import.acquisition, stages.threshold);
   RidgeChoice choice = invert(venue, stages, inverting);
   storeInverse(path, choice, invertingWatch.seconds());
   progress.report(1.0);

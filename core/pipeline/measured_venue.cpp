@@ -27,9 +27,10 @@ MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& 
   measured.rig = settings.rig;
   measured.linearization = loadLinearization(*linearization);
   progress.report(0.1);
-  measured.acquisition = loadAcquisition(*acquisition);
+  const Acquisition stored = loadAcquisition(*acquisition);
   progress.report(0.7);
-  measured.venue = takeMeasuredVenue(measured.acquisition, settings.threshold);
+  measured.acquisition = figuresOf(stored);
+  measured.venue = measuredVenueOf(stored, settings.threshold);
   progress.report(1.0);
   return measured;
 }
@@ -62,29 +63,20 @@ std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition) {
   return usable;
 }
 
-namespace {
+AcquisitionFigures figuresOf(const Acquisition& acquisition) {
+  return {acquisition.flagged, acquisition.floodVariance, acquisition.unresolvedEnergy,
+          acquisition.verificationError, acquisition.findings};
+}
 
-MeasuredVenue venueOf(TransportMatrix transport, const Acquisition& acquisition) {
+MeasuredVenue measuredVenueOf(const Acquisition& acquisition, const ThresholdSettings& threshold) {
   MeasuredVenue venue;
   venue.usable = usablePixels(acquisition);
-  venue.transport = std::move(transport);
+  venue.transport = thresholded(acquisition.transport, threshold, acquisition.flood);
   venue.black = acquisition.black;
   venue.flood = acquisition.flood;
   Progress quiet;
   venue.direct = directlyLit(directLooks(venue.transport, {}, quiet));
   return venue;
-}
-
-}  // namespace
-
-MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSettings& threshold) {
-  TransportMatrix transport =
-      thresholded(std::exchange(acquisition.transport, {}), threshold, acquisition.flood);
-  return venueOf(std::move(transport), acquisition);
-}
-
-MeasuredVenue measuredVenueOf(const Acquisition& acquisition, const ThresholdSettings& threshold) {
-  return venueOf(thresholded(acquisition.transport, threshold, acquisition.flood), acquisition);
 }
 
 namespace {
@@ -117,7 +109,7 @@ CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibra
   result.seconds.linearization = linearization.seconds;
   result.seconds.acquisition = acquiring.seconds;
   result.seconds.inverse = costOf<Stage::inverse>(folder).seconds;
-  const Acquisition& acquisition = measured.acquisition;
+  const AcquisitionFigures& acquisition = measured.acquisition;
   result.leaves = measured.venue.transport.leaves().blocks();
   result.connections = connectionsOf(measured.venue.transport);
   result.unresolvedEnergy = acquisition.unresolvedEnergy;

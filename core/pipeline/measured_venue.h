@@ -11,11 +11,21 @@
 
 namespace relucent {
 
+/// What is told of an acquisition once its T has become a venue: all but what a venue holds.
+struct AcquisitionFigures {
+  std::vector<std::uint8_t> flagged;
+  Stack floodVariance;
+  double unresolvedEnergy = 0.0;
+  double verificationError = 0.0;
+  std::vector<std::string> findings;
+};
+AcquisitionFigures figuresOf(const Acquisition& acquisition);
+
 /// A finished calibration in memory: all that compensation, export and the report need.
 struct MeasuredCalibration {
   RigSettings rig;
   Linearization linearization;
-  Acquisition acquisition;  // T has moved on to `venue`
+  AcquisitionFigures acquisition;
   MeasuredVenue venue;
   WindowInverse inverse;
   double ridge = 0.0;                  // of the windows
@@ -26,10 +36,8 @@ struct MeasuredCalibration {
 /// channel, and not flagged by the verification.
 std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition);
 
-/// What compensation needs to know, out of what acquisition measured: T is taken out of `acquisition`,
-/// thresholded and rescaled to the flood image.
-MeasuredVenue takeMeasuredVenue(Acquisition& acquisition, const ThresholdSettings& threshold);
-/// The same for somebody who needs T once more, with another threshold.
+/// What compensation needs to know, out of what acquisition measured: T thresholded and rescaled to the flood
+/// image. A second T: whoever has no more use for the first lets go of the acquisition.
 MeasuredVenue measuredVenueOf(const Acquisition& acquisition, const ThresholdSettings& threshold);
 
 /// Reads what was measured, without inverting it. Throws: as loadCalibration().

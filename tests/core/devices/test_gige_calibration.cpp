@@ -130,8 +130,8 @@ class TestGigeCalibration : public QObject {
     Progress silent;
     CalibrationFolder folder = beginCalibration(path, smallVenue());
     const Linearization linearization = measureLinearization(folder, rig, silent);
-    Acquisition acquisition = measureAcquisition(folder, rig, linearization, {}, silent);
-    const MeasuredVenue venue = takeMeasuredVenue(acquisition, {});
+    const Acquisition acquisition = measureAcquisition(folder, rig, linearization, {}, silent);
+    const MeasuredVenue venue = measuredVenueOf(acquisition, {});
     measureInverse(folder, venue, silent);
   }
 

@@ -61,15 +61,15 @@ class TestSteps : public QObject {
     for (Stage step : allValues<Stage>()) QVERIFY(progressOf(folder, step) == StageProgress::open);
     Linearization linearization = measureLinearization(folder, devices.rig, quiet);
     QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
-    Acquisition acquisition = measureAcquisition(folder, devices.rig, linearization, {}, quiet);
+    const Acquisition acquisition = measureAcquisition(folder, devices.rig, linearization, {}, quiet);
     MeasuredVenue venue = measuredVenueOf(acquisition, settingsOf(folder).threshold);
     measureInverse(folder, venue, quiet);
 
-    Acquisition expected = loadAcquisition(*atOnce.latest(Stage::acquisition));
+    const Acquisition expected = loadAcquisition(*atOnce.latest(Stage::acquisition));
     QVERIFY(acquisition.transport.leaves() == expected.transport.leaves());
     QCOMPARE(resultFrom<Stage::inverse>(*folder.latest(Stage::inverse)).ridge.value(),
              resultFrom<Stage::inverse>(*atOnce.latest(Stage::inverse)).ridge.value());
-    QVERIFY(takeMeasuredVenue(expected, {}).transport.leaves() == venue.transport.leaves());
+    QVERIFY(measuredVenueOf(expected, {}).transport.leaves() == venue.transport.leaves());
   }
 
   void devicesAreExchangedAsLongAsNothingIsMeasured() {

@@ -217,8 +217,8 @@ class TestRealDevices : public QObject {
         opened.rig.cameras[0] = std::make_unique<VenueTime>(std::move(opened.rig.cameras[0]), *room_);
         CalibrationFolder folder = beginCalibration(root() / name, simulatedSettings());
         const Linearization linearization = measureLinearization(folder, opened.rig, silent);
-        Acquisition acquisition = measureAcquisition(folder, opened.rig, linearization, {}, silent);
-        const MeasuredVenue venue = takeMeasuredVenue(acquisition, {});
+        const Acquisition acquisition = measureAcquisition(folder, opened.rig, linearization, {}, silent);
+        const MeasuredVenue venue = measuredVenueOf(acquisition, {});
         measureInverse(folder, venue, silent);
       } catch (const std::exception& error) {
         failure = error.what();

@@ -24,24 +24,17 @@ constexpr double driftLimit = 0.02;
 constexpr double flaggedLimit = 0.02;
 constexpr double unusableLimit = 0.01;
 
-std::size_t countOf(const std::vector<std::uint8_t>& flags) {
-  return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
+double shareOf(const std::vector<std::uint8_t>& flags) {
+  return static_cast<double>(std::count(flags.begin(), flags.end(), 1)) / static_cast<double>(flags.size());
 }
 
-void fillReferences(Acquisition& acquisition, const References& references) {
-  acquisition.black = references.black.radiance;
-  acquisition.blackVariance = references.black.variance;
-  std::size_t rows = references.usable.size();
-  acquisition.flood.assign(3 * rows, 0.0f);
-  acquisition.floodVariance.assign(3 * rows, 0.0f);
-  for (std::size_t projector = 0; projector < references.root.size(); ++projector) {
-    for (std::size_t row = 0; row < rows; ++row) {
-      Eigen::Map<Eigen::Vector3f>(&acquisition.flood[3 * row]) +=
-          references.root[projector][row].rowwise().sum();
-      Eigen::Map<Eigen::Vector3f>(&acquisition.floodVariance[3 * row]) +=
-          references.rootVariance[projector][row].rowwise().sum();
-    }
-  }
+/// The images under full red, green and blue, or their variances, of all projectors summed.
+Stack summed(const std::vector<std::vector<ColourBlock>>& roots, std::size_t rows) {
+  Stack sum(3 * rows, 0.0f);
+  for (const std::vector<ColourBlock>& root : roots)
+    for (std::size_t row = 0; row < rows; ++row)
+      Eigen::Map<Eigen::Vector3f>(&sum[3 * row]) += root[row].rowwise().sum();
+  return sum;
 }
 
 double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
@@ -54,121 +47,148 @@ double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
   return all > 0.0 ? missing / all : 0.0;
 }
 
-void addFindings(Acquisition& acquisition, double unusable, double drift) {
+/// What the user should know of a measurement.
+std::vector<std::string> findingsOf(double drift, double unusable, double flagged,
+                                    const Supervision& supervision) {
+  std::vector<std::string> findings;
   if (std::abs(drift) > driftLimit)
-    acquisition.findings.push_back(
+    findings.push_back(
         fmt::format("The light changed by {:.1f} % between the first and the last photograph; that was "
                     "followed, but let the "
                     "projector warm up before the next time",
                     100.0 * drift));
   if (unusable > unusableLimit)
-    acquisition.findings.push_back(
+    findings.push_back(
         fmt::format("{:.1f} % of the camera pixels are overexposed even at the shortest exposure: close the "
                     "camera's aperture or allow shorter exposures, then measure again",
                     100.0 * unusable));
-  double flagged =
-      static_cast<double>(countOf(acquisition.flagged)) / static_cast<double>(acquisition.flagged.size());
   if (flagged > flaggedLimit)
-    acquisition.findings.push_back(fmt::format(
+    findings.push_back(fmt::format(
         "{:.1f} % of the camera pixels see something else than predicted in the test patterns: check "
         "that nothing moved or flickered; these pixels are left out of the compensation",
         100.0 * flagged));
+  for (const auto& [shot, what] : supervision.accepted)
+    findings.push_back(fmt::format("put up with before pattern {}: {}", shot + 1, what));
+  return findings;
 }
 
-void addPutUpWith(Acquisition& acquisition, const Decisions& decisions) {
-  for (const auto& [shot, what] : decisions.putUpWith)
-    acquisition.findings.push_back(fmt::format("put up with before pattern {}: {}", shot + 1, what));
-}
+/// Tells of the tree's progress, and from every level on what there is still to do.
+class TreeObserver : public AcquisitionObserver {
+ public:
+  using LevelBegins = std::function<void(const std::vector<int>& levels)>;
+
+  TreeObserver(AcquisitionObserver& other, LevelBegins levelBegins)
+      : other_(other), levelBegins_(std::move(levelBegins)) {}
+
+  void checked(const Reading& reading) override { other_.checked(reading); }
+  void takenAgain(const Retake& retake) override { other_.takenAgain(retake); }
+  void grew(const std::vector<int>& levels, int through) override {
+    if (through == 0) levelBegins_(levels);
+    other_.grew(levels, through);
+  }
+
+ private:
+  AcquisitionObserver& other_;
+  LevelBegins levelBegins_;
+};
 
 /// The parts of a measurement, in order, on shots that may be gone back over.
 class Measurement {
  public:
-  Measurement(ShotTaker& shots, const Linearization& linearization, const AcquisitionSettings& settings,
-              Decisions& decisions, AcquisitionObserver& observer)
-      : settings_(settings),
-        shots_(shots),
-        linearization_(linearization),
-        shotsBefore_(shots.shots()),
-        observer_(observer),
-        photographer_(shots, linearization),
-        watch_(photographer_, shots, references_, {settings.checkInterval, settings.mayBeMirrored}, decisions,
-               observer) {}
+  Measurement(const AcquisitionRun& run, Supervision& supervision)
+      : run_(run),
+        supervision_(supervision),
+        shotsBefore_(run.shots.shots()),
+        exposuresBefore_(run.shots.exposures()),
+        photographer_(run.shots, run.linearization) {}
 
-  Acquisition run(Progress& progress) {
+  /// Returns: no other interruption than beginAgain.
+  Interruptible<Acquisition> measure(Progress& progress) {
     expect(progress, {});
     Progress referencePart = progress.part(referenceShare, "black and full light");
-    references_ = measureReferences(photographer_, settings_.references, settings_.dimShare, referencePart);
-    bool kept = unlessKept([&] { watch_.begin(referencePart); });
+    const References references =
+        measureReferences(photographer_, run_.settings.references, run_.settings.dimShare, referencePart);
+    const Scheme scheme = schemeOf(run_.settings, references);
+    Watch watch(photographer_, references, {run_.settings.checkInterval, run_.settings.mayBeMirrored},
+                supervision_);
+    std::optional<Interruption> interrupted = watch.begin(referencePart);
+    if (interrupted == Interruption::beginAgain) return *interrupted;
 
     Progress treePart = progress.part(treeShare, "light transport");
-    Tree tree = plantedTree(photographer_.projectors(), references_, references_.usable);
-    Scheme scheme = schemeOf(settings_, references_);
-    std::vector<int> levels;
-    GrowthWatcher watcher;
-    watcher.levelBegins = [&](const std::vector<int>& patterns) {
-      levels = patterns;
-      expect(progress, levels);
-      observer_.grew(levels, 0);
-    };
-    watcher.patternsThrough = [&](int through) { observer_.grew(levels, through); };
-    kept = growTree(tree, watch_, references_, scheme, kept, treePart, watcher) || kept;
-    Acquisition result;
-    result.leafVariance = leafVarianceOf(tree);
-    std::vector<std::uint8_t> unknown = tree.unknown;
-    result.transport =
-        TransportMatrix(photographer_.cameras(), photographer_.projectors(), harvest(tree, references_));
+    TreeObserver observer(supervision_.observer,
+                          [&](const std::vector<int>& levels) { expect(progress, levels); });
+    const TreeContext context{watch, scheme, observer};
+    Tree tree = emptyTree(references, references.usable);
+    std::optional<Interruption> dropped = growTree(tree, context, interrupted.has_value(), treePart);
+    if (dropped == Interruption::beginAgain) return *dropped;
 
     Progress verificationPart = progress.part(verificationShare, "test patterns");
-    result.flagged.assign(references_.usable.size(), 0);
-    result.residual.assign(verificationSizes, Stack(3 * references_.usable.size(), 0.0f));
-    if (!kept && !progress.stopAndKeep())
-      unlessKept([&] {
-        watch_.check(verificationPart);
-        if (scheme.repairs)
-          verifyAndRepair(result, watch_, references_, scheme, settings_, verificationPart);
-        else
-          verifyOnly(result, watch_, references_, settings_, verificationPart);
-        watch_.check(verificationPart);
-      });
-    else if (!kept)
-      unlessKept([&] { verifyOnly(result, watch_, references_, settings_, verificationPart); });
-
-    for (std::size_t row = 0; row < result.flagged.size(); ++row)
-      if (!references_.usable[row] || unknown[row]) result.flagged[row] = 1;
-    fillReferences(result, references_);
-    result.unresolvedEnergy = unresolvedEnergy(result.transport, result.flood);
-    double usable =
-        static_cast<double>(countOf(references_.usable)) / static_cast<double>(references_.usable.size());
-    addFindings(result, 1.0 - usable, watch_.power() - 1.0);
+    VerifiedTransport verified = unverified(tree, references);
+    if (!interrupted && !dropped) {
+      interrupted = verify(verified, context, verificationPart);
+      if (interrupted == Interruption::beginAgain) return *interrupted;
+    }
+    for (std::size_t row = 0; row < verified.flagged.size(); ++row)
+      if (!references.usable[row] || tree.unknown[row]) verified.flagged[row] = 1;
+    Acquisition acquisition = finished(std::move(verified), watch);
     progress.report(1.0);
-    return result;
+    return acquisition;
   }
 
  private:
   void expect(const Progress& progress, const std::vector<int>& levels) const {
-    AcquisitionState state{levels, shots_.shots() - shotsBefore_, shots_.times()};
-    progress.expect(forecast(shots_.rig(), linearization_, settings_, linearization_.times, state));
+    AcquisitionState state{levels, run_.shots.shots() - shotsBefore_, run_.shots.times()};
+    progress.expect(forecast(forecastDevices(run_.shots.rig(), run_.linearization.exposures), run_.settings,
+                             run_.linearization.times, state));
   }
 
-  /// True if the user asked to keep what there is instead.
-  template <typename Work>
-  static bool unlessKept(const Work& work) {
-    try {
-      work();
-      return false;
-    } catch (const KeepAndStop&) {
-      return true;
-    }
+  static VerifiedTransport unverified(Tree& tree, const References& references) {
+    std::size_t rows = references.usable.size();
+    Stack leafVariance = leafVarianceOf(tree);
+    return {TransportMatrix(references.cameras, references.projectors, takeLeaves(tree, references)),
+            std::move(leafVariance), std::vector<std::uint8_t>(rows, 0),
+            std::vector<Stack>(verificationSizes, Stack(3 * rows, 0.0f))};
   }
 
-  const AcquisitionSettings& settings_;
-  const ShotTaker& shots_;
-  const Linearization& linearization_;
-  int shotsBefore_;
-  AcquisitionObserver& observer_;
-  References references_;
+  /// Whoever asked to stop and keep waits for the test patterns alone.
+  std::optional<Interruption> verify(VerifiedTransport& verified, const TreeContext& context,
+                                     Progress& progress) const {
+    const AcquisitionSettings& settings = run_.settings;
+    if (progress.stopAndKeep()) return verifyOnly(verified, context, settings, progress);
+    if (auto interrupted = context.watch.check(progress)) return interrupted;
+    if (auto interrupted = context.scheme.repairs ? verifyAndRepair(verified, context, settings, progress)
+                                                  : verifyOnly(verified, context, settings, progress))
+      return interrupted;
+    return context.watch.check(progress);
+  }
+
+  Acquisition finished(VerifiedTransport verified, const Watch& watch) const {
+    const References& references = watch.references();
+    std::size_t rows = references.usable.size();
+    Stack flood = summed(references.root, rows);
+    double unresolved = unresolvedEnergy(verified.transport, flood);
+    double flagged = shareOf(verified.flagged);
+    return {
+        .transport = std::move(verified.transport),
+        .black = watch.black().radiance,
+        .blackVariance = watch.black().variance,
+        .flood = std::move(flood),
+        .floodVariance = summed(references.rootVariance, rows),
+        .flagged = std::move(verified.flagged),
+        .residual = std::move(verified.residual),
+        .leafVariance = std::move(verified.leafVariance),
+        .remeasured = verified.remeasured,
+        .unresolvedEnergy = unresolved,
+        .verificationError = verified.error,
+        .patterns = run_.shots.shots() - shotsBefore_,
+        .exposures = run_.shots.exposures() - exposuresBefore_,
+        .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, supervision_)};
+  }
+
+  const AcquisitionRun& run_;
+  Supervision& supervision_;
+  int shotsBefore_, exposuresBefore_;
   Photographer photographer_;
-  Watch watch_;
 };
 
 }  // namespace
@@ -179,19 +199,13 @@ Acquisition acquire(const AcquisitionRun& run, Progress& progress) {
   Linearization used = run.linearization;
   if (run.settings.singleExposure) used.exposures = {used.exposures.back()};
   AcquisitionObserver nobody;
-  AcquisitionObserver& observer = run.observer ? *run.observer : nobody;
-  int shotsBefore = run.shots.shots(), exposuresBefore = run.shots.exposures();
-  Decisions decisions{run.handler, {}};
+  Supervision supervision{run.handler, run.observer ? *run.observer : nobody};
+  const AcquisitionRun adapted{run.shots, used, run.settings};
+  const int shotsBefore = run.shots.shots();
   while (true) {
-    try {
-      Acquisition result = Measurement(run.shots, used, run.settings, decisions, observer).run(progress);
-      result.patterns = run.shots.shots() - shotsBefore;
-      result.exposures = run.shots.exposures() - exposuresBefore;
-      addPutUpWith(result, decisions);
-      return result;
-    } catch (const BeginAgain&) {
-      run.shots.goBackTo(shotsBefore);
-    }
+    Interruptible<Acquisition> measured = Measurement(adapted, supervision).measure(progress);
+    if (measured) return *std::move(measured);
+    run.shots.goBackTo(shotsBefore);
   }
 }
 

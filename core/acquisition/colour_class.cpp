@@ -59,12 +59,12 @@ Stack patternIn(const LitChannels& light, const std::vector<std::uint8_t>& lit) 
 
 }  // namespace
 
-ColourClass::ColourClass(Tree& tree, std::span<const Seen> seen, const References& references,
-                         const Scheme& scheme)
+ColourClass::ColourClass(Tree& tree, std::span<const LitPair> seen, const TreeContext& context)
     : tree_(tree),
       seen_(seen),
-      references_(references),
-      scheme_(scheme),
+      watch_(context.watch),
+      references_(context.references()),
+      scheme_(context.scheme),
       measured_(quadrants * seen.size()),
       wanted_(seen.size(), 1) {}
 
@@ -91,10 +91,10 @@ ClassFrame ColourClass::frame(std::shared_ptr<const LitQuadrant> quadrant, const
   return frame;
 }
 
-HdrFrame ColourClass::photograph(const ClassFrame& frame, Watch& watch, const Progress& progress,
-                                 const Meanwhile& meanwhile) {
-  if (frame.demands.empty()) return watch.lightOfAll(frame.pattern, progress, meanwhile);
-  return watch.light(frame.pattern, frame.demands, progress, meanwhile);
+Interruptible<HdrFrame> ColourClass::photograph(const ClassFrame& frame, const Progress& progress,
+                                                const Meanwhile& meanwhile) const {
+  if (frame.demands.empty()) return watch_.lightOfAll(frame.pattern, progress, meanwhile);
+  return watch_.light(frame.pattern, frame.demands, progress, meanwhile);
 }
 
 void ColourClass::settle(Children& children) {
@@ -125,13 +125,14 @@ bool ColourClass::contradictsParents() {
 }
 
 std::vector<Demand> ColourClass::demands(const LitQuadrant& quadrant, const LitChannels& light) const {
+  const HdrFrame& black = watch_.black();
   std::vector<Demand> demands(references_.usable.size());
   parallelFor(0, seen_.size(), 1024, [&](std::size_t i) {
     std::size_t row = seen_[i].row;
     ColourBlock parent = tree_.active.block(row, seen_[i].pair);
     float brightest = 0.0f, expected = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
-      float around = references_.black.radiance[3 * row + c] + inLight(quadrant.predicted[i], c, light);
+      float around = black.radiance[3 * row + c] + inLight(quadrant.predicted[i], c, light);
       float block = std::max(0.0f, inLight(parent, c, light));
       brightest = std::max(brightest, around + brighterThanParent * block);
       expected = std::max(expected, around + block / quadrants);
@@ -141,7 +142,7 @@ std::vector<Demand> ColourClass::demands(const LitQuadrant& quadrant, const LitC
   return demands;
 }
 
-std::size_t ColourClass::projectorOf(const Seen& seen) const {
+std::size_t ColourClass::projectorOf(const LitPair& seen) const {
   return static_cast<std::size_t>(tree_.layout.node(tree_.active.column(seen.pair)).projector);
 }
 

@@ -8,7 +8,7 @@
 #include "acquisition/estimate.h"
 #include "acquisition/frames.h"
 #include "acquisition/tree.h"
-#include "sentinels/watch.h"
+#include "acquisition/tree_context.h"
 
 namespace relucent {
 
@@ -33,13 +33,13 @@ struct ClassFrame {
 class ColourClass {
  public:
   /// Keeps references: all outlive it.
-  ColourClass(Tree& tree, std::span<const Seen> seen, const References& references, const Scheme& scheme);
+  ColourClass(Tree& tree, std::span<const LitPair> seen, const TreeContext& context);
 
   std::shared_ptr<const LitQuadrant> lit(int quadrant, std::vector<std::uint8_t> pixels) const;
   ClassFrame frame(std::shared_ptr<const LitQuadrant> quadrant, const LitChannels& light) const;
 
-  static HdrFrame photograph(const ClassFrame& frame, Watch& watch, const Progress& progress,
-                             const Meanwhile& meanwhile);
+  Interruptible<HdrFrame> photograph(const ClassFrame& frame, const Progress& progress,
+                                     const Meanwhile& meanwhile) const;
 
   /// What a photograph says about the children.
   void extract(const ClassFrame& frame, const HdrFrame& seen);
@@ -58,10 +58,11 @@ class ColourClass {
   void settle(std::size_t i, Children& children) const;
   /// A value as codes of a row, what the rounding leaves over handed on to the row's next leaf.
   BlockSparseWriter::Code leafCode(std::size_t row, const ColourBlock& value) const;
-  std::size_t projectorOf(const Seen& seen) const;
+  std::size_t projectorOf(const LitPair& seen) const;
 
   Tree& tree_;
-  std::span<const Seen> seen_;
+  std::span<const LitPair> seen_;
+  Watch& watch_;
   const References& references_;
   const Scheme& scheme_;
   std::vector<Estimate> measured_;    // as seen_, four each

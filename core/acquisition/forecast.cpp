@@ -76,14 +76,22 @@ std::vector<PatternRange> levelPatterns(const Rasters& projectors, const Acquisi
   return levelPatterns(projectors, lights, known, colourFactor(settings.relativeThreshold));
 }
 
-WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t exposures,
-                  double meanExposure, const AcquisitionSettings& settings, const ShotTimes& benchmark,
-                  const AcquisitionState& state) {
-  auto devices = static_cast<double>(projectors.devices());
+ForecastDevices forecastDevices(const Rig& rig, const std::vector<double>& exposures) {
+  double mean = exposures.empty() ? 0.0
+                                  : std::accumulate(exposures.begin(), exposures.end(), 0.0) /
+                                        static_cast<double>(exposures.size());
+  return {rig.cameraRasters(), rig.projectorRasters(), exposures.size(), mean};
+}
+
+WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
+                  const ShotTimes& benchmark, const AcquisitionState& state) {
+  const Rasters& cameras = devices.cameras;
+  const Rasters& projectors = devices.projectors;
+  auto projectorCount = static_cast<double>(projectors.devices());
   std::vector<PatternRange> levels = levelPatterns(projectors, settings, state.levels);
 
   // Everything that is not the tree: references, the first look, the test patterns.
-  double references = settings.references * (1.0 + 3.0 * devices) + devices + 2.0;
+  double references = settings.references * (1.0 + 3.0 * projectorCount) + projectorCount + 2.0;
   double testing =
       settings.verificationPatterns + checksWithin(settings.verificationPatterns, settings.checkInterval);
   constexpr double pair = 2.0;
@@ -105,9 +113,10 @@ WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t
   bool enough = state.times.shots >= enoughShots;
   const ShotTimes& times = enough || benchmark.shots == 0 ? state.times : benchmark;
   bool all = settings.scheme == AcquisitionScheme::sen || settings.singleExposure;
-  double usual = settings.singleExposure ? 1.0 : std::min<double>(2.0, static_cast<double>(exposures));
-  double perShot = all ? (settings.singleExposure ? 1.0 : static_cast<double>(exposures)) : usual;
-  double seconds = meanExposure;
+  double usual =
+      settings.singleExposure ? 1.0 : std::min<double>(2.0, static_cast<double>(devices.exposures));
+  double perShot = all ? (settings.singleExposure ? 1.0 : static_cast<double>(devices.exposures)) : usual;
+  double seconds = devices.meanExposure;
   if (enough) {
     perShot = static_cast<double>(state.times.exposures) / state.times.shots /
               static_cast<double>(cameras.devices());
@@ -126,17 +135,6 @@ WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t
                                                 framesInMemory * 27.0 * pixels +
                                                 60.0 * static_cast<double>(projectors.count()));
   return work;
-}
-
-WorkLeft forecast(const Rig& rig, const Linearization& linearization, const AcquisitionSettings& settings,
-                  const ShotTimes& benchmark, const AcquisitionState& state) {
-  const std::vector<double>& exposures = linearization.exposures;
-  double mean = exposures.empty() ? 0.0
-                                  : std::accumulate(exposures.begin(), exposures.end(), 0.0) /
-                                        static_cast<double>(exposures.size());
-  if (settings.singleExposure && !exposures.empty()) mean = exposures.back();
-  return forecast(rig.cameraRasters(), rig.projectorRasters(), exposures.size(), mean, settings, benchmark,
-                  state);
 }
 
 }  // namespace relucent

@@ -41,6 +41,14 @@ struct AcquisitionState {
   ShotTimes times{};          // of the shots that it took
 };
 
+/// What of the devices decides how long an acquisition takes.
+struct ForecastDevices {
+  Rasters cameras, projectors;
+  std::size_t exposures = 0;  // that a pattern may be photographed with
+  double meanExposure = 0.0;  // seconds
+};
+ForecastDevices forecastDevices(const Rig& rig, const std::vector<double>& exposures);
+
 /// What an acquisition has still to do. Exact are the references, the checks between a known number of
 /// patterns, and the verification; the tree's patterns are as levelPatterns() says; what is measured again
 /// after an alarm or for flagged pixels comes on top. Before it begins: with a state of nothing.
@@ -50,10 +58,7 @@ struct AcquisitionState {
 ///   disk   = exposures * bytes of one + T;      memory = T twice, the level under way, what the program has
 /// T is taken to hold 120 leaves of 22 bytes a camera pixel; simulated venues have 65 to 180.
 /// Pure arithmetic, no devices: for a page that asks before anything is measured as well.
-WorkLeft forecast(const Rasters& cameras, const Rasters& projectors, std::size_t exposures,
-                  double meanExposure, const AcquisitionSettings& settings, const ShotTimes& benchmark,
-                  const AcquisitionState& state);
-WorkLeft forecast(const Rig& rig, const Linearization& linearization, const AcquisitionSettings& settings,
+WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
                   const ShotTimes& benchmark, const AcquisitionState& state);
 
 }  // namespace relucent

@@ -14,7 +14,7 @@ namespace relucent {
 bool childOf(const NodeLayout& layout, const Node& parent, int quadrant, Node& child);
 
 /// A camera pixel and the one of its active nodes that a colour lights.
-struct Seen {
+struct LitPair {
   std::uint32_t row;
   std::uint32_t pair;
 };
@@ -22,12 +22,12 @@ struct Seen {
 /// The active pairs, colour after colour.
 struct PairsByColour {
   PairsByColour(const BlockSparse& active, const Schedule& schedule);
-  std::span<const Seen> of(std::uint32_t colour) const {
+  std::span<const LitPair> of(std::uint32_t colour) const {
     return {seen.data() + start[colour], start[colour + 1] - start[colour]};
   }
 
   std::vector<std::size_t> start;
-  std::vector<Seen> seen;
+  std::vector<LitPair> seen;
 };
 
 /// Which projector pixels a colour lights in a quadrant, one value a pixel. Empty: none.

@@ -39,61 +39,54 @@ class Shares {
   double left_ = 1.0;
 };
 
-/// Divides one level. False if it was dropped on an alarm; the tree is as it was.
-bool divided(Tree& tree, int level, const Schedule& plan, Watch& watch, const References& references,
-             const Scheme& scheme, Progress& part, const PatternsThrough& through) {
+/// Divides one level, unless it is interrupted: then the tree is as it was.
+std::optional<Interruption> divided(Tree& tree, const LevelPlan& plan, const TreeContext& context,
+                                    Progress& part) {
+  if (auto interrupted = context.watch.check(part)) return interrupted;
   std::vector<ColourBlock> rounding = tree.rounding;
   std::vector<LeafNoise> leafNoise = tree.leafNoise;
   std::vector<std::uint8_t> unknown = tree.unknown;
-  try {
-    watch.check(part);
-    divide(tree, level, plan, watch, references, scheme, part, through);
-    return true;
-  } catch (const KeepAndStop&) {
+  std::optional<Interruption> interrupted = divide(tree, plan, context, part);
+  if (interrupted) {
     tree.rounding = std::move(rounding);
     tree.leafNoise = std::move(leafNoise);
     tree.unknown = std::move(unknown);
-    return false;
   }
+  return interrupted;
 }
 
 }  // namespace
 
-Tree plantedTree(const Rasters& projectors, const References& references,
-                 const std::vector<std::uint8_t>& rows) {
-  Tree tree = emptyTree(NodeLayout(projectors), references);
-  tree.wanted = rows;
-  return tree;
-}
-
-bool growTree(Tree& tree, Watch& watch, const References& references, const Scheme& scheme, bool rootsOnly,
-              Progress& progress, const GrowthWatcher& watcher) {
-  bool kept = false;
-  std::vector<int> patterns;
+std::optional<Interruption> growTree(Tree& tree, const TreeContext& context, bool rootsOnly,
+                                     Progress& progress) {
+  std::optional<Interruption> interrupted;
+  LevelPlan plan;
   Shares shares;
+  std::size_t lights = context.scheme.lights.size();
   int last = tree.layout.levels() - 1;
   for (int level = tree.layout.levels() - 1; level >= 0; --level) {
-    plantRoots(tree, level, references, scheme);
+    addRoots(tree, level, context.references(), context.scheme);
     if (level == 0) continue;
     if (tree.active.blocks() == 0) {
-      patterns.push_back(0);
+      plan.patterns.push_back(0);
       continue;
     }
-    bool goOn = !rootsOnly && !kept && !progress.stopAndKeep();
-    if (goOn) {
-      Schedule plan = scheduleOf(tree, level);
-      patterns.push_back(patternsOf(plan, scheme, tree.layout, level));
-      if (watcher.levelBegins) watcher.levelBegins(patterns);
-      double share = shares.next(levelPatterns(tree.layout.projectors(), scheme.lights.size(), patterns),
-                                 patterns.size());
+    if (!rootsOnly && !interrupted && !progress.stopAndKeep()) {
+      plan.level = level;
+      plan.schedule = scheduleOf(tree, level);
+      plan.patterns.push_back(patternsOf(plan.schedule, context.scheme, tree.layout, level));
+      context.observer.grew(plan.patterns, 0);
+      double share =
+          shares.next(levelPatterns(tree.layout.projectors(), lights, plan.patterns), plan.patterns.size());
       Progress part = progress.part(
-          share, fmt::format("level {} of {}: {} patterns", last - level + 1, last, patterns.back()));
-      if (divided(tree, level, plan, watch, references, scheme, part, watcher.patternsThrough)) continue;
+          share, fmt::format("level {} of {}: {} patterns", last - level + 1, last, plan.patterns.back()));
+      interrupted = divided(tree, plan, context, part);
+      if (!interrupted) continue;
+      if (interrupted == Interruption::beginAgain) return interrupted;
     }
-    kept = kept || goOn;
-    stopDividing(tree, references);
+    stopDividing(tree, context.references());
   }
-  return kept;
+  return interrupted;
 }
 
 Stack leafVarianceOf(const Tree& tree) {

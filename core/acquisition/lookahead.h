@@ -5,9 +5,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "photography/photographer.h"
+#include "sentinels/interruption.h"
 
 namespace relucent {
 
@@ -28,10 +30,11 @@ class Lookahead {
   Lookahead(std::size_t frames, Prepare prepare) : frames_(frames), prepare_(std::move(prepare)) {}
 
   /// Takes a frame, usually the one after the last; another is prepared now. expose(frame, meanwhile) does
-  /// `meanwhile` and returns what the frame showed; workOut(frame, shown) is done during the next exposure,
-  /// or by finish().
+  /// `meanwhile` and returns what the frame showed, or the interruption that is then returned; workOut(frame,
+  /// shown) is done during the next exposure, or by finish().
   template <typename Expose, typename WorkOut>
-  void take(std::size_t number, const Expose& expose, const WorkOut& workOut) {
+  [[nodiscard]] std::optional<Interruption> take(std::size_t number, const Expose& expose,
+                                                 const WorkOut& workOut) {
     if (!ahead_ || aheadNumber_ != number) ahead_ = prepared(number);
     last_ = std::move(ahead_);
     ahead_ = nullptr;
@@ -43,7 +46,9 @@ class Lookahead {
     };
     aheadNumber_ = number + 1;
     auto shown = expose(*last_, meanwhile);
-    unfinished_ = [workOut, frame = last_, shown = std::move(shown)] { workOut(*frame, shown); };
+    if (!shown) return shown.interruption();
+    unfinished_ = [workOut, frame = last_, shown = *std::move(shown)] { workOut(*frame, shown); };
+    return std::nullopt;
   }
 
   /// Does what is left to be done of the last frame.

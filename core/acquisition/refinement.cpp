@@ -28,53 +28,39 @@ struct PreparedFrame {
 /// One level under way.
 class Division {
  public:
-  Division(Tree& tree, int level, const Schedule& schedule, Watch& watch, const References& references,
-           const Scheme& scheme, Progress& progress, const PatternsThrough& through)
+  Division(Tree& tree, const LevelPlan& plan, const TreeContext& context, Progress& progress)
       : tree_(tree),
-        schedule_(schedule),
-        watch_(watch),
-        references_(references),
-        scheme_(scheme),
+        plan_(plan),
+        context_(context),
         progress_(progress),
-        through_(through),
-        pairs_(tree.active, schedule),
-        children_(tree.active.blocks(), level > 1, scheme.restToParent),
-        frames_(framesInOrder(level)),
+        pairs_(tree.active, plan.schedule),
+        children_(tree.active.blocks(), plan.level > 1, context.scheme.restToParent),
+        frames_(framesInOrder()),
         lookahead_(frames_.size(), [this](std::size_t number, const PreparedFrame* before) {
           return prepare(number, before);
         }) {}
 
-  void run() {
+  std::optional<Interruption> run() {
     std::size_t first = 0;
     while (first < frames_.size()) {
       std::size_t end = first;
       while (end < frames_.size() && frames_[end].colour == frames_[first].colour) ++end;
-      std::shared_ptr<ColourClass> blocks;
-      int begun = watch_.shots();
-      for (int round = 0; round == 0 || (round < 3 && blocks->contradictsParents()); ++round) {
-        if (round > 0) watch_.contradicted(begun, static_cast<int>(end - first));
-        for (std::size_t frame = first; frame < end; ++frame) {
-          blocks = take(frame);
-          if (round > 0) continue;
-          progress_.report(static_cast<double>(frame + 1) / static_cast<double>(frames_.size()));
-          if (through_) through_(static_cast<int>(frame) + 1);
-        }
-        lookahead_.finish();
-      }
-      lookahead_.leave([this, blocks] { blocks->settle(children_); });
+      if (auto interrupted = measureColour(first, end)) return interrupted;
+      lookahead_.leave([this, blocks = blocks_] { blocks->settle(children_); });
       first = end;
     }
     lookahead_.finish();
-    adopt(tree_, children_, references_);
+    adopt(tree_, children_, context_.references());
+    return std::nullopt;
   }
 
  private:
-  std::vector<LevelFrame> framesInOrder(int level) const {
+  std::vector<LevelFrame> framesInOrder() const {
     std::vector<LevelFrame> frames;
-    std::vector<std::uint8_t> lit = litQuadrants(schedule_, tree_.layout, level);
-    for (std::uint32_t colour = 0; colour < schedule_.colours; ++colour)
+    std::vector<std::uint8_t> lit = litQuadrants(plan_.schedule, tree_.layout, plan_.level);
+    for (std::uint32_t colour = 0; colour < plan_.schedule.colours; ++colour)
       for (int quadrant = 0; quadrant < quadrants; ++quadrant)
-        for (std::size_t light = 0; light < scheme_.lights.size(); ++light)
+        for (std::size_t light = 0; light < context_.scheme.lights.size(); ++light)
           if (lit[quadrants * colour + static_cast<std::size_t>(quadrant)] != 0)
             frames.push_back({colour, quadrant, light});
     return frames;
@@ -86,42 +72,54 @@ class Division {
     PreparedFrame prepared;
     prepared.place = place;
     prepared.blocks =
-        sameColour ? before->blocks
-                   : std::make_shared<ColourClass>(tree_, pairs_.of(place.colour), references_, scheme_);
+        sameColour ? before->blocks : std::make_shared<ColourClass>(tree_, pairs_.of(place.colour), context_);
     std::shared_ptr<const LitQuadrant> quadrant;
     if (sameColour && before->place.quadrant == place.quadrant)
       quadrant = before->frame.quadrant;
     else
       quadrant = prepared.blocks->lit(place.quadrant,
-                                      litPixels(schedule_, tree_.layout, place.colour, place.quadrant));
-    prepared.frame = prepared.blocks->frame(std::move(quadrant), scheme_.lights[place.light]);
+                                      litPixels(plan_.schedule, tree_.layout, place.colour, place.quadrant));
+    prepared.frame = prepared.blocks->frame(std::move(quadrant), context_.scheme.lights[place.light]);
     return prepared;
   }
 
-  std::shared_ptr<ColourClass> take(std::size_t number) {
-    std::shared_ptr<ColourClass> blocks;
-    lookahead_.take(
+  /// The frames [first, end) of one colour, and all of them again where they contradict what was seen before.
+  std::optional<Interruption> measureColour(std::size_t first, std::size_t end) {
+    constexpr int mostRounds = 3;
+    int begun = context_.watch.shots();
+    for (int round = 0; round == 0 || (round < mostRounds && blocks_->contradictsParents()); ++round) {
+      if (round > 0) context_.watch.contradicted(begun, static_cast<int>(end - first));
+      for (std::size_t frame = first; frame < end; ++frame) {
+        if (auto interrupted = take(frame)) return interrupted;
+        if (round > 0) continue;
+        progress_.report(static_cast<double>(frame + 1) / static_cast<double>(frames_.size()));
+        context_.observer.grew(plan_.patterns, static_cast<int>(frame) + 1);
+      }
+      lookahead_.finish();
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Interruption> take(std::size_t number) {
+    return lookahead_.take(
         number,
         [&](const PreparedFrame& prepared, const Meanwhile& meanwhile) {
-          blocks = prepared.blocks;
-          return ColourClass::photograph(prepared.frame, watch_, progress_, meanwhile);
+          blocks_ = prepared.blocks;
+          return blocks_->photograph(prepared.frame, progress_, meanwhile);
         },
         [](const PreparedFrame& prepared, const HdrFrame& seen) {
           prepared.blocks->extract(prepared.frame, seen);
         });
-    return blocks;
   }
 
   Tree& tree_;
-  const Schedule& schedule_;
-  Watch& watch_;
-  const References& references_;
-  const Scheme& scheme_;
+  const LevelPlan& plan_;
+  const TreeContext& context_;
   Progress& progress_;
-  const PatternsThrough& through_;
   PairsByColour pairs_;
   Children children_;
   std::vector<LevelFrame> frames_;
+  std::shared_ptr<ColourClass> blocks_;  // of the last frame
   Lookahead<PreparedFrame> lookahead_;
 };
 
@@ -131,11 +129,11 @@ int patternsOf(const Schedule& schedule, const Scheme& scheme, const NodeLayout&
   return static_cast<int>(scheme.lights.size()) * framesOf(schedule, layout, level);
 }
 
-void divide(Tree& tree, int level, const Schedule& schedule, Watch& watch, const References& references,
-            const Scheme& scheme, Progress& progress, const PatternsThrough& through) {
+std::optional<Interruption> divide(Tree& tree, const LevelPlan& plan, const TreeContext& context,
+                                   Progress& progress) {
   require(tree.active.blocks() <= std::numeric_limits<std::uint32_t>::max(), "{} active pairs",
           tree.active.blocks());
-  Division(tree, level, schedule, watch, references, scheme, progress, through).run();
+  return Division(tree, plan, context, progress).run();
 }
 
 }  // namespace relucent

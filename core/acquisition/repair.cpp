@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "acquisition/growth.h"
+#include "acquisition/verification.h"
+
 namespace relucent {
 namespace {
 
@@ -14,10 +17,10 @@ std::size_t countOf(const std::vector<std::uint8_t>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
 }
 
-void adoptVerification(Acquisition& result, Verification verification) {
-  result.verificationError = errorOf(verification.rows);
-  result.flagged = std::move(verification.flagged);
-  result.residual = std::move(verification.residual);
+void adoptVerification(VerifiedTransport& verified, const Verification& verification) {
+  verified.error = errorOf(verification.rows);
+  verified.flagged = verification.flagged;
+  verified.residual = verification.residual;
 }
 
 /// `first`, with the rows of `second` that are chosen.
@@ -38,55 +41,91 @@ void replaceRows(Stack& into, const Stack& from, const std::vector<std::uint8_t>
     if (chosen[i / 3]) into[i] = from[i];
 }
 
-}  // namespace
+/// Rounds of measuring flagged camera pixels again.
+class Repair {
+ public:
+  /// `rows`: what the first verification found. Keeps references: all but `rows` outlive it.
+  Repair(VerifiedTransport& verified, std::vector<Residual> rows, const TreeContext& context,
+         const AcquisitionSettings& settings)
+      : verified_(verified), rows_(std::move(rows)), context_(context), settings_(settings) {}
 
-void verifyOnly(Acquisition& result, Watch& watch, const References& references,
-                const AcquisitionSettings& settings, Progress& progress) {
-  adoptVerification(result,
-                    verify(result.transport, watch, references, settings, references.usable, 0, progress));
-}
+  std::optional<Interruption> run(Progress& progress) {
+    for (int round = 1; round <= mostRepairs; ++round) {
+      std::size_t ill = countOf(verified_.flagged);
+      if (ill == 0) break;
+      verified_.remeasured += round == 1 ? static_cast<int>(ill) : 0;
+      Progress part = progress.part(0.25, fmt::format("measuring {} flagged pixels again", ill));
+      if (auto interrupted = repair(round, part)) return interrupted;
+      if (2 * countOf(verified_.flagged) > ill) break;
+    }
+    return std::nullopt;
+  }
 
-void verifyAndRepair(Acquisition& result, Watch& watch, const References& references, const Scheme& scheme,
-                     const AcquisitionSettings& settings, Progress& progress) {
-  Progress firstPart = progress.part(0.5, "test patterns");
-  Verification before =
-      verify(result.transport, watch, references, settings, references.usable, 0, firstPart);
-  std::vector<Residual> rows = before.rows;
-  adoptVerification(result, std::move(before));
-
-  for (int repair = 1; repair <= mostRepairs; ++repair) {
-    std::vector<std::uint8_t> flagged = result.flagged;
-    std::size_t ill = countOf(flagged);
-    if (ill == 0) return;
-    result.remeasured += repair == 1 ? static_cast<int>(ill) : 0;
-    Progress part = progress.part(0.25, fmt::format("measuring {} flagged pixels again", ill));
-    Tree tree = plantedTree(watch.projectors(), references, flagged);
-    if (growTree(tree, watch, references, scheme, false, part)) throw KeepAndStop();
+ private:
+  std::optional<Interruption> repair(int round, Progress& part) {
+    const std::vector<std::uint8_t> flagged = verified_.flagged;
+    Tree tree = emptyTree(context_.references(), flagged);
+    AcquisitionObserver nobody;  // is to hear of the whole tree alone
+    if (auto interrupted = growTree(tree, {context_.watch, context_.scheme, nobody}, false, part))
+      return interrupted;
     Stack leafVariance = leafVarianceOf(tree);
-    BlockSparse again = harvest(tree, references);
-    auto with = [&](const std::vector<std::uint8_t>& chosen) {
-      return TransportMatrix(watch.cameras(), watch.projectors(),
-                             mixed(result.transport.leaves(), again, chosen, references));
-    };
-    Verification after = verify(with(flagged), watch, references, settings, flagged,
-                                repair * settings.verificationPatterns, part);
-    watch.check(part);
+    BlockSparse again = takeLeaves(tree, context_.references());
+    Interruptible<Verification> after = verify(
+        with(again, flagged), context_, {settings_, flagged, round * settings_.verificationPatterns}, part);
+    if (!after) return after.interruption();
+    if (auto interrupted = context_.watch.check(part)) return interrupted;
 
     std::vector<std::uint8_t> better(flagged.size(), 0);
     for (std::size_t row = 0; row < flagged.size(); ++row)
-      better[row] = flagged[row] && after.rows[row].relative() < rows[row].relative() ? 1 : 0;
-    result.transport = with(better);
-    replaceRows(result.leafVariance, leafVariance, better);
-    for (std::size_t size = 0; size < result.residual.size(); ++size)
-      replaceRows(result.residual[size], after.residual[size], better);
-    for (std::size_t row = 0; row < flagged.size(); ++row) {
-      if (!better[row]) continue;
-      rows[row] = after.rows[row];
-      result.flagged[row] = after.flagged[row];
-    }
-    result.verificationError = errorOf(rows);
-    if (2 * countOf(result.flagged) > ill) return;
+      better[row] = flagged[row] && after->rows[row].relative() < rows_[row].relative() ? 1 : 0;
+    verified_.transport = with(again, better);
+    replaceRows(verified_.leafVariance, leafVariance, better);
+    adopt(*after, better);
+    return std::nullopt;
   }
+
+  TransportMatrix with(const BlockSparse& again, const std::vector<std::uint8_t>& chosen) const {
+    const References& references = context_.references();
+    return TransportMatrix(references.cameras, references.projectors,
+                           mixed(verified_.transport.leaves(), again, chosen, references));
+  }
+
+  void adopt(const Verification& after, const std::vector<std::uint8_t>& better) {
+    for (std::size_t size = 0; size < verified_.residual.size(); ++size)
+      replaceRows(verified_.residual[size], after.residual[size], better);
+    for (std::size_t row = 0; row < better.size(); ++row) {
+      if (!better[row]) continue;
+      rows_[row] = after.rows[row];
+      verified_.flagged[row] = after.flagged[row];
+    }
+    verified_.error = errorOf(rows_);
+  }
+
+  VerifiedTransport& verified_;
+  std::vector<Residual> rows_;
+  const TreeContext& context_;
+  const AcquisitionSettings& settings_;
+};
+
+}  // namespace
+
+std::optional<Interruption> verifyOnly(VerifiedTransport& verified, const TreeContext& context,
+                                       const AcquisitionSettings& settings, Progress& progress) {
+  Interruptible<Verification> found =
+      verify(verified.transport, context, {settings, context.references().usable}, progress);
+  if (!found) return found.interruption();
+  adoptVerification(verified, *found);
+  return std::nullopt;
+}
+
+std::optional<Interruption> verifyAndRepair(VerifiedTransport& verified, const TreeContext& context,
+                                            const AcquisitionSettings& settings, Progress& progress) {
+  Progress firstPart = progress.part(0.5, "test patterns");
+  Interruptible<Verification> found =
+      verify(verified.transport, context, {settings, context.references().usable}, firstPart);
+  if (!found) return found.interruption();
+  adoptVerification(verified, *found);
+  return Repair(verified, found->rows, context, settings).run(progress);
 }
 
 }  // namespace relucent

@@ -1,22 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/growth.h"
-#include "acquisition/verification.h"
-#include "transport/acquisition.h"
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "acquisition/settings.h"
+#include "acquisition/tree_context.h"
+#include "transport/transport_matrix.h"
 
 namespace relucent {
 
-/// Verification of `result.transport`: error, flags and residual maps.
-void verifyOnly(Acquisition& result, Watch& watch, const References& references,
-                const AcquisitionSettings& settings, Progress& progress);
+/// T while it is being verified, and what the verification found so far.
+struct VerifiedTransport {
+  TransportMatrix transport;
+  Stack leafVariance;                 // see Acquisition
+  std::vector<std::uint8_t> flagged;  // per camera pixel: wrong
+  std::vector<Stack> residual;        // per block size of the test patterns, radiance
+  double error = 0.0;                 // relative, of held-out patterns over all pixels
+  int remeasured = 0;                 // camera pixels that were flagged and measured again
+};
+
+/// Verification of T: error, flags and residual maps. After an interruption they are as they were. Throws: as
+/// Watch::check().
+[[nodiscard]] std::optional<Interruption> verifyOnly(VerifiedTransport& verified, const TreeContext& context,
+                                                     const AcquisitionSettings& settings, Progress& progress);
 
 /// The same; then flagged camera pixels are measured again, at most twice. Only the blocks that they need are
 /// lit: as they are few, so are the conflicts, and many blocks share a frame. A row measured again replaces
 /// the old one if it predicts other test patterns better than that did its own; what stays flagged is left as
-/// a mask. A second time only if the first healed half of them.
-/// Throws: as Watch::check().
-void verifyAndRepair(Acquisition& result, Watch& watch, const References& references, const Scheme& scheme,
-                     const AcquisitionSettings& settings, Progress& progress);
+/// a mask. A second time only if the first healed half of them. After an interruption T is as the last repair
+/// that was finished left it. Throws: as Watch::check().
+[[nodiscard]] std::optional<Interruption> verifyAndRepair(VerifiedTransport& verified,
+                                                          const TreeContext& context,
+                                                          const AcquisitionSettings& settings,
+                                                          Progress& progress);
 
 }  // namespace relucent

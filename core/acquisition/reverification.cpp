@@ -75,10 +75,8 @@ void findChanged(Reverification& found, const Verification& verification,
 
 }  // namespace
 
-Reverification verifyAgain(ShotTaker& shots, const Linearization& linearization,
-                           const Acquisition& acquisition, const AcquisitionSettings& settings,
-                           Progress& progress) {
-  Photographer photographer(shots, linearization);
+Reverification verifyAgain(const AcquisitionRun& run, const Acquisition& acquisition, Progress& progress) {
+  Photographer photographer(run.shots, run.linearization);
   const TransportMatrix& transport = acquisition.transport;
   require(photographer.cameras().count() == transport.cameras().count() &&
               photographer.projectors().count() == transport.projectors().count(),
@@ -88,14 +86,14 @@ Reverification verifyAgain(ShotTaker& shots, const Linearization& linearization,
   HdrFrame black = photographer.takeAll(Stack(3 * transport.projectors().count(), 0.0f), progress);
   std::vector<std::uint8_t> counted(acquisition.flagged.size());
   for (std::size_t row = 0; row < counted.size(); ++row) counted[row] = acquisition.flagged[row] == 0 ? 1 : 0;
-  std::vector<float> tolerable = tolerableNoise(acquisition.flood, settings);
-  auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) {
+  std::vector<float> tolerable = tolerableNoise(acquisition.flood, run.settings);
+  auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) -> Interruptible<HdrFrame> {
     return less(photographer.take(pattern, demands, progress), black);
   };
-  AcquisitionSettings patterns = settings;
-  patterns.verificationPatterns = std::max(verificationSizes, settings.verificationPatterns);
-  Verification verification =
-      verify({transport, black.radiance, tolerable}, light, patterns, counted, 0, progress);
+  AcquisitionSettings patterns = run.settings;
+  patterns.verificationPatterns = std::max(verificationSizes, run.settings.verificationPatterns);
+  const Verification verification =
+      *verify({transport, black.radiance, tolerable}, light, {patterns, counted}, progress);
 
   Reverification found;
   Residual all = sumOf(verification.bySize);
@@ -106,10 +104,10 @@ Reverification verifyAgain(ShotTaker& shots, const Linearization& linearization,
   found.adapted = all.light > 0.0 ? std::sqrt(all.squaredAt(found.lamp) / all.light) : 0.0;
   double flood = meanOf(acquisition.flood);
   found.ambient = flood > 0.0 ? (meanOf(black.radiance) - meanOf(acquisition.black)) / flood : 0.0;
-  findChanged(found, verification, counted, settings);
-  found.residual = std::move(verification.residual);
-  found.patterns = shots.shots();
-  found.exposures = shots.exposures();
+  findChanged(found, verification, counted, run.settings);
+  found.residual = verification.residual;
+  found.patterns = run.shots.shots();
+  found.exposures = run.shots.exposures();
   progress.report(1.0);
   return found;
 }

@@ -29,11 +29,10 @@ struct Reverification {
 };
 
 /// Photographs black and the held-out patterns of the verification again, and compares them with T p. About
-/// ten patterns; nothing of the calibration is changed.
-/// Throws: Error{device, input}; Cancelled; require() that the sizes are those of T.
-Reverification verifyAgain(ShotTaker& shots, const Linearization& linearization,
-                           const Acquisition& acquisition, const AcquisitionSettings& settings,
-                           Progress& progress);
+/// ten patterns; nothing of the calibration is changed. Nothing is watched meanwhile, so the run needs
+/// neither handler nor observer. Throws: Error{device, input}; Cancelled; require() that the sizes are those
+/// of T.
+Reverification verifyAgain(const AcquisitionRun& run, const Acquisition& acquisition, Progress& progress);
 
 /// What follows from it.
 enum class Verdict {

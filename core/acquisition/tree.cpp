@@ -54,18 +54,21 @@ Code spreadCode(const ColourBlock& variance, float scale) {
   return code;
 }
 
-Tree emptyTree(const NodeLayout& layout, const References& references) {
+Tree emptyTree(const References& references, const std::vector<std::uint8_t>& rows) {
+  NodeLayout layout(references.projectors);
+  BlockSparse none = noPairs(layout.count(), references.fullScale);
+  std::size_t count = references.fullScale.size();
   return {layout,
           {},
-          noPairs(layout.count(), references.fullScale),
-          noPairs(layout.count(), references.fullScale),
-          std::vector<ColourBlock>(references.fullScale.size(), ColourBlock::Zero()),
-          std::vector<LeafNoise>(references.fullScale.size()),
-          references.usable,
-          std::vector<std::uint8_t>(references.fullScale.size(), 0)};
+          none,
+          none,
+          std::vector<ColourBlock>(count, ColourBlock::Zero()),
+          std::vector<LeafNoise>(count),
+          rows,
+          std::vector<std::uint8_t>(count, 0)};
 }
 
-void plantRoots(Tree& tree, int level, const References& references, const Scheme& scheme) {
+void addRoots(Tree& tree, int level, const References& references, const Scheme& scheme) {
   std::vector<std::size_t> ending;
   for (std::size_t projector = 0; projector < tree.layout.projectors().devices(); ++projector)
     if (tree.layout.levels(projector) == level + 1) ending.push_back(projector);
@@ -119,7 +122,7 @@ void stopDividing(Tree& tree, const References& references) {
   tree.spread = std::move(none);
 }
 
-BlockSparse harvest(Tree& tree, const References& references) {
+BlockSparse takeLeaves(Tree& tree, const References& references) {
   std::size_t blocks = 0;
   for (const BlockSparse& level : tree.leaves) blocks += level.blocks();
   BlockSparseWriter all(tree.layout.count(), references.fullScale, blocks);

@@ -35,11 +35,11 @@ struct Tree {
   std::vector<std::uint8_t> unknown;  // per row: some light was too bright for every exposure
 };
 
-/// A tree of no nodes.
-Tree emptyTree(const NodeLayout& layout, const References& references);
+/// A tree of no nodes yet for the camera pixels of `rows`.
+Tree emptyTree(const References& references, const std::vector<std::uint8_t>& rows);
 
 /// Adds the roots of the projectors whose pyramid ends at `level`: active where they matter, else leaves.
-void plantRoots(Tree& tree, int level, const References& references, const Scheme& scheme);
+void addRoots(Tree& tree, int level, const References& references, const Scheme& scheme);
 
 /// Standard deviations as codes, never zero: they stand beside an active pair's value.
 BlockSparseWriter::Code spreadCode(const ColourBlock& variance, float scale);
@@ -50,7 +50,7 @@ void adopt(Tree& tree, const Children& children, const References& references);
 /// Turns what is active into leaves, at the level where it stands.
 void stopDividing(Tree& tree, const References& references);
 
-/// All leaves in one matrix; empties the tree.
-BlockSparse harvest(Tree& tree, const References& references);
+/// All leaves in one matrix; they are taken out of the tree, as two of them need not fit into memory.
+BlockSparse takeLeaves(Tree& tree, const References& references);
 
 }  // namespace relucent

@@ -106,28 +106,30 @@ void Residual::add(const Residual& other) {
   predicted += other.predicted;
 }
 
-Verification verify(const Expectation& expected, const LightSource& light,
-                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
-                    Progress& progress) {
+Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
+                                   const VerificationTask& task, Progress& progress) {
+  const std::vector<std::uint8_t>& rows = task.rows;
+  const int wanted = task.settings.verificationPatterns;
   std::size_t count = rows.size();
   Verification verification;
   verification.rows.assign(count, {});
   verification.residual.assign(verificationSizes, Stack(3 * count, 0.0f));
   std::array<int, verificationSizes> patterns{};
   bool any = std::any_of(rows.begin(), rows.end(), [](std::uint8_t row) { return row != 0; });
-  for (int number = first; any && number < first + settings.verificationPatterns; ++number) {
-    Stack pattern = verificationPattern(expected.transport.projectors(), number, settings.seed);
+  for (int number = task.first; any && number < task.first + wanted; ++number) {
+    Stack pattern = verificationPattern(expected.transport.projectors(), number, task.settings.seed);
     std::vector<Prediction> predicted = predictions(expected.transport, pattern, rows);
-    HdrFrame seen = light(pattern, demandsOf(expected, predicted, rows));
+    Interruptible<HdrFrame> seen = light(pattern, demandsOf(expected, predicted, rows));
+    if (!seen) return seen.interruption();
 
     auto size = static_cast<std::size_t>(number % verificationSizes);
     ++patterns[size];
-    std::vector<Residual> residual = compared(seen, predicted, rows, verification.residual[size]);
+    std::vector<Residual> residual = compared(*seen, predicted, rows, verification.residual[size]);
     for (std::size_t row = 0; row < count; ++row) {
       verification.rows[row].add(residual[row]);
       verification.bySize[size].add(residual[row]);
     }
-    progress.report(static_cast<double>(number - first + 1) / settings.verificationPatterns);
+    progress.report(static_cast<double>(number - task.first + 1) / wanted);
   }
   for (std::size_t size = 0; size < verificationSizes; ++size)
     for (float& value : verification.residual[size])
@@ -135,19 +137,16 @@ Verification verify(const Expectation& expected, const LightSource& light,
 
   verification.flagged.assign(count, 0);
   for (std::size_t row = 0; row < count; ++row)
-    verification.flagged[row] = isWrong(verification.rows[row], settings) ? 1 : 0;
+    verification.flagged[row] = isWrong(verification.rows[row], task.settings) ? 1 : 0;
   return verification;
 }
 
-Verification verify(const TransportMatrix& transport, Watch& watch, const References& references,
-                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
-                    Progress& progress) {
-  Scheme scheme = schemeOf(settings, references);
+Interruptible<Verification> verify(const TransportMatrix& transport, const TreeContext& context,
+                                   const VerificationTask& task, Progress& progress) {
   auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) {
-    return watch.light(pattern, demands, progress);
+    return context.watch.light(pattern, demands, progress);
   };
-  return verify({transport, references.black.radiance, scheme.tolerable}, light, settings, rows, first,
-                progress);
+  return verify({transport, context.watch.black().radiance, context.scheme.tolerable}, light, task, progress);
 }
 
 bool isWrong(const Residual& residual, const AcquisitionSettings& settings) {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "acquisition/settings.h"
-#include "sentinels/watch.h"
+#include "acquisition/tree_context.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
@@ -44,7 +44,8 @@ struct Verification {
 };
 
 /// The light of a pattern, radiance less e.
-using LightSource = std::function<HdrFrame(const Stack& pattern, const std::vector<Demand>& demands)>;
+using LightSource =
+    std::function<Interruptible<HdrFrame>(const Stack& pattern, const std::vector<Demand>& demands)>;
 
 /// What a held-out photograph is compared with, and how good it has to be.
 struct Expectation {
@@ -53,16 +54,21 @@ struct Expectation {
   const std::vector<float>& tolerable;  // deviation of a frame that is good enough, per camera pixel
 };
 
+/// Which patterns are photographed, and what counts as wrong.
+struct VerificationTask {
+  const AcquisitionSettings& settings;
+  const std::vector<std::uint8_t>& rows;  // the camera pixels that count
+  int first = 0;                          // number of the first pattern: another round sees other patterns
+};
+
 /// Photographs random binary patterns of blocks of 1, 2, 4 and 8 pixels, every channel of every block lit or
-/// not by chance, and compares them with T p. `rows`: the camera pixels that count. `first`: the number of
-/// the first pattern, so that another round sees other patterns. Throws: what `light` throws; Cancelled.
-Verification verify(const Expectation& expected, const LightSource& light,
-                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
-                    Progress& progress);
+/// not by chance, and compares them with T p.
+/// Returns: as `light`.  Throws: what that throws; Cancelled.
+Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
+                                   const VerificationTask& task, Progress& progress);
 /// The same while T is being measured. Throws: as Watch::check().
-Verification verify(const TransportMatrix& transport, Watch& watch, const References& references,
-                    const AcquisitionSettings& settings, const std::vector<std::uint8_t>& rows, int first,
-                    Progress& progress);
+Interruptible<Verification> verify(const TransportMatrix& transport, const TreeContext& context,
+                                   const VerificationTask& task, Progress& progress);
 
 /// The pattern `number` of those: a projector stack of zeros and ones.
 Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed);

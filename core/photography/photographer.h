@@ -25,6 +25,7 @@ class Photographer {
   /// Keeps references: both outlive it.
   Photographer(ShotTaker& shots, const Linearization& linearization);
 
+  ShotTaker& shots() { return shots_; }
   const Rasters& cameras() const { return cameras_; }
   const Rasters& projectors() const { return projectors_; }
 

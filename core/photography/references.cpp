@@ -110,6 +110,8 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   }
 
   References references;
+  references.cameras = photographer.cameras();
+  references.projectors = projectors;
   references.black = meanOf(frames[0]);
   references.usable.assign(rows, 1);
   for (std::size_t row = 0; row < rows; ++row)

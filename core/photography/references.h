@@ -8,9 +8,10 @@
 
 namespace relucent {
 
-/// What is measured before the tree: black, and every projector's floods in red, green and blue, which are
-/// the root of its tree.
+/// What is measured once, before the tree: black, and every projector's floods in red, green and blue, which
+/// are the root of its tree. It stays as it was measured; what becomes of e is followed by sentinels/watch.h.
 struct References {
+  Rasters cameras, projectors;                 // rows and columns of T
   HdrFrame black;                              // e
   std::vector<std::vector<ColourBlock>> root;  // [projector][row]: flood less e, camera x projector channel
   std::vector<std::vector<ColourBlock>> rootVariance;

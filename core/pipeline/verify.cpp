@@ -50,7 +50,7 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
   ShotTaker shots(rig, log, "verify");
   VerifyResult result;
   result.errorThen = acquisition.verificationError;
-  result.found = verifyAgain(shots, linearization, acquisition, calibrated.acquisition, verifying);
+  result.found = verifyAgain({shots, linearization, calibrated.acquisition}, acquisition, verifying);
   result.judgement = judge(result.found, result.errorThen);
   result.seconds = watch.seconds();
   if (!settings.out.empty())

@@ -19,8 +19,8 @@ enum class AlarmKind {
   projectorAsleep,  // the projectors show nothing
 };
 
-/// Whether a measurement that goes on with it may still be of use. All else can only be put right.
-constexpr bool mayBePutUpWith(AlarmKind kind) {
+/// Whether a measurement that goes on in spite of it may still be of use. All else has to be put right.
+constexpr bool isAcceptable(AlarmKind kind) {
   return kind == AlarmKind::flicker || kind == AlarmKind::ambientChanged || kind == AlarmKind::lampChanged ||
          kind == AlarmKind::moved || kind == AlarmKind::localChange;
 }
@@ -36,7 +36,7 @@ struct Alarm {
 };
 
 /// - retry: what is not safe is photographed again, from devices that have been put right;
-/// - skip: this finding is put up with, and named among the acquisition's findings. The next check compares
+/// - skip: this finding is accepted, and named among the acquisition's findings. The next check compares
 ///   with what is there now: it raises an alarm if that changes again;
 /// - keepAndStop: ends with what is safe, a valid but coarser T.
 enum class Answer { retry, skip, keepAndStop };

@@ -41,12 +41,12 @@ Alarm alarm(AlarmKind kind, std::string what, std::string advice) {
   return {kind, std::move(what), "every photograph up to the check before is safe", std::move(advice)};
 }
 
-std::optional<Alarm> inspectDarkness(const Check& now, const References& references, double power) {
+std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline, double power) {
   if (power > darkShare) return std::nullopt;
   Stack seen = now.light.radiance;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += now.black.radiance[i];
-  Sum black = sumOf(references.black.radiance, references.black.variance, references);
-  Sum all = sumOf(seen, now.light.variance, references);
+  Sum black = sumOf(baseline.black.radiance, baseline.black.variance, baseline.references);
+  Sum all = sumOf(seen, now.light.variance, baseline.references);
   if (black.isSignificant() && all.value > 0.5 * black.value)
     return alarm(AlarmKind::projectorAsleep,
                  "the projector shows nothing, the room's own light is still seen",
@@ -62,12 +62,13 @@ double roomLight(const HdrFrame& black, const References& references) {
   return whole > 0.0 ? light / whole : 0.0;
 }
 
-std::optional<Alarm> inspectAmbient(const Check& now, const References& references) {
+std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) {
+  const References& references = baseline.references;
   Sum change;
   for (std::size_t i = 0; i < now.black.radiance.size(); ++i) {
     if (!references.usable[i / 3]) continue;
-    change.value += static_cast<double>(now.black.radiance[i] - references.black.radiance[i]);
-    change.variance += static_cast<double>(now.black.variance[i] + references.black.variance[i]);
+    change.value += static_cast<double>(now.black.radiance[i] - baseline.black.radiance[i]);
+    change.variance += static_cast<double>(now.black.variance[i] + baseline.black.variance[i]);
   }
   double limit = reading_limit::roomLight * static_cast<double>(references.typical) *
                  static_cast<double>(now.black.radiance.size());
@@ -84,8 +85,10 @@ struct Views {
   std::size_t changed = 0;                       // pixels off by a share of their own light
 };
 
-Views viewsOf(std::size_t camera, const Check& now, const Check& first, const References& references,
-              const Rasters& cameras, double power) {
+Views viewsOf(std::size_t camera, const Check& now, const Baseline& baseline, double power) {
+  const References& references = baseline.references;
+  const Rasters& cameras = references.cameras;
+  const HdrFrame& first = baseline.first.light;
   Size size = cameras.size(camera);
   Views views{Image(size, 1), Image(size, 1)};
   for (std::size_t i = 0; i < size.count(); ++i) {
@@ -93,9 +96,9 @@ Views viewsOf(std::size_t camera, const Check& now, const Check& first, const Re
     if (!references.usable[row]) continue;
     double was = 0.0, is = 0.0, variance = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
-      was += static_cast<double>(first.light.radiance[3 * row + c]);
+      was += static_cast<double>(first.radiance[3 * row + c]);
       is += static_cast<double>(now.light.radiance[3 * row + c]) / power;
-      variance += static_cast<double>(now.light.variance[3 * row + c] + first.light.variance[3 * row + c]);
+      variance += static_cast<double>(now.light.variance[3 * row + c] + first.variance[3 * row + c]);
     }
     views.before.data()[i] = static_cast<float>(was);
     views.after.data()[i] = static_cast<float>(is);
@@ -108,11 +111,11 @@ Views viewsOf(std::size_t camera, const Check& now, const Check& first, const Re
   return views;
 }
 
-std::optional<Alarm> inspectView(const Check& now, const Check& first, const References& references,
-                                 const Rasters& cameras, double power) {
+std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, double power) {
+  const Rasters& cameras = baseline.references.cameras;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     Size size = cameras.size(camera);
-    Views views = viewsOf(camera, now, first, references, cameras, power);
+    Views views = viewsOf(camera, now, baseline, power);
     bool different = views.apart > reading_limit::view * reading_limit::view * views.whole &&
                      views.apart > 4.0 * views.noise;
     bool local = static_cast<double>(views.changed) > localShare * static_cast<double>(size.count());
@@ -189,16 +192,16 @@ double lampPower(const Check& now, const Check& first, const References& referen
   return before > 0.0 ? after / before : 1.0;
 }
 
-Reading readingOf(const Check& now, const Check& first, const References& references, const Rasters& cameras,
-                  double expectedPower) {
+Reading readingOf(const Check& now, const Baseline& baseline) {
+  const References& references = baseline.references;
   Reading reading;
   reading.roomLight = roomLight(now.black, references);
-  reading.roomLightAtFirst = roomLight(first.black, references);
-  reading.roomLightExpected = roomLight(references.black, references);
-  reading.lamp = lampPower(now, first, references);
-  reading.lampExpected = expectedPower;
-  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    Views views = viewsOf(camera, now, first, references, cameras, reading.lamp);
+  reading.roomLightAtFirst = roomLight(baseline.first.black, references);
+  reading.roomLightExpected = roomLight(baseline.black, references);
+  reading.lamp = lampPower(now, baseline.first, references);
+  reading.lampExpected = baseline.power;
+  for (std::size_t camera = 0; camera < references.cameras.devices(); ++camera) {
+    Views views = viewsOf(camera, now, baseline, reading.lamp);
     if (views.whole > 0.0)
       reading.view =
           std::max(reading.view, std::sqrt(std::max(0.0, views.apart - views.noise) / views.whole));
@@ -206,23 +209,22 @@ Reading readingOf(const Check& now, const Check& first, const References& refere
   return reading;
 }
 
-std::optional<Alarm> inspect(const Check& now, const Check& first, const References& references,
-                             const Rasters& cameras, double expectedPower) {
-  double power = lampPower(now, first, references);
-  if (auto dark = inspectDarkness(now, references, power)) return dark;
-  if (auto ambient = inspectAmbient(now, references)) return ambient;
-  if (auto view = inspectView(now, first, references, cameras, power)) return view;
-  if (std::abs(power / expectedPower - 1.0) > reading_limit::lamp)
+std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
+  double power = lampPower(now, baseline.first, baseline.references);
+  if (auto dark = inspectDarkness(now, baseline, power)) return dark;
+  if (auto ambient = inspectAmbient(now, baseline)) return ambient;
+  if (auto view = inspectView(now, baseline, power)) return view;
+  if (std::abs(power / baseline.power - 1.0) > reading_limit::lamp)
     return alarm(AlarmKind::lampChanged,
                  fmt::format("the projector's light changed by {:.0f} % within a few photographs",
-                             100.0 * (power / expectedPower - 1.0)),
+                             100.0 * (power / baseline.power - 1.0)),
                  "switch off its automatic brightness and eco modes, let it warm up, then retry");
   return std::nullopt;
 }
 
 std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t projector,
-                                        const References& references, const Rasters& cameras,
-                                        bool mayBeMirrored) {
+                                        const References& references, bool mayBeMirrored) {
+  const Rasters& cameras = references.cameras;
   Halves leftRight, upperLower;
   double turned = 0.0, span = 0.0;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {

@@ -20,22 +20,26 @@ struct Check {
   HdrFrame light;  // the reference picture less black
 };
 
+/// What a check is compared with.
+struct Baseline {
+  const References& references;
+  const HdrFrame& black;  // e as it was followed so far
+  const Check& first;     // its light that of a later check whose view was accepted
+  double power = 1.0;     // of the lamp, continued from the checks before
+};
+
 /// Total light of a check relative to the first one.
 double lampPower(const Check& now, const Check& first, const References& references);
 
 /// A check in numbers, its shot, flicker and alarm left open: as inspect() compares them.
-Reading readingOf(const Check& now, const Check& first, const References& references, const Rasters& cameras,
-                  double expectedPower);
+Reading readingOf(const Check& now, const Baseline& baseline);
 
-/// Compares a check with the first one and with what is expected now: e as in `references`, the lamp at
-/// `expectedPower`. The most fundamental finding only.
-std::optional<Alarm> inspect(const Check& now, const Check& first, const References& references,
-                             const Rasters& cameras, double expectedPower);
+/// Compares a check with what is expected. The most fundamental finding only.
+std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 
 /// Whether the reference picture on one projector appears at all, and the right way round. Its colours are
 /// unmixed per camera pixel by the floods; the halves' centres of light span a frame, whose handedness tells.
 std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t projector,
-                                        const References& references, const Rasters& cameras,
-                                        bool mayBeMirrored);
+                                        const References& references, bool mayBeMirrored);
 
 }  // namespace relucent

@@ -70,95 +70,115 @@ void join(HdrFrame& into, const HdrFrame& other) {
 
 }  // namespace
 
-Watch::Watch(Photographer& photographer, ShotTaker& shots, References& references,
-             const WatchSettings& settings, Decisions& decisions, AcquisitionObserver& observer)
+Watch::Watch(Photographer& photographer, const References& references, const WatchSettings& settings,
+             Supervision& supervision)
     : photographer_(photographer),
-      shots_(shots),
+      shots_(photographer.shots()),
       references_(references),
       settings_(settings),
-      decisions_(decisions),
-      observer_(observer) {}
+      supervision_(supervision),
+      black_(references.black) {}
 
-Check Watch::photographCheck(const Progress& progress) {
-  beginPhotograph();
-  HdrFrame black = photographer_.takeAll(relucent::black(projectors()), progress);
-  inspectBracket();
-  HdrFrame light = photographer_.takeAll(referencePattern(projectors()), progress);
-  inspectBracket();
-  return {black, lessBlack(std::move(light), black)};
+Interruptible<HdrFrame> Watch::photographed(const Photograph& photograph) {
+  HdrFrame frame = photograph();
+  if (auto interrupted = inspectBracket()) return *interrupted;
+  return frame;
 }
 
-void Watch::begin(const Progress& progress) {
-  trusted_ = 0;
-  if (references_.flicker > roundsLimit)
-    handle(flickerAlarm(references_.flicker, "every photograph before the light transport is"), 0);
-  for (std::size_t projector = 0; projector < projectors().devices(); ++projector) {
-    Stack pattern = referencePattern(projectors(), projector);
-    HdrFrame light = lessBlack(photographer_.takeAll(pattern, progress), references_.black);
-    if (auto alarm = inspectOrientation(light, projector, references_, cameras(), settings_.mayBeMirrored))
-      handle(*alarm, 0);
+Interruptible<Check> Watch::photographCheck(const Progress& progress) {
+  photographedBefore_ = shots_.times().shots;
+  const Rasters& projectors = references_.projectors;
+  auto black = photographed([&] { return photographer_.takeAll(relucent::black(projectors), progress); });
+  if (!black) return black.interruption();
+  auto light = photographed([&] { return photographer_.takeAll(referencePattern(projectors), progress); });
+  if (!light) return light.interruption();
+  return Check{*black, lessBlack(*std::move(light), *black)};
+}
+
+std::optional<Interruption> Watch::inspectProjectors(const Progress& progress) {
+  for (std::size_t projector = 0; projector < references_.projectors.devices(); ++projector) {
+    Stack pattern = referencePattern(references_.projectors, projector);
+    HdrFrame light = lessBlack(photographer_.takeAll(pattern, progress), black_);
+    std::optional<Alarm> alarm = inspectOrientation(light, projector, references_, settings_.mayBeMirrored);
+    if (!alarm) continue;
+    if (auto interrupted = handle(*alarm, 0)) return interrupted;
   }
-  first_ = photographCheck(progress);
+  return std::nullopt;
+}
+
+std::optional<Interruption> Watch::begin(const Progress& progress) {
+  trusted_ = 0;
+  if (references_.flicker > roundsLimit) {
+    Alarm alarm = flickerAlarm(references_.flicker, "every photograph before the light transport is");
+    if (auto interrupted = handle(alarm, 0)) return interrupted;
+  }
+  if (auto interrupted = inspectProjectors(progress)) return interrupted;
+  Interruptible<Check> check = photographCheck(progress);
+  if (!check) return check.interruption();
+  first_ = *std::move(check);
   last_ = beforeLast_ = {shots_.shots(), 1.0};
-  inspectCheck(first_, 1.0, 0);
+  if (auto interrupted = inspectCheck(first_, 1.0, 0)) return interrupted;
   follow(first_);
   trusted_ = shots_.shots();
+  return std::nullopt;
 }
 
-void Watch::check(const Progress& progress) {
-  if (shots_.shots() == trusted_) return;
-  Check now = photographCheck(progress);
-  inspectCheck(now, power(), trusted_);
-  follow(now);
+std::optional<Interruption> Watch::check(const Progress& progress) {
+  if (shots_.shots() == trusted_) return std::nullopt;
+  Interruptible<Check> now = photographCheck(progress);
+  if (!now) return now.interruption();
+  if (auto interrupted = inspectCheck(*now, power(), trusted_)) return interrupted;
+  follow(*now);
   trusted_ = shots_.shots();
+  return std::nullopt;
 }
 
-void Watch::inspectCheck(const Check& now, double expectedPower, int doubtful) {
-  std::optional<Alarm> alarm = inspect(now, first_, references_, cameras(), expectedPower);
+std::optional<Interruption> Watch::inspectCheck(const Check& now, double expectedPower, int doubtful) {
+  Baseline baseline{references_, black_, first_, expectedPower};
+  std::optional<Alarm> alarm = inspect(now, baseline);
   if (isNew()) {
-    Reading reading = readingOf(now, first_, references_, cameras(), expectedPower);
+    Reading reading = readingOf(now, baseline);
     reading.shot = shots_.shots();
     reading.flicker = std::exchange(flicker_, 0.0);
     if (alarm) reading.alarm = alarm->kind;
-    observer_.checked(reading);
+    supervision_.observer.checked(reading);
   }
-  if (!alarm) return;
-  handle(*alarm, doubtful);
+  if (!alarm) return std::nullopt;
+  if (auto interrupted = handle(*alarm, doubtful)) return interrupted;
   if (alarm->kind == AlarmKind::moved || alarm->kind == AlarmKind::localChange)
-    first_.light = brightenedBy(1.0 / expectedPower, now.light);  // the view changed, not the lamp
+    first_.light = brightenedBy(1.0 / expectedPower,
+                                now.light);  // the view changed, not the lamp
+  return std::nullopt;
 }
 
 void Watch::contradicted(int shot, int patterns) {
-  if (isNew()) observer_.takenAgain({shot, patterns, RetakeReason::contradiction});
+  if (isNew()) supervision_.observer.takenAgain({shot, patterns, RetakeReason::contradiction});
 }
 
-void Watch::handle(const Alarm& alarm, int doubtful) {
+std::optional<Interruption> Watch::handle(const Alarm& alarm, int doubtful) {
   int shot = shots_.shots();
-  if (decisions_.putUpWith.contains(shot)) return;
-  Answer answer = decisions_.handler ? decisions_.handler(alarm) : Answer::retry;
+  std::map<int, std::string>& accepted = supervision_.accepted;
+  if (accepted.contains(shot)) return std::nullopt;
+  Answer answer = supervision_.handler ? supervision_.handler(alarm) : Answer::retry;
   if (answer == Answer::skip) {
-    decisions_.putUpWith.emplace(shot, alarm.what);
-    return;
+    accepted.emplace(shot, alarm.what);
+    return std::nullopt;
   }
   shots_.forgetFrom(doubtful);
-  decisions_.putUpWith.erase(decisions_.putUpWith.upper_bound(doubtful), decisions_.putUpWith.end());
-  if (answer == Answer::keepAndStop) throw KeepAndStop();
-  if (!decisions_.handler)
+  accepted.erase(accepted.upper_bound(doubtful), accepted.end());
+  if (answer == Answer::keepAndStop) return Interruption::keepAndStop;
+  if (!supervision_.handler)
     throw Error(ErrorKind::device, alarm.what, alarm.advice + " by resuming the calibration; " + alarm.safe,
                 "light transport");
-  observer_.takenAgain({doubtful, shot - doubtful, RetakeReason::alarm, alarm.kind});
-  throw BeginAgain();
+  supervision_.observer.takenAgain({doubtful, shot - doubtful, RetakeReason::alarm, alarm.kind});
+  return Interruption::beginAgain;
 }
 
-void Watch::checkIfDue(const Progress& progress) {
-  if (shots_.shots() - trusted_ >= settings_.checkInterval) check(progress);
-}
-
-void Watch::inspectBracket() {
+std::optional<Interruption> Watch::inspectBracket() {
   double apart = photographer_.contradiction();
   flicker_ = std::max(flicker_, apart);
-  if (apart < reading_limit::flicker) return;
-  handle(flickerAlarm(apart, "every photograph up to the check before is"), trusted_);
+  if (apart < reading_limit::flicker) return std::nullopt;
+  return handle(flickerAlarm(apart, "every photograph up to the check before is"), trusted_);
 }
 
 double Watch::power() const {
@@ -169,36 +189,38 @@ double Watch::power() const {
 }
 
 void Watch::follow(const Check& check) {
-  if (deviation(check.black, references_.black) > changedBlack)
-    references_.black = check.black;
+  if (deviation(check.black, black_) > changedBlack)
+    black_ = check.black;
   else
-    join(references_.black, check.black);
+    join(black_, check.black);
   beforeLast_ = last_;
   last_ = {shots_.shots(), lampPower(check, first_, references_)};
 }
 
-HdrFrame Watch::lightOf(HdrFrame frame) const {
-  return brightenedBy(1.0 / power(), lessBlack(std::move(frame), references_.black));
+Interruptible<HdrFrame> Watch::lightOf(const Photograph& photograph, const Progress& progress) {
+  if (shots_.shots() - trusted_ >= settings_.checkInterval)
+    if (auto interrupted = check(progress)) return *interrupted;
+  photographedBefore_ = shots_.times().shots;
+  Interruptible<HdrFrame> frame = photographed(photograph);
+  if (!frame) return frame;
+  return brightenedBy(1.0 / power(), lessBlack(*std::move(frame), black_));
 }
 
-HdrFrame Watch::light(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
-                      const Meanwhile& meanwhile) {
-  checkIfDue(progress);
-  beginPhotograph();
-  int shot = shots();
-  HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
-  if (int again = photographer_.overexposed(); again > 0 && isNew())
-    observer_.takenAgain({shot, again, RetakeReason::overexposed});
-  inspectBracket();
-  return lightOf(std::move(frame));
+Interruptible<HdrFrame> Watch::light(const Stack& pattern, const std::vector<Demand>& demands,
+                                     const Progress& progress, const Meanwhile& meanwhile) {
+  auto take = [&] {
+    int shot = shots();
+    HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
+    if (int again = photographer_.overexposed(); again > 0 && isNew())
+      supervision_.observer.takenAgain({shot, again, RetakeReason::overexposed});
+    return frame;
+  };
+  return lightOf(take, progress);
 }
 
-HdrFrame Watch::lightOfAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile) {
-  checkIfDue(progress);
-  beginPhotograph();
-  HdrFrame frame = photographer_.takeAll(pattern, progress, meanwhile);
-  inspectBracket();
-  return lightOf(std::move(frame));
+Interruptible<HdrFrame> Watch::lightOfAll(const Stack& pattern, const Progress& progress,
+                                          const Meanwhile& meanwhile) {
+  return lightOf([&] { return photographer_.takeAll(pattern, progress, meanwhile); }, progress);
 }
 
 }  // namespace relucent

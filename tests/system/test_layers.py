@@ -20,8 +20,8 @@ SOURCE = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else Path(__file__
 OWN_FOLDERS = ["core", "gui", "tests", "packaging", ".ci", "resources", "translations"]
 # Folders with circles of includes that are still to be broken; no other may have one.
 STILL_CIRCULAR = {
-    "core/cli", "core/clustering", "core/compensation", "core/engine/bench", "core/engine/opengl", "core/linearization",
-    "core/pipeline", "core/venue", "gui/output", "gui/wizard/output",
+    "core/calibration", "core/cli", "core/clustering", "core/compensation", "core/engine/bench", "core/engine/opengl", "core/linearization",
+    "core/pipeline", "core/venue", "gui/output", "gui/wizard/output", "gui/wizard/session",
 }
 SOURCE_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".cmake", ".comp", ".vert", ".frag"}
 

@@ -343,7 +343,7 @@ void AcquirePage::finish() {
 void AcquirePage::askAbout(const Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
                   QString::fromStdString(alarm.sentence()), AcquisitionTrace::headingOf(alarm.kind)};
-  Command* goOn = mayBePutUpWith(alarm.kind) ? skipAlarm_ : nullptr;
+  Command* goOn = isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
   Q_EMIT failed({failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn});
   Q_EMIT asks();
 }

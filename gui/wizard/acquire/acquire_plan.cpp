@@ -17,7 +17,7 @@ std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& setting
   if (projectors.count() == 0) return std::nullopt;
   // Photographs are counted, not their pixels.
   const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
-  return relucent::forecast(cameras, projectors, exposures.size(), mean, settings, response_->times, {});
+  return relucent::forecast({cameras, projectors, exposures.size(), mean}, settings, response_->times, {});
 }
 
 std::vector<BlockLevel> AcquirePage::levels() const {

@@ -54,7 +54,7 @@ WorkLeft VenuePage::expected() const {
   constexpr std::size_t exposures = 2;
   constexpr double meanExposure = 0.1;
   Rasters projectors(std::vector<Size>(Session::projectorsOf(wanted().rig), projector));
-  return forecast(Rasters(camera), projectors, exposures, meanExposure, {}, {}, {});
+  return forecast({Rasters(camera), projectors, exposures, meanExposure}, {}, {}, {});
 }
 
 std::pair<double, double> VenuePage::expectedSeconds() const {

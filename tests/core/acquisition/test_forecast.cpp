@@ -162,7 +162,7 @@ class TestForecast : public QObject {
     int before = 0;
     for (double threshold : {0.1, 0.02, 0.008, 0.006}) {
       settings.relativeThreshold = threshold;
-      WorkLeft work = forecast(Rasters(Size{64, 48}), Rasters(Size{128, 96}), 2, 0.1, settings, {}, {});
+      WorkLeft work = forecast({Rasters(Size{64, 48}), Rasters(Size{128, 96}), 2, 0.1}, settings, {}, {});
       QVERIFY2(work.shots > before, qPrintable(QString::number(threshold)));
       before = work.shots;
     }
@@ -225,7 +225,7 @@ class TestForecast : public QObject {
     for (const std::string& level : listener.levels)
       state.levels.push_back(QString::fromStdString(level).section(": ", 1).section(' ', 0, 0).toInt());
     WorkLeft all =
-        forecast(Rasters({Size{24, 18}}), Rasters({Size{32, 24}}), 2, 0.1, venue.settings, {}, state);
+        forecast({Rasters(Size{24, 18}), Rasters(Size{32, 24}), 2, 0.1}, venue.settings, {}, state);
     QCOMPARE(all.shots, acquisition.patterns);
     QCOMPARE(all.leastShots, all.mostShots);
   }
@@ -242,14 +242,14 @@ class TestForecast : public QObject {
     slow.askedSquared = fast.askedSquared = 2.0;
     fast.capturing = 20.0;
     slow.bytes = fast.bytes = 200 * 40 * 30 * 6;
-    WorkLeft before = forecast(cameras, projectors, 2, 0.1, settings, slow, {});
+    WorkLeft before = forecast({cameras, projectors, 2, 0.1}, settings, slow, {});
     // A second an exposure, two a shot.
     QVERIFY(std::abs(before.seconds - 2.0 * before.shots) < 1e-6 * before.seconds);
-    WorkLeft under = forecast(cameras, projectors, 2, 0.1, settings, slow, {{}, 0, fast});
+    WorkLeft under = forecast({cameras, projectors, 2, 0.1}, settings, slow, {{}, 0, fast});
     QVERIFY(std::abs(under.seconds - 0.2 * under.shots) < 1e-6 * under.seconds);
     QCOMPARE(before.exposures, 2 * before.shots);
     QVERIFY(before.diskBytes >= static_cast<std::uint64_t>(before.exposures) * 40 * 30 * 6);
-    WorkLeft larger = forecast(Rasters({Size{80, 60}}), projectors, 2, 0.1, settings, slow, {});
+    WorkLeft larger = forecast({Rasters(Size{80, 60}), projectors, 2, 0.1}, settings, slow, {});
     QVERIFY(larger.memoryBytes > before.memoryBytes);
   }
 };

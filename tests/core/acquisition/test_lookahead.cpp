@@ -43,9 +43,9 @@ class TestLookahead : public QObject {
     });
     for (std::size_t frame = 0; frame < frames; ++frame) {
       bool inTime = true;
-      lookahead.take(
+      std::optional<Interruption> interrupted = lookahead.take(
           frame,
-          [&](const Numbered&, const Meanwhile& meanwhile) {
+          [&](const Numbered&, const Meanwhile& meanwhile) -> Interruptible<std::size_t> {
             return besides(meanwhile, [&] {
               if (frame + 1 < frames)
                 inTime = prepared[frame + 1].get_future().wait_for(patience) == std::future_status::ready;
@@ -56,6 +56,7 @@ class TestLookahead : public QObject {
             });
           },
           [&](const Numbered& of, std::size_t) { workedOut[of.number].set_value(); });
+      QVERIFY(!interrupted);
       QVERIFY2(inTime,
                qPrintable(QString("exposure %1 ended before frame %2 was ready").arg(frame).arg(frame + 1)));
     }
@@ -77,16 +78,18 @@ class TestLookahead : public QObject {
     QList<int> done;
     std::atomic<int> wrong = 0;
     Lookahead<Numbered> lookahead(4, [](std::size_t number, const Numbered*) { return Numbered{number}; });
-    for (int frame : order)
-      lookahead.take(
+    for (int frame : order) {
+      std::optional<Interruption> interrupted = lookahead.take(
           static_cast<std::size_t>(frame),
-          [&](const Numbered& of, const Meanwhile& meanwhile) {
+          [&](const Numbered& of, const Meanwhile& meanwhile) -> Interruptible<std::size_t> {
             return besides(meanwhile, [&] { return 10 * of.number; });
           },
           [&](const Numbered& of, std::size_t shown) {
             wrong += shown != 10 * of.number;
             done.push_back(static_cast<int>(of.number));
           });
+      QVERIFY(!interrupted);
+    }
     lookahead.finish();
     lookahead.finish();
     QCOMPARE(done, order);
@@ -96,10 +99,34 @@ class TestLookahead : public QObject {
   /// Nothing is left behind, and nothing waits for ever, when the camera fails.
   void aFailingExposureIsThrown() {
     Lookahead<Numbered> lookahead(2, [](std::size_t number, const Numbered*) { return Numbered{number}; });
-    auto fails = [&](const Numbered&, const Meanwhile& meanwhile) {
+    auto fails = [&](const Numbered&, const Meanwhile& meanwhile) -> Interruptible<int> {
       return besides(meanwhile, []() -> int { throw std::runtime_error("unplugged"); });
     };
-    QVERIFY_THROWS_EXCEPTION(std::runtime_error, lookahead.take(0, fails, [](const Numbered&, int) {}));
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error,
+                             std::ignore = lookahead.take(0, fails, [](const Numbered&, int) {}));
+  }
+
+  /// Law: an interruption comes back as it is; its frame is not worked out, the one before it is.
+  void anInterruptionIsReturned_data() {
+    QTest::addColumn<int>("interruption");
+    QTest::newRow("begin again") << static_cast<int>(Interruption::beginAgain);
+    QTest::newRow("keep and stop") << static_cast<int>(Interruption::keepAndStop);
+  }
+  void anInterruptionIsReturned() {
+    QFETCH(int, interruption);
+    const auto expected = static_cast<Interruption>(interruption);
+    QList<std::size_t> done;
+    Lookahead<Numbered> lookahead(3, [](std::size_t number, const Numbered*) { return Numbered{number}; });
+    auto expose = [&](const Numbered& of, const Meanwhile& meanwhile) -> Interruptible<std::size_t> {
+      meanwhile();
+      if (of.number == 1) return expected;
+      return of.number;
+    };
+    auto workOut = [&](const Numbered& of, std::size_t) { done.push_back(of.number); };
+    QVERIFY(!lookahead.take(0, expose, workOut));
+    QVERIFY(lookahead.take(1, expose, workOut) == expected);
+    lookahead.finish();
+    QCOMPARE(done, QList<std::size_t>{0});
   }
 
   /// Law: a measurement is the same bits on one core, where nothing overlaps, and on all.

@@ -31,7 +31,7 @@ class MeasuredVenue {
   Reverification lookAgain(Rig rig) {
     NoShotLog log;
     ShotTaker shots(rig, log, "verify");
-    return verifyAgain(shots, linearization_, acquisition_, settings_, progress_);
+    return verifyAgain({shots, linearization_, settings_}, acquisition_, progress_);
   }
   Rig rig() const { return venue_.rig(); }
   double errorThen() const { return acquisition_.verificationError; }

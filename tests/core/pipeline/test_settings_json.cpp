@@ -4,6 +4,7 @@
 #include <QTest>
 
 #include "base/error.h"
+#include "calibration/json.h"
 
 using namespace relucent;
 

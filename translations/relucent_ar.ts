@@ -13,1130 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>ترى الكاميرا ⁨%1⁩: يتبع ⁨%2⁩ من مجال رؤيتها نمط الاختبار.</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>تظهر الصورة معكوسة. إن لم يكن ذلك مقصودًا (عرض خلفي أو مرآة)، فأوقفه من قائمة جهاز العرض.</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>تصل الصور دون تأخر: يجب قياس زمن التأخير وانتظاره.</numerusform>
-            <numerusform>تتأخر الصور بمقدار صورة واحدة: يجب قياس زمن التأخير وانتظاره.</numerusform>
-            <numerusform>تتأخر الصور بمقدار صورتين: يجب قياس زمن التأخير وانتظاره.</numerusform>
-            <numerusform>تتأخر الصور بمقدار %n صور: يجب قياس زمن التأخير وانتظاره.</numerusform>
-            <numerusform>تتأخر الصور بمقدار %n صورة: يجب قياس زمن التأخير وانتظاره.</numerusform>
-            <numerusform>تتأخر الصور بمقدار %n صورة: يجب قياس زمن التأخير وانتظاره.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>ترى الكاميرا ⁨%1⁩ وليس ⁨%2⁩.</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>لا ترى الكاميرا ⁨%1⁩.</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>تظهر الصورة فور إرسالها: يُنتظر ⁨%1⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد إطار واحد من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد إطارين من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد %n إطارات من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد %n إطارًا من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
-            <numerusform>تظهر الصورة بعد %n إطار من إرسالها: يُنتظر ⁨%1⁩.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>يتغيّر الأبيض بمقدار ⁨%1⁩ من صورة إلى أخرى: عرّض إطارات كاملة لجهاز العرض، مضاعفات ⁨%2⁩، وأوقف السطوع الديناميكي.</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>يتغيّر الضوء بمقدار ⁨%1⁩ بين تعريضات إطارات كاملة: دع المصباح يسخن، وأوقف السطوع الديناميكي ومصابيح القاعة.</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>لا تستطيع الكاميرا التعريض لجزء من إطار، أو ترى القليل جدًا عندئذ: لا يمكن تمييز الارتعاش داخل الإطار.</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>يرتعش المصباح داخل الإطار بمقدار ⁨%1⁩ خلال ⁨%2⁩: عرّض إطارات كاملة، مضاعفات ⁨%3⁩.</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>تظهر الألوان واحدًا بعد آخر كما في عجلة ألوان (⁨%1⁩ خلال ⁨%2⁩): عرّض إطارات كاملة، مضاعفات ⁨%3⁩.</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>تعرّض الكاميرا صفوفها واحدًا بعد آخر (غالق متدحرج): في التعريضات القصيرة أشرطة بمقدار ⁨%1⁩. عرّض إطارات كاملة، مضاعفات ⁨%2⁩.</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>يمزج جهاز العرض درجات الرمادي زمنيًا، بكسلًا بكسلًا (⁨%1⁩): عرّض عدة إطارات كاملة، وأوقف التنعيم وأوضاع ثلاثية الأبعاد.</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>الضوء متجانس: لا يُرى ارتعاش ولا عجلة ألوان ولا أشرطة ولا تدرّج نقطي.</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>تحرّكت كاميرا أو جهاز عرض: انزاح مجال رؤية الكاميرا ⁨{}⁩ بمقدار ⁨{}, {}⁩ بكسل واستدار بمقدار ⁨{}⁩ درجة</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>حجم أحد ملفات المعايرة في مرحلة «⁨{}⁩» هو ⁨{}⁩ بايت بدلًا من ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>أحد ملفات المعايرة في مرحلة «⁨{}⁩» مفقود</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>المطلوب كسب مقداره ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>لا تكتمل الصورة الجديدة حتى بعد هذا العدد من الإطارات: ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>يتعذّر نقل لقطة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>يتعذّر حذف لقطة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>لقطة حجمها ⁨{} × {}⁩ بكسل بتنسيق ⁨{}⁩ وصل منها ⁨{}⁩ من أصل ⁨{}⁩ بايت</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>طُلبت لقطة ولم تصل</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>وجّه الكاميرا إلى الصورة المعروضة، وانزع غطاء عدستها، وأطِل التعريض</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>برنامج آخر يحجز الكاميرا</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>برنامج آخر يحجز الكاميرا، وهو غالبًا سطح المكتب الذي يتعامل معها كذاكرة USB</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>اطلب أحد الأحجام المتاحة: يسردها الأمر ⁨v4l2-ctl --list-formats-ext⁩</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>اطلب هذا الحجم أو أصغر منه</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>اطلب الحجم الذي تعطيه الكاميرا</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>يتعذّر إنشاء مجلد مؤقت (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>يتعذّر إنشاء المجلد (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>تتعذّر قراءة محتويات المجلد (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>يتعذّر الفتح (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>يتعذّر فتح المجلد (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>تتعذّر القراءة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>يتعذّر حذف الملف (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>تتعذّر الكتابة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>غيّر بطاقة الذاكرة أو أفرغها</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>اشحن البطارية أو غيّرها، والأفضل استخدام محوّل كهربائي، ثم شغّل الكاميرا مجددًا</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>افحص كابل الكاميرا وتغذيتها</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>افحص كابل الشاشة، وأوقف توفير الطاقة فيها</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>افحص كابل الكاميرا وتغذيتها وعنوانها؛ يسرد ⁨`relucent-cli devices`⁩ الأجهزة الموجودة</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>افحص كابل الكاميرا، وشغّلها، وأوقف إطفاءها التلقائي</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>تحقق من أن مشهد الكاميرا ثابت وأن تعريضها قصير، وأوقف تنعيم الحركة في جهاز العرض</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم تابع</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>تحقق من أن جهاز العرض يعمل ويعرض هذا الخرج، ووجّه الكاميرا إلى صورته، وانزع غطاء عدستها؛ أو اختر شاشة أخرى</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>تحقق من أن الشاشة الصحيحة مختارة وأن لا شيء يحجب الصورة، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>تحقق من أن القراءة مسموحة لك، أو اختر اسمًا آخر</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>افحص كابل الكاميرا وبطاقة الشبكة، وتحقق من أن لا برنامج آخر يستخدم الكاميرا</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>افحص الجهاز، أو امنح الأمر وقتًا أطول: ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>افحص القرص وكابله</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>تحقق من أذونات المجلد</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>تحقق من المسار</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>تحقق من المسار ومن أن القراءة مسموحة لك</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>تحقق من المسار والقرص</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>اختر مجلدًا يمكنك الكتابة فيه، أو اطلب الإذن بذلك</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>اختر مجلدًا يمكنك الكتابة فيه، وفيه مساحة كافية</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>اختر معايرة أخرى، أو انسخ هذه مجددًا من حيث قيست</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>اختر مجلدًا آخر باستخدام ⁨--log⁩</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>اختر ⁨{}⁩، أو وجّه الكاميرا إلى ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>أغلق قوائم الكاميرا ووضع استعراض الصور فيها، وأنهِ المعاينة الحية</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>أغلق قوائم الكاميرا، ثم أطفئها وشغّلها</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>أغلق البرامج الأخرى وحاول مجددًا</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>صِل الكاميرا التي بدأ بها القياس</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>انسخ الملف مجددًا، أو أعد التقاط اللقطة؛ الكاميرا الأحدث من إصدار LibRaw هذا تحتاج إلى ملفات DNG</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>حوّل الملفات تحويلًا خطيًا إلى TIFF بعمق 16 بت، أو استخدم كاميرا أخرى</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>كل اللقطات السابقة لقياس نقل الضوء آمنة</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>كل اللقطات حتى الفحص السابق آمنة</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>أخلِ بعض المساحة</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>أخلِ بعض المساحة هناك أو افحص القرص، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>أخلِ بعض المساحة هناك أو اختر قرصًا آخر، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>أخلِ بعض المساحة هناك، أو اجعل TMPDIR يشير إلى مجلد يمكنك الكتابة فيه</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>أخلِ بعض المساحة، أو سجّل في مكان آخر</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>ثبّت Aravis (⁨libaravis-dev⁩) وأعد بناء البرنامج، أو استخدم نوعًا آخر من الكاميرات</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>ثبّت libgphoto2 وLibRaw (⁨libgphoto2-dev, libraw-dev⁩) وأعد بناء البرنامج، أو استخدم أمرًا</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>ثبّت برنامج تشغيل بطاقة الرسومات، أو دع المعالج المركزي يتولى العمل</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>تتعذّر الإزالة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>القيم المتاحة: ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>التنسيقات المتاحة: ⁨{}⁩؛ تُقرأ تنسيقات Mono وBayer وRGB غير المحزومة (unpacked) بعمق 8 إلى 16 بت</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>الملف فارغ</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>اجعل الأمر يكتب اللقطة في ⁨{output}⁩: ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>اجعل الأمر يكتب بهذا الحجم، أو ابدأ من جديد بالحجم الذي تعطيه الكاميرا</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>حرّر الكاميرا من سطح المكتب بالأمر ⁨`gio mount -s gphoto2`⁩ (أو أخرجها من مدير الملفات) وأغلق برامج الصور</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>دع المعالج المركزي يتولى العمل</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>سجّل الدخول إلى سطح مكتب يعمل على X (اختر «Xorg» عند تسجيل الدخول)، أو شغّل ملفات</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>حدّد إحداها بمنفذها: ⁨gphoto2:{}⁩ أو ⁨gphoto2:{}⁩</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>حدّد هذه الكاميرا: ⁨gphoto2:{}⁩</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>لا تستجيب أي كاميرا GenICam باسم «⁨{}⁩»</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>لا توجد كاميرا موصولة بهذا الاسم، بل ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>لم تصل أي لقطة خلال ⁨{}⁩ ث</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>لا يوجد جهاز فيديو موصول بهذا الاسم</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>لا يمكن قراءة أي من تنسيقات البكسل في الكاميرا</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>أجزاء من الملف مفقودة</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>ضاعت أجزاء من اللقطة أثناء النقل</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>صِل الجهاز، وأغلق البرامج الأخرى التي تستخدمه، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>اضغط زر الغالق في الكاميرا حتى منتصفه أو أطفئها وشغّلها، وأوقف إطفاءها التلقائي</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>لا يعرض جهاز العرض ⁨{}⁩ الصورة المرسلة إليه</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>أعد الجهاز إلى موضعه بفارق لا يتجاوز نصف بكسل، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>احذف الملف يدويًا، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>شغّل الأمر في الطرفية لمعرفة السبب: ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>اضبط الكاميرا على ISO 100 يدويًا</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>اضبط وضع التعريض في الكاميرا على المؤقّت واليدوي، أو حدّث برنامجها الثابت</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>أعد دقة الشاشة إلى ما كانت عليه في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>اضبط الكاميرات على نطاقات متداخلة من أزمنة التعريض</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>ابدأ العرض من جديد</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>أعد الإضاءة كما كانت، وأبقِ الأبواب والستائر مغلقة، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>أطفئ الكاميرا وشغّلها، وحمّل إعداداتها الافتراضية ببرنامج الشركة المصنّعة، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>أوقفه ببرنامج الشركة المصنّعة للكاميرا، أو استخدم كاميرا أخرى</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>أوقفه باستخدام ⁨v4l2-ctl⁩ (يسرد الخيار ⁨--list-ctrls⁩ ما هو متاح)، أو استخدم كاميرا أخرى</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>أوقف التعريض التلقائي وحدّ معدل الإطارات في الكاميرا</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>أوقف التعريض التلقائي في الكاميرا؛ لا يمكن استخدام كاميرا بلا تعريض يدوي</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>اضبط عدسة الكاميرا على التركيز اليدوي</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>اضبط عدسة الكاميرا على التركيز اليدوي، وأغلق قوائمها، والتقط لقطة يدويًا لترى المشكلة التي تبلّغ عنها</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>اضبط جودة الصور في الكاميرا على RAW يدويًا؛ لا يمكن استخدام كاميرا بلا RAW</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>أوقف توفير الطاقة للشاشة وشاشة التوقف في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>أطفئ المصابيح المخفّتة ومصابيح الفلورسنت، وأوقف توفير الطاقة في جهاز العرض، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>أوقف السطوع التلقائي والأوضاع الاقتصادية في جهاز العرض، ودعه يسخن، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>أوقف وضع العرض الخلفي أو السقفي في جهاز العرض، أو اسمح بصورة معكوسة، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>أطفئ الكاميرا وشغّلها، أو اختر تنسيق بكسل آخر من تنسيقاتها</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>اضبط الكاميرا على RAW بالحجم الكامل (لا sRAW ولا mRAW ولا DNG خطي)</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>أزل ما يعترض الضوء أو مجال الرؤية، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>ملف بيان المعايرة تالف</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>المتاح في الكاميرا من ⁨{}⁩ إلى ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>عادت الكاميرا بحجم ⁨{} × {}⁩ بكسل بدلًا من ⁨{} × {}⁩</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>تختار الكاميرا حساسيتها بنفسها (ISO تلقائي)</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>تعلن الكاميرا عن تعريضات من ⁨{}⁩ إلى ⁨{}⁩ ث</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>لا تعطي الكاميرا ملفات خام</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>لا ترى الكاميرا ما يُعرض على ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>لم تتمكن الكاميرا من ضبط التركيز فلم تلتقط أي لقطة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>الكاميرا غائبة منذ ⁨{}⁩ ث: {}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>فُصلت الكاميرا أو أُطفئت، أو دخلت في وضع السكون</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>نسيت الكاميرا تنسيق البكسل الذي ضُبطت عليه</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>ليس في الكاميرا تنسيق بكسل ⁨{}⁩ يمكن قراءته</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>لم تبقَ في الكاميرا مساحة للقطة: بطاقة ذاكرتها ممتلئة</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>الكاميرا موجودة لكنها لا تستجيب، وقد تكون في وضع السكون</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>تبقى الكاميرا على ⁨{}⁩ ث أيًا كان التعريض المطلوب</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>لم تعد الكاميرا تستجيب (⁨{}⁩: ⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>رفضت الكاميرا ما طُلب منها (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>ترفض الكاميرا (⁨{}⁩: ⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>لا ترى الكاميرا فرقًا بين الأبيض والأسود</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>لا ترى الكاميرا شيئًا على الإطلاق</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>ترى الكاميرا ⁨{}⁩ وليس ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>لا ترسل الكاميرا أي دفق من الصور</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>أرسلت الكاميرا ⁨{}⁩ ولم ترسل ملفًا خامًا</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>ما زالت الكاميرا مشغولة</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>طُلبت من الكاميرا لقطة فلم تلتقطها</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>طُلب من الكاميرا تعريض مدته ⁨{}⁩ ث لكنها تبقى على ⁨{}⁩ ث</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>يبدو أن بطارية الكاميرا فارغة (⁨{} %⁩ عند آخر قراءة)</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>مرشّح الألوان في الكاميرا ليس مرشّح Bayer</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>لا يمكن ضبط زمن التعريض في الكاميرا</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>قرص الأوضاع في الكاميرا على ⁨{}⁩، وفي هذا الوضع تختار الكاميرا التعريض بنفسها</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>لا يوجد زمن تعريض مشترك بين الكاميرات</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>لا يعطي جهاز الالتقاط أي صورة</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>يتعذّر بدء الأمر (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>انتهى الأمر بنجاح لكنه لم يكتب شيئًا، والمطلوب ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>انتهى الأمر بنجاح لكنه كتب ⁨{}⁩ وليس ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>فشل الأمر برمز الحالة ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>فشل الأمر برمز الحالة ⁨{}⁩، ورسالته: «⁨{}⁩»</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>استغرق الأمر أكثر من ⁨{}⁩ ث</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>استغرق الأمر أكثر من ⁨{}⁩ ث، ورسالته: «⁨{}⁩»</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>أُنهي الأمر قسرًا بالإشارة ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>أُنهي الأمر قسرًا بالإشارة ⁨{}⁩، ورسالته: «⁨{}⁩»</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>فقد المحرك جهازه</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>لا يمكن استخدام بطاقة الرسومات</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>لم يبقَ في بطاقة الرسومات ⁨{} MB⁩ من الذاكرة</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>تصل بطاقة الرسومات إلى ⁨{} MB⁩ دفعة واحدة، والمطلوب ⁨{} MB⁩</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>انقطع الاتصال ببطاقة الرسومات</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>الضوء يرتعش: تختلف لقطات النمط الواحد بمقدار ⁨{} %⁩</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>أصبحت إضاءة القاعة أسطع</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>أصبحت إضاءة القاعة أضعف</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>تحتاج الصورة الحية للشاشة إلى خادم X، ولا يستجيب أي خادم</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>تتعذّر كتابة السجل (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>حجم اللقطة ⁨{} × {}⁩ بكسل بتنسيق ⁨{}⁩، والمتفق عليه ⁨{} × {}⁩ بتنسيق ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>حجم اللقطة ⁨{} × {}⁩ بكسل، والمعلن ⁨{} × {}⁩</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>اللقطة أكبر مما أعلنته الكاميرا</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>لم تكتمل اللقطة</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>تعذّرت كتابة الصورة</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>تظهر صورة جهاز العرض ⁨{}⁩ معكوسة</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>لا يعرض جهاز العرض شيئًا، وما زالت إضاءة القاعة مرئية</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>تغيّر ضوء جهاز العرض بمقدار ⁨{} %⁩ خلال بضع لقطات</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>حجم شاشة جهاز العرض الآن ⁨{} × {}⁩ بكسل، وكان عند المعايرة ⁨{} × {}⁩</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>شاشة جهاز العرض في وضع السكون ولا تستيقظ</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>تفقد شاشة جهاز العرض صورتها مرارًا</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>تتعذّر قراءة الملف الخام (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>لا يحوي الملف الخام قيم المستشعر نفسها</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>تتعذّر كتابة التسجيل (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>تتعذّر كتابة التقرير</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>يتعذّر تفعيل الخدمة (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>تتعذّر إعادة فتح جهاز الفيديو</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>يتعذّر فتح جهاز الفيديو: قد يكون برنامج آخر يستخدمه</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>فُصل جهاز الفيديو</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>ليس في جهاز الفيديو تعريض يمكن ضبطه</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>لا يرسل جهاز الفيديو أي صور</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>لا يمكن إيقاف التعريض التلقائي في جهاز الفيديو</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>لا يمكن إيقاف التركيز التلقائي في جهاز الفيديو</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>لا يمكن إيقاف توازن الأبيض التلقائي في جهاز الفيديو</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>لا يتوفر OpenGL 4.3 مع مظلّلات الحوسبة (compute shaders)</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>لا توجد بطاقة رسومات تدعم OpenGL 4.3 ومظلّلات الحوسبة (compute shaders)</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>المكتبة libEGL أو libOpenGL غير موجودة، وهما تفتحان بطاقات الرسومات دون شاشة</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>نسخة Relucent هذه لا تدعم كاميرات DSLR والكاميرات عديمة المرآة</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>نسخة Relucent هذه لا تدعم كاميرات GenICam</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>هذه ليست معايرة من Relucent</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>أدر القرص إلى M</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>أدر قرص الأوضاع في الكاميرا إلى M؛ لا يمكن استخدام كاميرا بلا هذا الوضع</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>اكشف العدسة، وتحقق من أن جهاز العرض يعمل، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>استخدم كاميرا ذات تعريض يدوي</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>أيقظ جهاز العرض، وأوقف توفير الطاقة فيه وفي الشاشة، ثم أعد المحاولة</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>المطلوب ⁨ISO {}⁩ وهو غير متاح في الكاميرا</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>يبدو ⁨{} %⁩ من مجال رؤية الكاميرا ⁨{}⁩ مختلفًا عمّا كان</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>فشلت محاولات التقاط لقطة، وعددها ⁨{}⁩: {}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{} باستئناف المعايرة؛ {}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>عدد الكاميرات الموصولة من هذا الطراز: ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>لا يمكن إيقاف ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}، ثم تابع: كل اللقطات حتى الآن محفوظة</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>المطلوب ⁨{} × {}⁩ بكسل وتعطي الكاميرا ⁨{} × {}⁩</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>المطلوب ⁨{} × {}⁩ بكسل وفي الكاميرا ⁨{} × {}⁩</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>المطلوب ⁨{} × {}⁩ بكسل ويعطي جهاز الفيديو ⁨{} × {}⁩</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>⁨{}⁩: {}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}؛ {}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{} (⁨{}⁩)</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}.</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>تعلن تعريضًا يبدأ من {} ث لكنها تلتزم {} ث</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>تعلن تعريضًا يصل إلى {} ث لكنها تلتزم {} ث</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>تعطي 8 بتات: تبقى المناطق المعتمة غير مؤكدة</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>لا تذكر متى التُقطت الصور: يُهمَل بعضها قبل كل صورة</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>تضبط البؤرة تلقائيًا: حوّل العدسة إلى الضبط اليدوي</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>ليس لها إطلاق برمجي: قد تنتظر كل صورة تعريضًا إضافيًا</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>بقي في بطاريتها {} %: يحتاج القياس إلى بطارية ممتلئة أو محوّل كهرباء</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>قد تُطلق وميضها: أغلقه</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>قد تلتقط صورة معتمة بعد التعريض الطويل، ما يضاعف زمنه</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>قد تلتقط عدة صور دفعة واحدة: حوّلها إلى اللقطة المفردة</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>لا ترى الألوان: يمكن تعويض السطوع دون الألوان</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>تنطفئ تلقائيًا بعد مدة: عطّل ذلك</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>جهاز فيديو</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>طُلب منها ISO {} وبقيت على ISO {}</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>طُلب منها كسب {} وبقيت على {}</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>كاميرات DSLR وعديمة المرآة: ينقص هذا البناء libgphoto2 أو LibRaw؛ ثبّت libgphoto2-dev وlibraw-dev وأعد البناء</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>كاميرات GigE Vision وUSB3 Vision: ينقص هذا البناء Aravis؛ ثبّت libaravis-dev وأعد البناء</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>أغلق فتحة العدسة أو أضف مرشحًا رماديًا إن كانت مهمة</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>أغلق فتحة العدسة أو اخفض الكسب أو أضف مرشحًا رماديًا</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>حمّضها خطيًا بصيغة TIFF أو EXR لقياس أدق</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>افتح فتحة العدسة أو ارفع الكسب</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>الأنماط واللقطات رمادية: لا تُميَّز الألوان، وكتل T محايدة</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>قُبل قبل النمط ⁨{}⁩: {}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>بعض اللمعات مفرطة التعريض حتى عند ⁨{}⁩ ث، وهو أقصر تعريض، ولن تُعوَّض</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>أوقف توفير الطاقة وإدارة الألوان وأوضاع الصورة الديناميكية</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>أوقف القزحية الديناميكية والتباين الديناميكي وكل وضع صورة يتكيّف مع المحتوى</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>أوقف أوضاع المصباح الديناميكية في جهاز العرض وأطفئ المصابيح القريبة، واختر أزمنة تعريض من مضاعفات دورة التيار الكهربائي</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>أوقف مقطع الأبيض (يسمى غالبًا «Brilliant Color» أو الوضع الساطع) واختر وضع صورة للفيديو أو لـ sRGB</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>أُخذ ذلك في الحسبان، لكن دع جهاز العرض يسخن قبل المرة القادمة</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>تُفترض الكاميرا خطية، وتُحسب اللقطة الواحدة ثانيةَ تعريضٍ واحدة</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>تغيّر الضوء بمقدار ⁨{} %⁩ بين اللقطة الأولى والأخيرة</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>يتغيّر الضوء بمقدار ⁨{} %⁩ من لقطة إلى التي تليها</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>الأنماط رمادية: لم يُقَس كيف تمتزج الألوان، وكتل T قطرية</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>لا تحوي الأنماط سوى الأسود والأبيض: تُفترض استجابة جهاز العرض أُسًّا قدره ⁨2.2⁩</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>اللقطات رمادية: ما يسهم به كل لون من ألوان جهاز العرض معروف سطوعًا فقط</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>اللقطات بصيغة JPEG: جُعلت خطية بمنحنى sRGB الذي لا تتبعه الكاميرات إلا تقريبًا</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>قُرنت اللقطات بالأنماط بترتيب التقاطها، من ⁨{}⁩ إلى ⁨{}⁩، وهو غير ترتيب أسمائها</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>الإسقاط مفرط التعريض حتى عند ⁨{}⁩ ث، وهو أقصر تعريض</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>لا يبلغ الإسقاط سوى ⁨{0} %⁩ من مدى الكاميرا عند ⁨{1}⁩ ث، وهو أطول تعريض</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>يضيء جهاز العرض ⁨{} %⁩ من بكسلات الكاميرا</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>تُستثنى هذه البكسلات من التعويض</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>نصفا الصورة أسطع من الصورة كاملةً بمقدار ⁨{} %⁩</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>نصفا الصورة أعتم من الصورة كاملةً بمقدار ⁨{} %⁩</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>الأبيض أسطع من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>الأبيض أعتم من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>⁨{} %⁩ من بكسلات الكاميرا مفرطة التعريض حتى عند أقصر تعريض: أغلق فتحة عدسة الكاميرا أو اسمح بتعريضات أقصر، ثم أعد القياس</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>⁨{} %⁩ من بكسلات الكاميرا ترى في أنماط الاختبار غير المتوقَّع: تحقق من أن شيئًا لم يتحرك أو يرتعش</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>لا وجود لكاميرا بحجم ⁨{}x{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>لا وجود لجهاز عرض بحجم ⁨{}x{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>ينقص أمرَ الكاميرا ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>أمر الكاميرا فارغ</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>ينقص أمرَ جهاز العرض ⁨{}⁩</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>أمر جهاز العرض فارغ</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>يجب أن يكون أقصر تعريض أكبر من الصفر وألا يتجاوز أطوله</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1313,271 +189,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>الخوارزمية 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>تركيب نقل الضوء</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>المعايرة</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>التحقق من جمعية ألوان {}</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>تقسيم نقل الضوء إلى تجمّعات</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>تجمّعات مقيّدة الحجم</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>مقارنة معكوسات التجمّعات في {}</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>مقارنة الطرق</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>مقارنة الطرق في {}</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>التعويض</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>فك الترميز</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>تقدير الاستجابة والألوان</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>تقدير نقل الضوء</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>التقييم</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>تقدير الخروج عن البؤرة</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>تحديد التعريض</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>نمذجة انتشار الضوء</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>تكوين الرقع</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>تقييد حجم التجمّعات</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>حساب معكوسات التجمّعات</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>حساب معكوس نقل الضوء</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>حساب معكوس {}</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>ضم التجمّعات</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>جعل الاستجابة خطية</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>البحث عن الظلال</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>البحث عمّا يتعذّر تصحيحه</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>قياس منحنيات سطوع {}</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>قياس الكاميرا</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>تقييم الإضاءة</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>البحث عن صورة جهاز العرض</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>قياس زمن التأخير</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>قياس نقل الضوء</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>قياس {}</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>تصوير أنماط الاختبار</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>تصوير الصور المعروضة</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>توقّع الأنماط المحجوزة للاختبار</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>تحضير اختبارات الأداء</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>تحضير الأجهزة</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>تحضير المحرك</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>تحضير الموقع</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>قراءة المعايرة</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>قراءة الأنماط</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>قراءة اللقطات</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>قراءة الصور</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>قراءة {}</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>الضبط على صورة الإضاءة الكاملة</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>فصل الضوء المباشر عن غير المباشر</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>زيادة الحدّة</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>إيجاد الحل</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>قياس سرعة المحرك</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>النوافذ</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>الكتابة</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>كتابة نقل الضوء كاملًا</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>كتابة النتائج</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>الأسود والإضاءة الكاملة</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>نقل الضوء</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>جهاز العرض {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>أنماط الاختبار</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>جهاز العرض</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>تتبّع ضوء الموقع المحاكى</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>المستوى {} من {}: لا أنماط</numerusform>
-            <numerusform>المستوى {} من {}: نمط واحد</numerusform>
-            <numerusform>المستوى {} من {}: نمطان</numerusform>
-            <numerusform>المستوى {} من {}: %n أنماط</numerusform>
-            <numerusform>المستوى {} من {}: %n نمطًا</numerusform>
-            <numerusform>المستوى {} من {}: %n نمط</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>إعادة قياس: لا بكسلات معلّمة</numerusform>
-            <numerusform>إعادة قياس بكسل معلّم واحد</numerusform>
-            <numerusform>إعادة قياس بكسلين معلّمين</numerusform>
-            <numerusform>إعادة قياس %n بكسلات معلّمة</numerusform>
-            <numerusform>إعادة قياس %n بكسلًا معلّمًا</numerusform>
-            <numerusform>إعادة قياس %n بكسل معلّم</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1625,6 +236,1751 @@
     <message>
         <source>A venue is being measured</source>
         <translation>يجري قياس أحد المواقع</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>قُبل قبل النمط ⁨{}⁩: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>تغيّر الضوء بمقدار ⁨{} %⁩ بين اللقطة الأولى والأخيرة؛ أُخذ ذلك في الحسبان، لكن دع جهاز العرض يسخن قبل المرة القادمة</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>⁨{} %⁩ من بكسلات الكاميرا مفرطة التعريض حتى عند أقصر تعريض: أغلق فتحة عدسة الكاميرا أو اسمح بتعريضات أقصر، ثم أعد القياس</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>⁨{} %⁩ من بكسلات الكاميرا ترى في أنماط الاختبار غير المتوقَّع: تحقق من أن شيئًا لم يتحرك أو يرتعش؛ تُستثنى هذه البكسلات من التعويض</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} باستئناف المعايرة؛ {}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>لا ترى الكاميرا شيئًا على الإطلاق</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>تحقق من أن الشاشة الصحيحة مختارة وأن لا شيء يحجب الصورة، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>أزل ما يعترض الضوء أو مجال الرؤية، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>تغيّر ضوء جهاز العرض بمقدار ⁨{} %⁩ خلال بضع لقطات</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>الضوء يرتعش: تختلف لقطات النمط الواحد بمقدار ⁨{} %⁩</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>تحرّكت كاميرا أو جهاز عرض: انزاح مجال رؤية الكاميرا ⁨{}⁩ بمقدار ⁨{}, {}⁩ بكسل واستدار بمقدار ⁨{}⁩ درجة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>تظهر صورة جهاز العرض ⁨{}⁩ معكوسة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>لا يعرض جهاز العرض شيئًا، وما زالت إضاءة القاعة مرئية</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>أعد الجهاز إلى موضعه بفارق لا يتجاوز نصف بكسل، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>أعد الإضاءة كما كانت، وأبقِ الأبواب والستائر مغلقة، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>أصبحت إضاءة القاعة أسطع</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>أصبحت إضاءة القاعة أضعف</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>كل اللقطات حتى الفحص السابق آمنة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>كل اللقطات السابقة لقياس نقل الضوء آمنة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>أطفئ المصابيح المخفّتة ومصابيح الفلورسنت، وأوقف توفير الطاقة في جهاز العرض، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>أوقف السطوع التلقائي والأوضاع الاقتصادية في جهاز العرض، ودعه يسخن، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>أوقف وضع العرض الخلفي أو السقفي في جهاز العرض، أو اسمح بصورة معكوسة، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>اكشف العدسة، وتحقق من أن جهاز العرض يعمل، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>يبدو ⁨{} %⁩ من مجال رؤية الكاميرا ⁨{}⁩ مختلفًا عمّا كان</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>أيقظ جهاز العرض، وأوقف توفير الطاقة فيه وفي الشاشة، ثم أعد المحاولة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>لا يعرض جهاز العرض ⁨{}⁩ الصورة المرسلة إليه</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>ملف بيان المعايرة تالف</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>تتعذّر قراءة محتويات المجلد (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>يتعذّر فتح المجلد (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم تابع</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>تحقق من المسار ومن أن القراءة مسموحة لك</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>تحقق من أن القراءة مسموحة لك، أو اختر اسمًا آخر</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>اختر معايرة أخرى، أو انسخ هذه مجددًا من حيث قيست</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>حجم أحد ملفات المعايرة في مرحلة «⁨{}⁩» هو ⁨{}⁩ بايت بدلًا من ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>أحد ملفات المعايرة في مرحلة «⁨{}⁩» مفقود</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>أخلِ بعض المساحة هناك أو افحص القرص، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>هذه ليست معايرة من Relucent</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>يتعذّر نقل لقطة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>يتعذّر حذف لقطة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>تظهر الألوان واحدًا بعد آخر كما في عجلة ألوان (⁨{} %⁩ خلال ⁨{} ms⁩): عرّض إطارات كاملة، مضاعفات ⁨{} ms⁩.</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>يمزج جهاز العرض درجات الرمادي زمنيًا، بكسلًا بكسلًا (⁨{} %⁩): عرّض عدة إطارات كاملة، وأوقف التنعيم وأوضاع ثلاثية الأبعاد.</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>يرتعش المصباح داخل الإطار بمقدار ⁨{} %⁩ خلال ⁨{} ms⁩: عرّض إطارات كاملة، مضاعفات ⁨{} ms⁩.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>الضوء متجانس: لا يُرى ارتعاش ولا عجلة ألوان ولا أشرطة ولا تدرّج نقطي.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>يتغيّر الضوء بمقدار ⁨{} %⁩ بين تعريضات إطارات كاملة: دع المصباح يسخن، وأوقف السطوع الديناميكي ومصابيح القاعة.</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>لا تستطيع الكاميرا التعريض لجزء من إطار، أو ترى القليل جدًا عندئذ: لا يمكن تمييز الارتعاش داخل الإطار.</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>ترى الكاميرا ⁨{}⁩ وليس ⁨{}⁩.</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>تظهر الصورة فور إرسالها: يُنتظر ⁨{1} ms⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد إطار واحد من إرسالها: يُنتظر ⁨{1} ms⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد إطارين من إرسالها: يُنتظر ⁨{1} ms⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد {} إطارات من إرسالها: يُنتظر ⁨{} ms⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد {} إطارًا من إرسالها: يُنتظر ⁨{} ms⁩.</numerusform>
+            <numerusform>تظهر الصورة بعد {} إطار من إرسالها: يُنتظر ⁨{} ms⁩.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>تصل الصور دون تأخر: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار صورة واحدة: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار صورتين: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار {} صور: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار {} صورة: يجب قياس زمن التأخير وانتظاره.</numerusform>
+            <numerusform>تتأخر الصور بمقدار {} صورة: يجب قياس زمن التأخير وانتظاره.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>تعرّض الكاميرا صفوفها واحدًا بعد آخر (غالق متدحرج): في التعريضات القصيرة أشرطة بمقدار ⁨{} %⁩. عرّض إطارات كاملة، مضاعفات ⁨{} ms⁩.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>تظهر الصورة معكوسة. إن لم يكن ذلك مقصودًا (عرض خلفي أو مرآة)، فأوقفه من قائمة جهاز العرض.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>لا ترى الكاميرا ⁨{}⁩.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>ترى الكاميرا ⁨{}⁩: يتبع ⁨{} %⁩ من مجال رؤيتها نمط الاختبار.</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>يتغيّر الأبيض بمقدار ⁨{} %⁩ من صورة إلى أخرى: عرّض إطارات كاملة لجهاز العرض، مضاعفات ⁨{} ms⁩، وأوقف السطوع الديناميكي.</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>لا يعطي جهاز الالتقاط أي صورة</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>تحتاج الصورة الحية للشاشة إلى خادم X، ولا يستجيب أي خادم</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>سجّل الدخول إلى سطح مكتب يعمل على X (اختر «Xorg» عند تسجيل الدخول)، أو شغّل ملفات</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>صِل الجهاز، وأغلق البرامج الأخرى التي تستخدمه، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>وجّه الكاميرا إلى الصورة المعروضة، وانزع غطاء عدستها، وأطِل التعريض</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>برنامج آخر يحجز الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>اطلب هذا الحجم أو أصغر منه</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>اطلب الحجم الذي تعطيه الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>اطلب أحد الأحجام المتاحة: يسردها الأمر ⁨v4l2-ctl --list-formats-ext⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>طُلب منها كسب {} وبقيت على {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>طُلب منها ISO {} وبقيت على ISO {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>فشلت محاولات التقاط لقطة، وعددها ⁨{}⁩: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>لا يمكن إيقاف التعريض التلقائي في جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>لا يمكن إيقاف التركيز التلقائي في جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>تختار الكاميرا حساسيتها بنفسها (ISO تلقائي)</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>لا يمكن إيقاف توازن الأبيض التلقائي في جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>يبدو أن بطارية الكاميرا فارغة (⁨{} %⁩ عند آخر قراءة)</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>بقي في بطاريتها {} %: يحتاج القياس إلى بطارية ممتلئة أو محوّل كهرباء</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>نسخة Relucent هذه لا تدعم كاميرات DSLR والكاميرات عديمة المرآة</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>نسخة Relucent هذه لا تدعم كاميرات GenICam</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>طُلب من الكاميرا تعريض مدته ⁨{}⁩ ث لكنها تبقى على ⁨{}⁩ ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>طُلبت من الكاميرا لقطة فلم تلتقطها</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>الكاميرا موجودة لكنها لا تستجيب، وقد تكون في وضع السكون</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>الكاميرا غائبة منذ ⁨{}⁩ ث: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>عادت الكاميرا بحجم ⁨{}⁩ بكسل بدلًا من ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>المتاح في الكاميرا من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>تعلن الكاميرا عن تعريضات من ⁨{}⁩ إلى ⁨{}⁩ ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>مرشّح الألوان في الكاميرا ليس مرشّح Bayer</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>أمر الكاميرا فارغ</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>ينقص أمرَ الكاميرا ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>نسيت الكاميرا تنسيق البكسل الذي ضُبطت عليه</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>لم تتمكن الكاميرا من ضبط التركيز فلم تلتقط أي لقطة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>فُصلت الكاميرا أو أُطفئت، أو دخلت في وضع السكون</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>تبقى الكاميرا على ⁨{}⁩ ث أيًا كان التعريض المطلوب</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>لم تعد الكاميرا تستجيب (⁨{}⁩: ⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>ليس في الكاميرا تنسيق بكسل ⁨{}⁩ يمكن قراءته</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>لا ترى الكاميرا ما يُعرض على ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>رفضت الكاميرا ما طُلب منها (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>ترفض الكاميرا (⁨{}⁩: ⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>لا ترى الكاميرا فرقًا بين الأبيض والأسود</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>ترى الكاميرا ⁨{}⁩ وليس ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>لا ترسل الكاميرا أي دفق من الصور</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>ما زالت الكاميرا مشغولة</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>عدد الكاميرات الموصولة من هذا الطراز: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>يتعذّر إنشاء مجلد مؤقت (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>يتعذّر حذف الملف (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>لا يمكن إيقاف ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>لم تبقَ في الكاميرا مساحة للقطة: بطاقة ذاكرتها ممتلئة</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>غيّر بطاقة الذاكرة أو أفرغها</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>اشحن البطارية أو غيّرها، والأفضل استخدام محوّل كهربائي، ثم شغّل الكاميرا مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>افحص كابل الكاميرا وتغذيتها</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>افحص كابل الكاميرا وتغذيتها وعنوانها؛ يسرد ⁨`relucent-cli devices`⁩ الأجهزة الموجودة</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>افحص كابل الشاشة، وأوقف توفير الطاقة فيها</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>افحص كابل الكاميرا، وشغّلها، وأوقف إطفاءها التلقائي</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>افحص كابل الكاميرا وبطاقة الشبكة، وتحقق من أن لا برنامج آخر يستخدم الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>تحقق من أن مشهد الكاميرا ثابت وأن تعريضها قصير، وأوقف تنعيم الحركة في جهاز العرض</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>افحص الجهاز، أو امنح الأمر وقتًا أطول: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>تحقق من أن جهاز العرض يعمل ويعرض هذا الخرج، ووجّه الكاميرا إلى صورته، وانزع غطاء عدستها؛ أو اختر شاشة أخرى</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>اختر ⁨{}⁩، أو وجّه الكاميرا إلى ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>تعلن تعريضًا يبدأ من {} ث لكنها تلتزم {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>تعلن تعريضًا يصل إلى {} ث لكنها تلتزم {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>أغلق قوائم الكاميرا ووضع استعراض الصور فيها، وأنهِ المعاينة الحية</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>أغلق قوائم الكاميرا، ثم أطفئها وشغّلها</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>أغلق البرامج الأخرى وحاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>يتعذّر بدء الأمر (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>فشل الأمر برمز الحالة ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>فشل الأمر برمز الحالة ⁨{}⁩، ورسالته: «⁨{}⁩»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>أُنهي الأمر قسرًا بالإشارة ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>أُنهي الأمر قسرًا بالإشارة ⁨{}⁩، ورسالته: «⁨{}⁩»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>استغرق الأمر أكثر من ⁨{}⁩ ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>استغرق الأمر أكثر من ⁨{}⁩ ث، ورسالته: «⁨{}⁩»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>انتهى الأمر بنجاح لكنه لم يكتب شيئًا، والمطلوب ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>انتهى الأمر بنجاح لكنه كتب ⁨{}⁩ وليس ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>صِل الكاميرا التي بدأ بها القياس</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>انسخ الملف مجددًا، أو أعد التقاط اللقطة؛ الكاميرا الأحدث من إصدار LibRaw هذا تحتاج إلى ملفات DNG</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>تعطي 8 بتات: تبقى المناطق المعتمة غير مؤكدة</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>حوّل الملفات تحويلًا خطيًا إلى TIFF بعمق 16 بت، أو استخدم كاميرا أخرى</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>لا يمكن ضبط زمن التعريض في الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>تضبط البؤرة تلقائيًا: حوّل العدسة إلى الضبط اليدوي</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>أخلِ بعض المساحة، أو سجّل في مكان آخر</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>أخلِ بعض المساحة هناك، أو اجعل TMPDIR يشير إلى مجلد يمكنك الكتابة فيه</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>المطلوب كسب مقداره ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>كاميرات GigE Vision وUSB3 Vision: ينقص هذا البناء Aravis؛ ثبّت libaravis-dev وأعد البناء</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>كاميرات DSLR وعديمة المرآة: ينقص هذا البناء libgphoto2 أو LibRaw؛ ثبّت libgphoto2-dev وlibraw-dev وأعد البناء</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>برنامج آخر يحجز الكاميرا، وهو غالبًا سطح المكتب الذي يتعامل معها كذاكرة USB</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>لا وجود لكاميرا بحجم ⁨{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>لا وجود لجهاز عرض بحجم ⁨{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>ثبّت Aravis (⁨libaravis-dev⁩) وأعد بناء البرنامج، أو استخدم نوعًا آخر من الكاميرات</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>ثبّت libgphoto2 وLibRaw (⁨libgphoto2-dev, libraw-dev⁩) وأعد بناء البرنامج، أو استخدم أمرًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>المطلوب ⁨ISO {}⁩ وهو غير متاح في الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>القيم المتاحة: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>اجعل الأمر يكتب بهذا الحجم، أو ابدأ من جديد بالحجم الذي تعطيه الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>حرّر الكاميرا من سطح المكتب بالأمر ⁨`gio mount -s gphoto2`⁩ (أو أخرجها من مدير الملفات) وأغلق برامج الصور</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>اجعل الأمر يكتب اللقطة في ⁨{output}⁩: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>قد تُطلق وميضها: أغلقه</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>قد تلتقط صورة معتمة بعد التعريض الطويل، ما يضاعف زمنه</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>قد تلتقط عدة صور دفعة واحدة: حوّلها إلى اللقطة المفردة</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>قرص الأوضاع في الكاميرا على ⁨{}⁩، وفي هذا الوضع تختار الكاميرا التعريض بنفسها</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>حدّد هذه الكاميرا: ⁨gphoto2:{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>حدّد إحداها بمنفذها: ⁨gphoto2:{}⁩ أو ⁨gphoto2:{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>لا تكتمل الصورة الجديدة حتى بعد هذا العدد من الإطارات: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>لا توجد كاميرا موصولة بهذا الاسم، بل ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>لا تستجيب أي كاميرا GenICam باسم «⁨{}⁩»</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>لم تصل أي لقطة خلال ⁨{}⁩ ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>أرسلت الكاميرا ⁨{}⁩ ولم ترسل ملفًا خامًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>لا تعطي الكاميرا ملفات خام</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>ليس لها إطلاق برمجي: قد تنتظر كل صورة تعريضًا إضافيًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>لا يوجد جهاز فيديو موصول بهذا الاسم</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>لا يمكن قراءة أي من تنسيقات البكسل في الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>لا تذكر متى التُقطت الصور: يُهمَل بعضها قبل كل صورة</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>ضاعت أجزاء من اللقطة أثناء النقل</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>طُلبت لقطة ولم تصل</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>اللقطة أكبر مما أعلنته الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>لم تكتمل اللقطة</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>حجم اللقطة ⁨{}⁩ بكسل بتنسيق ⁨{}⁩، والمتفق عليه ⁨{}⁩ بتنسيق ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>حجم اللقطة ⁨{}⁩ بكسل، والمعلن ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>لقطة حجمها ⁨{}⁩ بكسل بتنسيق ⁨{}⁩ وصل منها ⁨{}⁩ من أصل ⁨{}⁩ بايت</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>المطلوب ⁨{}⁩ بكسل وفي الكاميرا ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>المطلوب ⁨{}⁩ بكسل وتعطي الكاميرا ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>المطلوب ⁨{}⁩ بكسل ويعطي جهاز الفيديو ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>اضغط زر الغالق في الكاميرا حتى منتصفه أو أطفئها وشغّلها، وأوقف إطفاءها التلقائي</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>أمر جهاز العرض فارغ</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>ينقص أمرَ جهاز العرض ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>تفقد شاشة جهاز العرض صورتها مرارًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>تتعذّر قراءة الملف الخام (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>الملف فارغ</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>أجزاء من الملف مفقودة</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>لا يحوي الملف الخام قيم المستشعر نفسها</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>تتعذّر كتابة التسجيل (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>احذف الملف يدويًا، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>شغّل الأمر في الطرفية لمعرفة السبب: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>لا ترى الألوان: يمكن تعويض السطوع دون الألوان</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>اضبط وضع التعريض في الكاميرا على المؤقّت واليدوي، أو حدّث برنامجها الثابت</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>اضبط الكاميرا على ISO 100 يدويًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>يجب أن يكون أقصر تعريض أكبر من الصفر وألا يتجاوز أطوله</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>أوقف التعريض التلقائي وحدّ معدل الإطارات في الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>أوقف التعريض التلقائي في الكاميرا؛ لا يمكن استخدام كاميرا بلا تعريض يدوي</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>اضبط الكاميرا على RAW بالحجم الكامل (لا sRAW ولا mRAW ولا DNG خطي)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>أطفئ الكاميرا وشغّلها، أو اختر تنسيق بكسل آخر من تنسيقاتها</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>اضبط عدسة الكاميرا على التركيز اليدوي</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>اضبط عدسة الكاميرا على التركيز اليدوي، وأغلق قوائمها، والتقط لقطة يدويًا لترى المشكلة التي تبلّغ عنها</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>أوقفه ببرنامج الشركة المصنّعة للكاميرا، أو استخدم كاميرا أخرى</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>أطفئ الكاميرا وشغّلها، وحمّل إعداداتها الافتراضية ببرنامج الشركة المصنّعة، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>أوقفه باستخدام ⁨v4l2-ctl⁩ (يسرد الخيار ⁨--list-ctrls⁩ ما هو متاح)، أو استخدم كاميرا أخرى</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>اضبط جودة الصور في الكاميرا على RAW يدويًا؛ لا يمكن استخدام كاميرا بلا RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>تنطفئ تلقائيًا بعد مدة: عطّل ذلك</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}، ثم تابع: كل اللقطات حتى الآن محفوظة</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>أدر القرص إلى M</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>أدر قرص الأوضاع في الكاميرا إلى M؛ لا يمكن استخدام كاميرا بلا هذا الوضع</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>التنسيقات المتاحة: ⁨{}⁩؛ تُقرأ تنسيقات Mono وBayer وRGB غير المحزومة (unpacked) بعمق 8 إلى 16 بت</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>استخدم كاميرا ذات تعريض يدوي</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>جهاز فيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>فُصل جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>تتعذّر إعادة فتح جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>يتعذّر فتح جهاز الفيديو: قد يكون برنامج آخر يستخدمه</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>ليس في جهاز الفيديو تعريض يمكن ضبطه</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>لا يرسل جهاز الفيديو أي صور</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>يتعذّر إنشاء المجلد (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>يتعذّر الفتح (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>تتعذّر القراءة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>تتعذّر الكتابة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>افحص القرص وكابله</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>تحقق من المسار</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>تحقق من المسار والقرص</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>اختر مجلدًا يمكنك الكتابة فيه، أو اطلب الإذن بذلك</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>أخلِ بعض المساحة هناك أو اختر قرصًا آخر، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>لا يمكن استخدام بطاقة الرسومات</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>انقطع الاتصال ببطاقة الرسومات</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>لم يبقَ في بطاقة الرسومات ⁨{} MB⁩ من الذاكرة</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>تصل بطاقة الرسومات إلى ⁨{} MB⁩ دفعة واحدة، والمطلوب ⁨{} MB⁩</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>ثبّت برنامج تشغيل بطاقة الرسومات، أو دع المعالج المركزي يتولى العمل</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>دع المعالج المركزي يتولى العمل</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>لا توجد بطاقة رسومات تدعم OpenGL 4.3 ومظلّلات الحوسبة (compute shaders)</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>المكتبة libEGL أو libOpenGL غير موجودة، وهما تفتحان بطاقات الرسومات دون شاشة</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>لا يتوفر OpenGL 4.3 مع مظلّلات الحوسبة (compute shaders)</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>تُفترض الكاميرا خطية، وتُحسب اللقطة الواحدة ثانيةَ تعريضٍ واحدة</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>يضيء جهاز العرض ⁨{} %⁩ من بكسلات الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>قُرنت اللقطات بالأنماط بترتيب التقاطها، من ⁨{}⁩ إلى ⁨{}⁩، وهو غير ترتيب أسمائها</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>الأنماط واللقطات رمادية: لا تُميَّز الألوان، وكتل T محايدة</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>لا تحوي الأنماط سوى الأسود والأبيض: تُفترض استجابة جهاز العرض أُسًّا قدره ⁨2.2⁩</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>الأنماط رمادية: لم يُقَس كيف تمتزج الألوان، وكتل T قطرية</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>اللقطات بصيغة JPEG: جُعلت خطية بمنحنى sRGB الذي لا تتبعه الكاميرات إلا تقريبًا؛ حمّضها خطيًا بصيغة TIFF أو EXR لقياس أدق</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>اللقطات رمادية: ما يسهم به كل لون من ألوان جهاز العرض معروف سطوعًا فقط</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>لا يوجد زمن تعريض مشترك بين الكاميرات</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>⁨{}⁩: نصفا الصورة أسطع من الصورة كاملةً بمقدار ⁨{} %⁩؛ أوقف القزحية الديناميكية والتباين الديناميكي وكل وضع صورة يتكيّف مع المحتوى</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>⁨{}⁩: نصفا الصورة أعتم من الصورة كاملةً بمقدار ⁨{} %⁩؛ أوقف القزحية الديناميكية والتباين الديناميكي وكل وضع صورة يتكيّف مع المحتوى</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>⁨{}⁩: بعض اللمعات مفرطة التعريض حتى عند ⁨{}⁩ ث، وهو أقصر تعريض، ولن تُعوَّض؛ أغلق فتحة العدسة أو أضف مرشحًا رماديًا إن كانت مهمة</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>⁨{}⁩: يتغيّر الضوء بمقدار ⁨{} %⁩ من لقطة إلى التي تليها؛ أوقف أوضاع المصباح الديناميكية في جهاز العرض وأطفئ المصابيح القريبة، واختر أزمنة تعريض من مضاعفات دورة التيار الكهربائي</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>⁨{}⁩: الإسقاط مفرط التعريض حتى عند ⁨{}⁩ ث، وهو أقصر تعريض؛ أغلق فتحة العدسة أو اخفض الكسب أو أضف مرشحًا رماديًا</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>اضبط الكاميرات على نطاقات متداخلة من أزمنة التعريض</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>⁨{}⁩: لا يبلغ الإسقاط سوى ⁨{} %⁩ من مدى الكاميرا عند ⁨{}⁩ ث، وهو أطول تعريض؛ افتح فتحة العدسة أو ارفع الكسب</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>⁨{}⁩: الأبيض أسطع من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩؛ أوقف مقطع الأبيض (يسمى غالبًا «Brilliant Color» أو الوضع الساطع) واختر وضع صورة للفيديو أو لـ sRGB</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>⁨{}⁩: الأبيض أعتم من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩؛ أوقف توفير الطاقة وإدارة الألوان وأوضاع الصورة الديناميكية</translation>
     </message>
 </context>
 <context>
@@ -1757,18 +2113,6 @@
     <message>
         <source>Colours</source>
         <translation>الألوان</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>فتح الأجهزة</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>قراءة الاستجابة</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>قياس نقل الضوء</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2339,18 +2683,6 @@
     <message>
         <source>Focus area</source>
         <translation>منطقة التركيز</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>فحص جهاز العرض والكاميرا</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>تحديد التعريضات</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>مشاهدة صورة الكاميرا</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2948,14 +3280,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>لم يتغيّر شيء.</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>فتح الأجهزة</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>قياس الاستجابة</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3630,10 +3954,6 @@ projector %2</source>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>تحضير المحرك</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>افتح الخرج مجددًا.</translation>
     </message>
@@ -3644,25 +3964,6 @@ projector %2</source>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1، يُعرض من دون OpenGL</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>فتح الأجهزة</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>التقاط لقطة التحقق</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>فحص الانحراف</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>كتابة التقرير</translation>
     </message>
 </context>
 <context>
@@ -3785,14 +4086,6 @@ projector %2</source>
     <message>
         <source>The picture of before stays.</source>
         <translation>تبقى الصورة السابقة.</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>قراءة نقل الضوء</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>حساب معكوس نقل الضوء</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4838,6 +5131,652 @@ projector %2</source>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>لهذا العرض، ثبّت برنامج تشغيل بطاقة الرسوم وأعد تشغيل Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>أخلِ بعض المساحة</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>تتعذّر كتابة التقرير</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>⁨{}⁩: {}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}؛ {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>تتعذّر الإزالة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>تحقق من أذونات المجلد</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>اختر مجلدًا آخر باستخدام ⁨--log⁩</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>فقد المحرك جهازه</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>تتعذّر كتابة السجل (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>شاشة جهاز العرض في وضع السكون ولا تستيقظ</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>حجم شاشة جهاز العرض الآن ⁨{}⁩ بكسل، وكان عند المعايرة ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>يتعذّر تفعيل الخدمة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>أعد دقة الشاشة إلى ما كانت عليه في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>ابدأ العرض من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>أوقف توفير الطاقة للشاشة وشاشة التوقف في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>الخوارزمية 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>تركيب نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>الأسود والإضاءة الكاملة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>المعايرة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>التحقق من جمعية ألوان {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>فحص الانحراف</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>فحص جهاز العرض والكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>تقسيم نقل الضوء إلى تجمّعات</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>تجمّعات مقيّدة الحجم</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>مقارنة معكوسات التجمّعات في {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>مقارنة الطرق</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>مقارنة الطرق في {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>التعويض</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>فك الترميز</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>تقدير نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>تقدير الاستجابة والألوان</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>التقييم</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>تقدير الخروج عن البؤرة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>تحديد التعريض</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>تحديد التعريضات</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>البحث عمّا يتعذّر تصحيحه</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>نمذجة انتشار الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>تكوين الرقع</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>تقييد حجم التجمّعات</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>حساب معكوسات التجمّعات</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>حساب معكوس نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>حساب معكوس {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>ضم التجمّعات</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>تقييم الإضاءة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>المستوى {0} من {1}: لا أنماط</numerusform>
+            <numerusform>المستوى {0} من {1}: نمط واحد</numerusform>
+            <numerusform>المستوى {0} من {1}: نمطان</numerusform>
+            <numerusform>المستوى {} من {}: {} أنماط</numerusform>
+            <numerusform>المستوى {} من {}: {} نمطًا</numerusform>
+            <numerusform>المستوى {} من {}: {} نمط</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>جعل الاستجابة خطية</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>البحث عن صورة جهاز العرض</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>البحث عن الظلال</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>مشاهدة صورة الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>قياس منحنيات سطوع {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>قياس الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>إعادة قياس: لا بكسلات معلّمة</numerusform>
+            <numerusform>إعادة قياس بكسل معلّم واحد</numerusform>
+            <numerusform>إعادة قياس بكسلين معلّمين</numerusform>
+            <numerusform>إعادة قياس {} بكسلات معلّمة</numerusform>
+            <numerusform>إعادة قياس {} بكسلًا معلّمًا</numerusform>
+            <numerusform>إعادة قياس {} بكسل معلّم</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>قياس زمن التأخير</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>قياس نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>قياس الاستجابة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>قياس {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>فتح الأجهزة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>تصوير الصور المعروضة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>تصوير أنماط الاختبار</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>توقّع الأنماط المحجوزة للاختبار</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>تحضير اختبارات الأداء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>تحضير الأجهزة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>تحضير المحرك</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>تحضير المعاينة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>تحضير الموقع</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>قراءة المعايرة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>قراءة نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>قراءة الأنماط</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>قراءة اللقطات</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>قراءة الصور</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>قراءة الاستجابة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>قراءة {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>الضبط على صورة الإضاءة الكاملة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>فصل الضوء المباشر عن غير المباشر</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>زيادة الحدّة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>إيجاد الحل</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>التقاط لقطة التحقق</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>أنماط الاختبار</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>قياس سرعة المحرك</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>تتبّع ضوء الموقع المحاكى</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>النوافذ</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>الكتابة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>كتابة نقل الضوء كاملًا</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>كتابة التقرير</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>كتابة النتائج</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>اختر مجلدًا يمكنك الكتابة فيه، وفيه مساحة كافية</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>تعذّرت كتابة الصورة</translation>
     </message>
 </context>
 </TS>

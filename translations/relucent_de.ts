@@ -13,1122 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>Die Kamera sieht %1: %2 ihres Bildes folgen dem Testmuster.</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>Das Bild erscheint gespiegelt. Ist das nicht gewollt (Rückprojektion, Spiegel), im Menü des Projektors ausschalten.</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>Bilder kommen ein Foto zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
-            <numerusform>Bilder kommen %n Fotos zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>Die Kamera sieht %1 und nicht %2.</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>Die Kamera sieht %1 nicht.</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>Ein Bild erscheint ein Einzelbild nach dem Senden: %1 werden abgewartet.</numerusform>
-            <numerusform>Ein Bild erscheint %n Einzelbilder nach dem Senden: %1 werden abgewartet.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>Weiß ändert sich von Foto zu Foto um %1: ganze Bilder des Projektors belichten, Vielfache von %2, und seine dynamische Helligkeit ausschalten.</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>Das Licht ändert sich zwischen Belichtungen ganzer Bilder um %1: Lampe warm werden lassen, dynamische Helligkeit und Lampen im Raum ausschalten.</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>Die Kamera kann nicht kürzer als ein Einzelbild belichten oder sieht dann zu wenig: Flackern innerhalb eines Einzelbilds ist nicht zu erkennen.</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>Die Lampe flackert innerhalb eines Einzelbilds, um %1 in %2: ganze Bilder belichten, Vielfache von %3.</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>Die Farben kommen nacheinander, wie durch ein Farbrad (%1 in %2): ganze Bilder belichten, Vielfache von %3.</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>Die Kamera belichtet ihre Zeilen nacheinander (Rolling Shutter): Kurze Belichtungen haben Streifen von %1. Ganze Bilder belichten, Vielfache von %2.</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>Der Projektor mischt Grautöne zeitlich, Pixel für Pixel (%1): mehrere ganze Bilder belichten, seine Glättung und 3D-Modi ausschalten.</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>Das Licht ist gleichmäßig: kein Flackern, kein Farbrad, keine Streifen, kein Dithering.</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>eine Kamera oder ein Projektor hat sich bewegt: Das Bild von Kamera {} ist um {} und {} Pixel verschoben und um {} Grad gedreht</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>eine Datei der Kalibrierung ({}) hat {} statt {} Bytes</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>eine Datei der Kalibrierung ({}) fehlt</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>eine Verstärkung von {} ist verlangt</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>ein neues Bild ist nach {} Einzelbildern noch nicht vollständig da</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>ein Foto kann nicht verschoben werden ({})</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>ein Foto kann nicht gelöscht werden ({})</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>ein Foto mit {}x{} Pixeln als {} kam mit {} von {} Bytes an</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>ein Foto wurde angefordert, aber keines kam</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>richten Sie sie auf die Projektion, nehmen Sie den Objektivdeckel ab und belichten Sie länger</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>ein anderes Programm belegt die Kamera</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>ein anderes Programm belegt die Kamera, meist der Desktop, der sie wie einen USB-Stick einbindet</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>verlangen Sie eine Größe, die es bietet: v4l2-ctl --list-formats-ext zeigt sie</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>verlangen Sie höchstens so viele</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>verlangen Sie die Größe, die sie liefert</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>temporärer Ordner kann nicht angelegt werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>Ordner kann nicht angelegt werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>Inhalt des Ordners kann nicht gelesen werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>kann nicht geöffnet werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>Ordner kann nicht geöffnet werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>kann nicht gelesen werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>Datei kann nicht gelöscht werden ({})</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>kann nicht geschrieben werden ({})</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>wechseln oder leeren Sie die Speicherkarte</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>laden oder wechseln Sie den Akku, am besten verwenden Sie ein Netzteil, und schalten Sie die Kamera wieder ein</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>prüfen Sie Kabel und Stromversorgung</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>prüfen Sie das Kabel und schalten Sie den Energiesparmodus aus</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>prüfen Sie Kabel, Stromversorgung und Adresse; `relucent-cli devices` zeigt, was vorhanden ist</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>prüfen Sie das Kabel, schalten Sie sie ein und ihre automatische Abschaltung aus</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>prüfen Sie, ob die Kamera ruhig steht und kurz belichtet, und schalten Sie die Bewegungsglättung des Projektors aus</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann machen Sie weiter</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>prüfen Sie, ob der Projektor eingeschaltet ist und diesen Ausgang zeigt, richten Sie die Kamera darauf und nehmen Sie den Objektivdeckel ab; oder wählen Sie einen anderen Bildschirm</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>prüfen Sie, ob der richtige Bildschirm gewählt ist und nichts das Bild verdeckt, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>prüfen Sie, ob Sie ihn lesen dürfen, oder wählen Sie einen anderen Namen</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>prüfen Sie Kabel und Netzwerkkarte der Kamera und ob kein anderes Programm sie nutzt</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>prüfen Sie das Gerät oder geben Sie dem Befehl mehr Zeit: {}</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>prüfen Sie Laufwerk und Kabel</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>prüfen Sie die Zugriffsrechte des Ordners</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>prüfen Sie den Pfad</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>prüfen Sie den Pfad und ob Sie ihn lesen dürfen</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>prüfen Sie Pfad und Laufwerk</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen, oder lassen Sie sich das Recht dazu geben</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>wählen Sie eine andere Kalibrierung oder kopieren Sie sie neu von dort, wo sie gemessen wurde</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>wählen Sie mit --log einen anderen Ordner</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>wählen Sie {} oder richten Sie die Kamera auf {}</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>schließen Sie ihre Menüs und ihre Wiedergabe und beenden Sie Live-View</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>schließen Sie ihre Menüs und schalten Sie sie aus und wieder ein</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>schließen Sie andere Programme und versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>schließen Sie die Kamera an, mit der die Messung begonnen wurde</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>kopieren Sie sie neu oder nehmen Sie das Foto neu auf; eine Kamera, die neuer ist als dieses LibRaw, braucht DNG-Dateien</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>entwickeln Sie die Dateien linear, als TIFF mit 16 Bit, oder verwenden Sie eine andere Kamera</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>alle Fotos vor dem Lichttransport sind sicher</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>alle Fotos bis zur letzten Kontrolle davor sind sicher</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>geben Sie Speicherplatz frei</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>geben Sie dort Speicherplatz frei oder prüfen Sie das Laufwerk, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>geben Sie dort Speicherplatz frei oder wählen Sie ein anderes Laufwerk, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>geben Sie dort Speicherplatz frei oder lassen Sie TMPDIR auf einen Ordner zeigen, in den Sie schreiben dürfen</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>geben Sie Speicherplatz frei oder zeichnen Sie an einem anderen Ort auf</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>installieren Sie Aravis (libaravis-dev) und erstellen Sie das Programm neu oder verwenden Sie eine Kamera anderer Art</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>installieren Sie libgphoto2 und LibRaw (libgphoto2-dev, libraw-dev) und erstellen Sie das Programm neu oder verwenden Sie einen Befehl</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>installieren Sie den Treiber der Grafikkarte oder lassen Sie den Prozessor rechnen</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>die Datei kann nicht entfernt werden ({})</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>sie bietet {}</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>sie bietet {}; gelesen werden ungepackte Formate Mono, Bayer und RGB mit 8 bis 16 Bit</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>sie ist leer</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>lassen Sie ihn das Foto in {output} schreiben: {}</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>lassen Sie den Befehl diese Größe schreiben oder beginnen Sie neu mit der Größe, die die Kamera liefert</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>lösen Sie die Kamera mit `gio mount -s gphoto2` vom Desktop (oder werfen Sie sie im Dateimanager aus) und schließen Sie Fotoprogramme</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>lassen Sie den Prozessor rechnen</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>melden Sie sich an einem Desktop mit X an („Xorg“ bei der Anmeldung) oder spielen Sie Dateien ab</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>geben Sie eine davon mit ihrem Anschluss an: gphoto2:{} oder gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>geben Sie diese an: gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>keine GenICam-Kamera „{}“ antwortet</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>keine Kamera dieses Namens ist angeschlossen, dafür aber {}</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>innerhalb von {} s kam kein Foto</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>kein solches Videogerät ist angeschlossen</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>keines der Pixelformate der Kamera ist lesbar</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>Teile davon fehlen</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>Teile des Fotos gingen unterwegs verloren</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>schließen Sie es an, schließen Sie andere Programme, die es nutzen, und versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>drücken Sie ihren Auslöser halb durch oder schalten Sie sie aus und wieder ein, und schalten Sie ihre automatische Abschaltung aus</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>Projektor {} zeigt das Bild nicht, das er bekommt</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>stellen Sie das Gerät auf ein halbes Pixel genau zurück, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>löschen Sie sie von Hand, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>führen Sie ihn in einem Terminal aus, um die Ursache zu finden: {}</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>stellen Sie sie von Hand auf ISO 100</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>stellen Sie ihren Belichtungsmodus auf „Timed“ und manuell oder aktualisieren Sie ihre Firmware</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>stellen Sie in den Einstellungen des Desktops wieder seine frühere Auflösung ein, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>stellen Sie sie auf Bereiche von Belichtungszeiten ein, die sich überschneiden</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>starten Sie die Show neu</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>stellen Sie den alten Zustand wieder her, halten Sie Türen und Vorhänge geschlossen, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>schalten Sie sie aus und wieder ein, laden Sie ihre Standardeinstellungen mit dem Programm des Herstellers und versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>schalten Sie dies mit dem Programm des Kameraherstellers aus oder verwenden Sie eine andere Kamera</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>schalten Sie dies mit v4l2-ctl aus (--list-ctrls zeigt, was es bietet) oder verwenden Sie eine andere Kamera</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>schalten Sie ihre Belichtungsautomatik und die Begrenzung ihrer Bildrate aus</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>schalten Sie ihre Belichtungsautomatik aus; eine Kamera ohne manuelle Belichtung ist nicht verwendbar</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>stellen Sie ihr Objektiv auf manuellen Fokus</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>stellen Sie ihr Objektiv auf manuellen Fokus, schließen Sie ihre Menüs und nehmen Sie von Hand ein Foto auf, um zu sehen, was sie beanstandet</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>stellen Sie ihre Bildqualität von Hand auf RAW; eine Kamera ohne RAW ist nicht verwendbar</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>schalten Sie seinen Energiesparmodus und den Bildschirmschoner in den Einstellungen des Desktops aus, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>schalten Sie gedimmte Lampen, Leuchtstofflampen und den Energiesparmodus des Projektors aus, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>schalten Sie seine automatische Helligkeit und seine Eco-Modi aus, lassen Sie ihn warm werden, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>schalten Sie Rückprojektion oder Deckenmontage am Projektor aus oder erlauben Sie ein gespiegeltes Bild, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>schalten Sie die Kamera aus und wieder ein oder wählen Sie ein anderes ihrer Pixelformate</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>stellen Sie die Kamera auf RAW in voller Größe (kein sRAW, kein mRAW, kein lineares DNG)</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>entfernen Sie, was im Licht oder im Bild steht, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>das Manifest der Kalibrierung ist beschädigt</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>die Kamera kann {} bis {}</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>die Kamera kam mit {}x{} statt {}x{} Pixeln zurück</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>die Kamera wählt ihre Empfindlichkeit selbst (ISO-Automatik)</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>die Kamera meldet Belichtungszeiten von {} bis {} s</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>die Kamera liefert keine RAW-Dateien</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>die Kamera fand keinen Fokus und nahm kein Foto auf ({})</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>die Kamera ist seit {} s weg: {}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>die Kamera wurde getrennt oder ausgeschaltet oder ist eingeschlafen</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>die Kamera hat das eingestellte Pixelformat vergessen</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>die Kamera hat kein lesbares Pixelformat {}</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>die Kamera hat keinen Platz mehr für ein Foto: Ihre Speicherkarte ist voll</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>die Kamera ist da, antwortet aber nicht, vielleicht schläft sie</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>die Kamera bleibt bei {} s, welche Belichtung auch verlangt wird</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>die Kamera antwortet nicht mehr ({}: {})</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>die Kamera hat das Verlangte verweigert ({})</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>die Kamera verweigert dies ({}: {})</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>die Kamera sieht keinen Unterschied zwischen Weiß und Schwarz</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>die Kamera sieht gar nichts</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>die Kamera sieht {}, nicht {}</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>die Kamera sendet keinen Datenstrom</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>die Kamera sendete {} und keine RAW-Datei</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>die Kamera bleibt beschäftigt</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>von der Kamera wurde ein Foto verlangt, sie nahm aber keines auf</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>von der Kamera wurden {} s Belichtung verlangt, sie bleibt aber bei {} s</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>der Akku der Kamera scheint leer zu sein ({} % bei der letzten Abfrage)</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>der Farbfilter der Kamera ist kein Bayer-Filter</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>die Belichtungszeit der Kamera lässt sich nicht einstellen</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>das Moduswahlrad der Kamera steht auf {}, dort wählt die Kamera die Belichtung selbst</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>die Kameras haben keine gemeinsame Belichtungszeit</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>das Aufnahmegerät liefert kein Bild</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>der Befehl lässt sich nicht starten ({})</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>der Befehl endete ohne Fehler, schrieb aber nichts; erwartet war {}</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>der Befehl endete ohne Fehler, schrieb aber {}; erwartet war {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>der Befehl scheiterte mit Status {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>der Befehl scheiterte mit Status {} und meldete „{}“</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>der Befehl dauerte länger als {} s</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>der Befehl dauerte länger als {} s und meldete „{}“</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>der Befehl wurde durch Signal {} beendet</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>der Befehl wurde durch Signal {} beendet und meldete „{}“</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>die Engine hat ihr Gerät verloren</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>die Grafikkarte ist nicht verwendbar</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>die Grafikkarte hat keine {} MB Speicher mehr frei</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>die Grafikkarte kann {} MB auf einmal ansprechen, {} MB sind nötig</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>die Grafikkarte ging verloren</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>das Licht flackert: Fotos desselben Musters unterscheiden sich um {} %</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>das Raumlicht ist heller geworden</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>das Raumlicht ist dunkler geworden</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>das Livebild eines Bildschirms braucht einen X-Server, und keiner antwortet</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>das Protokoll kann nicht geschrieben werden ({})</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>das Foto hat {}x{} Pixel als {}, vereinbart waren {}x{} als {}</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>das Foto hat {}x{} Pixel, angekündigt waren {}x{}</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>das Foto ist größer als von der Kamera angekündigt</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>das Foto wurde nicht fertig</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>das Bild konnte nicht geschrieben werden</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>das Bild von Projektor {} erscheint gespiegelt</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>der Projektor zeigt nichts, nur das Raumlicht ist noch zu sehen</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>das Licht des Projektors hat sich innerhalb weniger Fotos um {} % geändert</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>der Bildschirm des Projektors hat jetzt {}x{} Pixel, kalibriert wurden {}x{}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>der Bildschirm des Projektors schläft und lässt sich nicht wecken</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>der Bildschirm des Projektors verliert immer wieder sein Bild</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>die RAW-Datei kann nicht gelesen werden ({})</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>die RAW-Datei enthält nicht die Sensorwerte selbst</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>die Aufzeichnung kann nicht geschrieben werden ({})</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>der Bericht kann nicht geschrieben werden</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>der Dienst lässt sich nicht einschalten ({})</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>das Videogerät lässt sich nicht wieder öffnen</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>das Videogerät lässt sich nicht öffnen: Vielleicht nutzt es ein anderes Programm</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>das Videogerät wurde getrennt</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>das Videogerät hat keine einstellbare Belichtung</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>das Videogerät sendet keine Bilder</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>die Belichtungsautomatik des Videogeräts lässt sich nicht ausschalten</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>der Autofokus des Videogeräts lässt sich nicht ausschalten</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>der automatische Weißabgleich des Videogeräts lässt sich nicht ausschalten</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>OpenGL 4.3 mit Compute-Shadern ist nicht vorhanden</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>keine Grafikkarte mit OpenGL 4.3 und Compute-Shadern ist vorhanden</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>libEGL oder libOpenGL fehlt, die Grafikkarten ohne Bildschirm öffnen</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>dieser Build von Relucent kennt keine Spiegelreflex- und Systemkameras</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>dieser Build von Relucent kennt keine GenICam-Kameras</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>dies ist keine Kalibrierung von Relucent</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>drehen Sie es auf M</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>drehen Sie ihr Moduswahlrad auf M; eine Kamera ohne M ist nicht verwendbar</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>decken Sie das Objektiv auf, prüfen Sie, ob der Projektor eingeschaltet ist, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>verwenden Sie eine Kamera mit manueller Belichtung</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>wecken Sie den Projektor, schalten Sie seinen Energiesparmodus und den des Bildschirms aus, dann versuchen Sie es erneut</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>ISO {} ist verlangt, die Kamera hat diesen Wert aber nicht</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>{} % des Bilds von Kamera {} sehen anders aus als zuvor</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} Versuche, ein Foto aufzunehmen, sind gescheitert: {}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{}, indem Sie die Kalibrierung fortsetzen; {}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>{} Kameras dieses Modells sind angeschlossen</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>{} lässt sich nicht ausschalten</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}, dann machen Sie weiter: Alle bisherigen Fotos bleiben erhalten</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>{}x{} Pixel sind verlangt, die Kamera liefert {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>{}x{} Pixel sind verlangt, die Kamera hat {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>{}x{} Pixel sind verlangt, das Videogerät liefert {}x{}</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}: {}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}; {}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{} ({})</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}.</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>gibt Belichtungen bis {} s an, bleibt aber bei {} s</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>liefert 8 Bit: dunkle Stellen bleiben ungenau</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>sagt nicht, wann Bilder aufgenommen wurden: Vor jeder Aufnahme werden einige verworfen</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>stellt selbst scharf: Stellen Sie das Objektiv auf manuellen Fokus</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>hat keinen Software-Auslöser: Jede Aufnahme wartet eventuell eine Belichtung länger</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>hat noch {} % Akkuladung: Eine Messung braucht einen vollen Akku oder ein Netzteil</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>löst eventuell den Blitz aus: Klappen Sie ihn ein</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>nimmt nach langen Belichtungen eventuell ein Dunkelbild auf, was deren Zeit verdoppelt</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>nimmt eventuell mehrere Bilder auf einmal auf: Stellen Sie sie auf Einzelbild</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>sieht keine Farben: Helligkeit kann ausgeglichen werden, Farben nicht</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>schaltet sich nach einer Weile selbst ab: Stellen Sie das ab</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>Videogerät</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>soll ISO {} verwenden und bleibt bei ISO {}</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>soll eine Verstärkung von {} verwenden und bleibt bei {}</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>Spiegelreflex- und spiegellose Kameras: Diesem Programm fehlt libgphoto2 oder LibRaw; installieren Sie libgphoto2-dev und libraw-dev und bauen Sie es neu</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>GigE-Vision- und USB3-Vision-Kameras: Diesem Programm fehlt Aravis; installieren Sie libaravis-dev und bauen Sie es neu</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>schließen Sie die Blende oder setzen Sie einen Graufilter auf, falls sie wichtig sind</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>schließen Sie die Blende, verringern Sie die Verstärkung oder setzen Sie einen Graufilter auf</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>entwickeln Sie sie linear, als TIFF oder EXR, um genauer zu messen</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>öffnen Sie die Blende oder erhöhen Sie die Verstärkung</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>Muster und Fotos sind grau: Farben werden nicht unterschieden, und die Blöcke von T sind neutral</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>vor Muster {} hingenommen: {}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>einige Glanzlichter sind selbst bei {} s, der kürzesten Belichtung, überbelichtet und werden nicht kompensiert</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>schalten Sie Stromsparen, Farbmanagement und dynamische Bildmodi aus</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>schalten Sie dynamische Iris, dynamischen Kontrast und jeden Bildmodus aus, der sich dem Inhalt anpasst</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>schalten Sie die dynamischen Lampenmodi des Projektors und andere Lampen in der Nähe aus, und wählen Sie Belichtungszeiten, die Vielfache der Netzperiode sind</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>schalten Sie das Weißsegment aus (oft „Brilliant Color“ oder „heller Modus“ genannt) und wählen Sie einen Bildmodus für Video oder sRGB</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>das wurde berücksichtigt, aber lassen Sie den Projektor das nächste Mal vorher warm werden</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>die Kamera wird als linear angenommen, und ein Foto zählt als eine Sekunde Belichtung</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>das Licht hat sich zwischen dem ersten und dem letzten Foto um {} % geändert</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>das Licht ändert sich von einem Foto zum nächsten um {} %</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>die Muster sind grau: Wie sich Farben mischen, wurde nicht gemessen, und die Blöcke von T sind diagonal</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>die Muster enthalten nur Schwarz und Weiß: Als Kennlinie des Projektors wird eine Potenz von 2,2 angenommen</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>die Fotos sind grau: Was jede Farbe des Projektors beiträgt, ist nur als Helligkeit bekannt</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>die Fotos sind JPEG: Sie wurden mit der Kurve von sRGB linearisiert, der Kameras nur ungefähr folgen</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>die Fotos wurden den Mustern in der Reihenfolge ihrer Aufnahme zugeordnet, von {} bis {}, die nicht die ihrer Namen ist</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>die Projektion ist selbst bei {} s, der kürzesten Belichtung, überbelichtet</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>die Projektion erreicht bei {1} s, der längsten Belichtung, nur {0} % des Bereichs der Kamera</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>der Projektor beleuchtet {} % der Pixel der Kamera</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>diese Pixel bleiben bei der Kompensation außer Acht</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>zwei Hälften eines Bildes sind {} % heller als das Ganze</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>zwei Hälften eines Bildes sind {} % dunkler als das Ganze</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>Weiß ist {} % heller als Rot, Grün und Blau zusammen</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>Weiß ist {} % dunkler als Rot, Grün und Blau zusammen</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{} % der Kamerapixel sind selbst bei der kürzesten Belichtung überbelichtet: Schließen Sie die Blende der Kamera oder erlauben Sie kürzere Belichtungen, dann messen Sie erneut</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>{} % der Kamerapixel sehen in den Testmustern etwas anderes als vorhergesagt: Prüfen Sie, dass sich nichts bewegt und nichts geflackert hat</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>eine Kamera mit {}x{} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>einen Projektor mit {}x{} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>im Befehl der Kamera fehlt {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>der Befehl der Kamera ist leer</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>im Befehl des Projektors fehlt {}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>der Befehl des Projektors ist leer</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>die kürzeste Belichtung muss größer als null und nicht länger als die längste sein</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1301,263 +185,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>Algorithmus 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>Zusammensetzen des Lichttransports</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>Kalibrierung</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>Prüfung der Farbsumme: {}</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>Clusterbildung im Lichttransport</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Cluster mit begrenzter Größe</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>Vergleich der Cluster-Inversen: {}</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>Vergleich der Methoden</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>Vergleich der Methoden: {}</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>Kompensation</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>Dekodierung</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>Schätzung von Kennlinie und Farben</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>Schätzung des Lichttransports</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>Auswertung</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>Bestimmung des Defokus</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>Bestimmung der Belichtung</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>Anpassung der Lichtstreuung</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>Bildung der Pixelbereiche</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Begrenzung der Clustergröße</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>Inversion der Cluster</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Inversion des Lichttransports</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>Inversion: {}</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>Vereinigung der Cluster</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>Linearisierung</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Suche nach Schatten</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>Suche nach nicht Korrigierbarem</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>Messung der Helligkeitskurven: {}</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>Messung der Kamera</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>Beurteilung des Lichts</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Suche nach dem Projektorbild</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>Messung der Latenz</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Messung des Lichttransports</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>Messung: {}</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>Fotografieren der Testmuster</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>Fotografieren der Projektionen</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>Vorhersage zurückgehaltener Muster</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>Vorbereitung der Benchmarks</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>Vorbereitung der Geräte</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>Vorbereitung des Rechenkerns</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>Vorbereitung des Spielorts</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>Lesen der Kalibrierung</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>Lesen der Muster</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>Lesen der Fotos</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>Lesen der Bilder</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>Lesen: {}</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>Skalierung auf das Volllichtbild</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>Trennung von direktem und indirektem Licht</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>Schärfung</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>Berechnung der Lösung</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>Zeitmessung des Rechenkerns</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Fenster</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>Schreiben</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>Ausschreiben des Lichttransports</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>Schreiben der Ergebnisse</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>Schwarz und Volllicht</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>Lichttransport</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>Projektor {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>Testmuster</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>Projektor</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>Lichtberechnung am simulierten Spielort</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>Ebene {} von {}: %n Muster</numerusform>
-            <numerusform>Ebene {} von {}: %n Muster</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>Neumessung von %n markierten Pixel</numerusform>
-            <numerusform>Neumessung von %n markierten Pixeln</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1605,6 +232,1743 @@
     <message>
         <source>A venue is being measured</source>
         <translation>Ein Spielort wird gemessen</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>vor Muster {} hingenommen: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>das Licht hat sich zwischen dem ersten und dem letzten Foto um {} % geändert; das wurde berücksichtigt, aber lassen Sie den Projektor das nächste Mal vorher warm werden</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>{} % der Kamerapixel sind selbst bei der kürzesten Belichtung überbelichtet: Schließen Sie die Blende der Kamera oder erlauben Sie kürzere Belichtungen, dann messen Sie erneut</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>{} % der Kamerapixel sehen in den Testmustern etwas anderes als vorhergesagt: Prüfen Sie, dass sich nichts bewegt und nichts geflackert hat; diese Pixel bleiben bei der Kompensation außer Acht</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{}, indem Sie die Kalibrierung fortsetzen; {}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>die Kamera sieht gar nichts</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>prüfen Sie, ob der richtige Bildschirm gewählt ist und nichts das Bild verdeckt, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>entfernen Sie, was im Licht oder im Bild steht, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>das Licht des Projektors hat sich innerhalb weniger Fotos um {} % geändert</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>das Licht flackert: Fotos desselben Musters unterscheiden sich um {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>eine Kamera oder ein Projektor hat sich bewegt: Das Bild von Kamera {} ist um {} und {} Pixel verschoben und um {} Grad gedreht</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>das Bild von Projektor {} erscheint gespiegelt</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>der Projektor zeigt nichts, nur das Raumlicht ist noch zu sehen</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>stellen Sie das Gerät auf ein halbes Pixel genau zurück, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>stellen Sie den alten Zustand wieder her, halten Sie Türen und Vorhänge geschlossen, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>das Raumlicht ist heller geworden</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>das Raumlicht ist dunkler geworden</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>alle Fotos bis zur letzten Kontrolle davor sind sicher</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>alle Fotos vor dem Lichttransport sind sicher</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>schalten Sie gedimmte Lampen, Leuchtstofflampen und den Energiesparmodus des Projektors aus, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>schalten Sie seine automatische Helligkeit und seine Eco-Modi aus, lassen Sie ihn warm werden, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>schalten Sie Rückprojektion oder Deckenmontage am Projektor aus oder erlauben Sie ein gespiegeltes Bild, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>decken Sie das Objektiv auf, prüfen Sie, ob der Projektor eingeschaltet ist, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>{} % des Bilds von Kamera {} sehen anders aus als zuvor</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>wecken Sie den Projektor, schalten Sie seinen Energiesparmodus und den des Bildschirms aus, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>Projektor {} zeigt das Bild nicht, das er bekommt</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>das Manifest der Kalibrierung ist beschädigt</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>Inhalt des Ordners kann nicht gelesen werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>Ordner kann nicht geöffnet werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann machen Sie weiter</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>prüfen Sie den Pfad und ob Sie ihn lesen dürfen</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>prüfen Sie, ob Sie ihn lesen dürfen, oder wählen Sie einen anderen Namen</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>wählen Sie eine andere Kalibrierung oder kopieren Sie sie neu von dort, wo sie gemessen wurde</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>eine Datei der Kalibrierung ({}) hat {} statt {} Bytes</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>eine Datei der Kalibrierung ({}) fehlt</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>geben Sie dort Speicherplatz frei oder prüfen Sie das Laufwerk, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>dies ist keine Kalibrierung von Relucent</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>ein Foto kann nicht verschoben werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>ein Foto kann nicht gelöscht werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>Die Farben kommen nacheinander, wie durch ein Farbrad ({} % in {} ms): ganze Bilder belichten, Vielfache von {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>Der Projektor mischt Grautöne zeitlich, Pixel für Pixel ({} %): mehrere ganze Bilder belichten, seine Glättung und 3D-Modi ausschalten.</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>Die Lampe flackert innerhalb eines Einzelbilds, um {} % in {} ms: ganze Bilder belichten, Vielfache von {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>Das Licht ist gleichmäßig: kein Flackern, kein Farbrad, keine Streifen, kein Dithering.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>Das Licht ändert sich zwischen Belichtungen ganzer Bilder um {} %: Lampe warm werden lassen, dynamische Helligkeit und Lampen im Raum ausschalten.</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>Die Kamera kann nicht kürzer als ein Einzelbild belichten oder sieht dann zu wenig: Flackern innerhalb eines Einzelbilds ist nicht zu erkennen.</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>Die Kamera sieht {} und nicht {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>Ein Bild erscheint ein Einzelbild nach dem Senden: {1} ms werden abgewartet.</numerusform>
+            <numerusform>Ein Bild erscheint {} Einzelbilder nach dem Senden: {} ms werden abgewartet.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>Bilder kommen ein Foto zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
+            <numerusform>Bilder kommen {} Fotos zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>Die Kamera belichtet ihre Zeilen nacheinander (Rolling Shutter): Kurze Belichtungen haben Streifen von {} %. Ganze Bilder belichten, Vielfache von {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>Das Bild erscheint gespiegelt. Ist das nicht gewollt (Rückprojektion, Spiegel), im Menü des Projektors ausschalten.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>Die Kamera sieht {} nicht.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>Die Kamera sieht {}: {} % ihres Bildes folgen dem Testmuster.</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>Weiß ändert sich von Foto zu Foto um {} %: ganze Bilder des Projektors belichten, Vielfache von {} ms, und seine dynamische Helligkeit ausschalten.</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>das Aufnahmegerät liefert kein Bild</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>das Livebild eines Bildschirms braucht einen X-Server, und keiner antwortet</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>melden Sie sich an einem Desktop mit X an („Xorg“ bei der Anmeldung) oder spielen Sie Dateien ab</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>schließen Sie es an, schließen Sie andere Programme, die es nutzen, und versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>richten Sie sie auf die Projektion, nehmen Sie den Objektivdeckel ab und belichten Sie länger</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>ein anderes Programm belegt die Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>verlangen Sie höchstens so viele</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>verlangen Sie die Größe, die sie liefert</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>verlangen Sie eine Größe, die es bietet: v4l2-ctl --list-formats-ext zeigt sie</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>soll eine Verstärkung von {} verwenden und bleibt bei {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>soll ISO {} verwenden und bleibt bei ISO {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} Versuche, ein Foto aufzunehmen, sind gescheitert: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>die Belichtungsautomatik des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>der Autofokus des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>die Kamera wählt ihre Empfindlichkeit selbst (ISO-Automatik)</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>der automatische Weißabgleich des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>der Akku der Kamera scheint leer zu sein ({} % bei der letzten Abfrage)</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>hat noch {} % Akkuladung: Eine Messung braucht einen vollen Akku oder ein Netzteil</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>dieser Build von Relucent kennt keine Spiegelreflex- und Systemkameras</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>dieser Build von Relucent kennt keine GenICam-Kameras</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>von der Kamera wurden {} s Belichtung verlangt, sie bleibt aber bei {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>von der Kamera wurde ein Foto verlangt, sie nahm aber keines auf</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>die Kamera ist da, antwortet aber nicht, vielleicht schläft sie</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>die Kamera ist seit {} s weg: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>die Kamera kam mit {} statt {} Pixeln zurück</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>die Kamera kann {} bis {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>die Kamera meldet Belichtungszeiten von {} bis {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>der Farbfilter der Kamera ist kein Bayer-Filter</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>der Befehl der Kamera ist leer</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>im Befehl der Kamera fehlt {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>die Kamera hat das eingestellte Pixelformat vergessen</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>die Kamera fand keinen Fokus und nahm kein Foto auf ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>die Kamera wurde getrennt oder ausgeschaltet oder ist eingeschlafen</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>die Kamera bleibt bei {} s, welche Belichtung auch verlangt wird</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>die Kamera antwortet nicht mehr ({}: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>die Kamera hat kein lesbares Pixelformat {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>die Kamera hat das Verlangte verweigert ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>die Kamera verweigert dies ({}: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>die Kamera sieht keinen Unterschied zwischen Weiß und Schwarz</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>die Kamera sieht {}, nicht {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>die Kamera sendet keinen Datenstrom</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>die Kamera bleibt beschäftigt</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>{} Kameras dieses Modells sind angeschlossen</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>temporärer Ordner kann nicht angelegt werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>Datei kann nicht gelöscht werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} lässt sich nicht ausschalten</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>die Kamera hat keinen Platz mehr für ein Foto: Ihre Speicherkarte ist voll</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>wechseln oder leeren Sie die Speicherkarte</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>laden oder wechseln Sie den Akku, am besten verwenden Sie ein Netzteil, und schalten Sie die Kamera wieder ein</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>prüfen Sie Kabel und Stromversorgung</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>prüfen Sie Kabel, Stromversorgung und Adresse; `relucent-cli devices` zeigt, was vorhanden ist</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>prüfen Sie das Kabel und schalten Sie den Energiesparmodus aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>prüfen Sie das Kabel, schalten Sie sie ein und ihre automatische Abschaltung aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>prüfen Sie Kabel und Netzwerkkarte der Kamera und ob kein anderes Programm sie nutzt</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>prüfen Sie, ob die Kamera ruhig steht und kurz belichtet, und schalten Sie die Bewegungsglättung des Projektors aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>prüfen Sie das Gerät oder geben Sie dem Befehl mehr Zeit: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>prüfen Sie, ob der Projektor eingeschaltet ist und diesen Ausgang zeigt, richten Sie die Kamera darauf und nehmen Sie den Objektivdeckel ab; oder wählen Sie einen anderen Bildschirm</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>wählen Sie {} oder richten Sie die Kamera auf {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>gibt Belichtungen bis {} s an, bleibt aber bei {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>schließen Sie ihre Menüs und ihre Wiedergabe und beenden Sie Live-View</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>schließen Sie ihre Menüs und schalten Sie sie aus und wieder ein</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>schließen Sie andere Programme und versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>der Befehl lässt sich nicht starten ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>der Befehl scheiterte mit Status {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>der Befehl scheiterte mit Status {} und meldete „{}“</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>der Befehl wurde durch Signal {} beendet</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>der Befehl wurde durch Signal {} beendet und meldete „{}“</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>der Befehl dauerte länger als {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>der Befehl dauerte länger als {} s und meldete „{}“</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>der Befehl endete ohne Fehler, schrieb aber nichts; erwartet war {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>der Befehl endete ohne Fehler, schrieb aber {}; erwartet war {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>schließen Sie die Kamera an, mit der die Messung begonnen wurde</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>kopieren Sie sie neu oder nehmen Sie das Foto neu auf; eine Kamera, die neuer ist als dieses LibRaw, braucht DNG-Dateien</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>liefert 8 Bit: dunkle Stellen bleiben ungenau</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>entwickeln Sie die Dateien linear, als TIFF mit 16 Bit, oder verwenden Sie eine andere Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>die Belichtungszeit der Kamera lässt sich nicht einstellen</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>stellt selbst scharf: Stellen Sie das Objektiv auf manuellen Fokus</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>geben Sie Speicherplatz frei oder zeichnen Sie an einem anderen Ort auf</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>geben Sie dort Speicherplatz frei oder lassen Sie TMPDIR auf einen Ordner zeigen, in den Sie schreiben dürfen</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>eine Verstärkung von {} ist verlangt</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>GigE-Vision- und USB3-Vision-Kameras: Diesem Programm fehlt Aravis; installieren Sie libaravis-dev und bauen Sie es neu</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Spiegelreflex- und spiegellose Kameras: Diesem Programm fehlt libgphoto2 oder LibRaw; installieren Sie libgphoto2-dev und libraw-dev und bauen Sie es neu</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>ein anderes Programm belegt die Kamera, meist der Desktop, der sie wie einen USB-Stick einbindet</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>eine Kamera mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>einen Projektor mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>installieren Sie Aravis (libaravis-dev) und erstellen Sie das Programm neu oder verwenden Sie eine Kamera anderer Art</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>installieren Sie libgphoto2 und LibRaw (libgphoto2-dev, libraw-dev) und erstellen Sie das Programm neu oder verwenden Sie einen Befehl</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>ISO {} ist verlangt, die Kamera hat diesen Wert aber nicht</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>sie bietet {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>lassen Sie den Befehl diese Größe schreiben oder beginnen Sie neu mit der Größe, die die Kamera liefert</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>lösen Sie die Kamera mit `gio mount -s gphoto2` vom Desktop (oder werfen Sie sie im Dateimanager aus) und schließen Sie Fotoprogramme</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>lassen Sie ihn das Foto in {output} schreiben: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>löst eventuell den Blitz aus: Klappen Sie ihn ein</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>nimmt nach langen Belichtungen eventuell ein Dunkelbild auf, was deren Zeit verdoppelt</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>nimmt eventuell mehrere Bilder auf einmal auf: Stellen Sie sie auf Einzelbild</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>das Moduswahlrad der Kamera steht auf {}, dort wählt die Kamera die Belichtung selbst</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>geben Sie diese an: gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>geben Sie eine davon mit ihrem Anschluss an: gphoto2:{} oder gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>ein neues Bild ist nach {} Einzelbildern noch nicht vollständig da</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>keine Kamera dieses Namens ist angeschlossen, dafür aber {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>keine GenICam-Kamera „{}“ antwortet</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>innerhalb von {} s kam kein Foto</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>die Kamera sendete {} und keine RAW-Datei</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>die Kamera liefert keine RAW-Dateien</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>hat keinen Software-Auslöser: Jede Aufnahme wartet eventuell eine Belichtung länger</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>kein solches Videogerät ist angeschlossen</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>keines der Pixelformate der Kamera ist lesbar</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>sagt nicht, wann Bilder aufgenommen wurden: Vor jeder Aufnahme werden einige verworfen</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>Teile des Fotos gingen unterwegs verloren</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>ein Foto wurde angefordert, aber keines kam</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>das Foto ist größer als von der Kamera angekündigt</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>das Foto wurde nicht fertig</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>das Foto hat {} Pixel als {}, vereinbart waren {} als {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>das Foto hat {} Pixel, angekündigt waren {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>ein Foto mit {} Pixeln als {} kam mit {} von {} Bytes an</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>{} Pixel sind verlangt, die Kamera hat {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>{} Pixel sind verlangt, die Kamera liefert {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>{} Pixel sind verlangt, das Videogerät liefert {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>drücken Sie ihren Auslöser halb durch oder schalten Sie sie aus und wieder ein, und schalten Sie ihre automatische Abschaltung aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>der Befehl des Projektors ist leer</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>im Befehl des Projektors fehlt {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>der Bildschirm des Projektors verliert immer wieder sein Bild</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>die RAW-Datei kann nicht gelesen werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>sie ist leer</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>Teile davon fehlen</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>die RAW-Datei enthält nicht die Sensorwerte selbst</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>die Aufzeichnung kann nicht geschrieben werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>löschen Sie sie von Hand, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>führen Sie ihn in einem Terminal aus, um die Ursache zu finden: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>sieht keine Farben: Helligkeit kann ausgeglichen werden, Farben nicht</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>stellen Sie ihren Belichtungsmodus auf „Timed“ und manuell oder aktualisieren Sie ihre Firmware</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>stellen Sie sie von Hand auf ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>die kürzeste Belichtung muss größer als null und nicht länger als die längste sein</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>schalten Sie ihre Belichtungsautomatik und die Begrenzung ihrer Bildrate aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>schalten Sie ihre Belichtungsautomatik aus; eine Kamera ohne manuelle Belichtung ist nicht verwendbar</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>stellen Sie die Kamera auf RAW in voller Größe (kein sRAW, kein mRAW, kein lineares DNG)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>schalten Sie die Kamera aus und wieder ein oder wählen Sie ein anderes ihrer Pixelformate</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>stellen Sie ihr Objektiv auf manuellen Fokus</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>stellen Sie ihr Objektiv auf manuellen Fokus, schließen Sie ihre Menüs und nehmen Sie von Hand ein Foto auf, um zu sehen, was sie beanstandet</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>schalten Sie dies mit dem Programm des Kameraherstellers aus oder verwenden Sie eine andere Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>schalten Sie sie aus und wieder ein, laden Sie ihre Standardeinstellungen mit dem Programm des Herstellers und versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>schalten Sie dies mit v4l2-ctl aus (--list-ctrls zeigt, was es bietet) oder verwenden Sie eine andere Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>stellen Sie ihre Bildqualität von Hand auf RAW; eine Kamera ohne RAW ist nicht verwendbar</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>schaltet sich nach einer Weile selbst ab: Stellen Sie das ab</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}, dann machen Sie weiter: Alle bisherigen Fotos bleiben erhalten</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>drehen Sie es auf M</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>drehen Sie ihr Moduswahlrad auf M; eine Kamera ohne M ist nicht verwendbar</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>sie bietet {}; gelesen werden ungepackte Formate Mono, Bayer und RGB mit 8 bis 16 Bit</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>verwenden Sie eine Kamera mit manueller Belichtung</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>Videogerät</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>das Videogerät wurde getrennt</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>das Videogerät lässt sich nicht wieder öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>das Videogerät lässt sich nicht öffnen: Vielleicht nutzt es ein anderes Programm</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>das Videogerät hat keine einstellbare Belichtung</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>das Videogerät sendet keine Bilder</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>Ordner kann nicht angelegt werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>kann nicht geöffnet werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>kann nicht gelesen werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>kann nicht geschrieben werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>prüfen Sie Laufwerk und Kabel</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>prüfen Sie den Pfad</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>prüfen Sie Pfad und Laufwerk</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen, oder lassen Sie sich das Recht dazu geben</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>geben Sie dort Speicherplatz frei oder wählen Sie ein anderes Laufwerk, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>die Grafikkarte ist nicht verwendbar</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>die Grafikkarte ging verloren</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>die Grafikkarte hat keine {} MB Speicher mehr frei</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>die Grafikkarte kann {} MB auf einmal ansprechen, {} MB sind nötig</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>installieren Sie den Treiber der Grafikkarte oder lassen Sie den Prozessor rechnen</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>lassen Sie den Prozessor rechnen</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>keine Grafikkarte mit OpenGL 4.3 und Compute-Shadern ist vorhanden</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>libEGL oder libOpenGL fehlt, die Grafikkarten ohne Bildschirm öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>OpenGL 4.3 mit Compute-Shadern ist nicht vorhanden</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>die Kamera wird als linear angenommen, und ein Foto zählt als eine Sekunde Belichtung</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>der Projektor beleuchtet {} % der Pixel der Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>die Fotos wurden den Mustern in der Reihenfolge ihrer Aufnahme zugeordnet, von {} bis {}, die nicht die ihrer Namen ist</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>Muster und Fotos sind grau: Farben werden nicht unterschieden, und die Blöcke von T sind neutral</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>die Muster enthalten nur Schwarz und Weiß: Als Kennlinie des Projektors wird eine Potenz von 2,2 angenommen</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>die Muster sind grau: Wie sich Farben mischen, wurde nicht gemessen, und die Blöcke von T sind diagonal</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>die Fotos sind JPEG: Sie wurden mit der Kurve von sRGB linearisiert, der Kameras nur ungefähr folgen; entwickeln Sie sie linear, als TIFF oder EXR, um genauer zu messen</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>die Fotos sind grau: Was jede Farbe des Projektors beiträgt, ist nur als Helligkeit bekannt</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>die Kameras haben keine gemeinsame Belichtungszeit</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}: zwei Hälften eines Bildes sind {} % heller als das Ganze; schalten Sie dynamische Iris, dynamischen Kontrast und jeden Bildmodus aus, der sich dem Inhalt anpasst</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}: zwei Hälften eines Bildes sind {} % dunkler als das Ganze; schalten Sie dynamische Iris, dynamischen Kontrast und jeden Bildmodus aus, der sich dem Inhalt anpasst</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>{}: einige Glanzlichter sind selbst bei {} s, der kürzesten Belichtung, überbelichtet und werden nicht kompensiert; schließen Sie die Blende oder setzen Sie einen Graufilter auf, falls sie wichtig sind</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>{}: das Licht ändert sich von einem Foto zum nächsten um {} %; schalten Sie die dynamischen Lampenmodi des Projektors und andere Lampen in der Nähe aus, und wählen Sie Belichtungszeiten, die Vielfache der Netzperiode sind</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>{}: die Projektion ist selbst bei {} s, der kürzesten Belichtung, überbelichtet; schließen Sie die Blende, verringern Sie die Verstärkung oder setzen Sie einen Graufilter auf</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>stellen Sie sie auf Bereiche von Belichtungszeiten ein, die sich überschneiden</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>{0}: die Projektion erreicht bei {2} s, der längsten Belichtung, nur {1} % des Bereichs der Kamera; öffnen Sie die Blende oder erhöhen Sie die Verstärkung</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>{}: Weiß ist {} % heller als Rot, Grün und Blau zusammen; schalten Sie das Weißsegment aus (oft „Brilliant Color“ oder „heller Modus“ genannt) und wählen Sie einen Bildmodus für Video oder sRGB</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>{}: Weiß ist {} % dunkler als Rot, Grün und Blau zusammen; schalten Sie Stromsparen, Farbmanagement und dynamische Bildmodi aus</translation>
     </message>
 </context>
 <context>
@@ -1725,18 +2089,6 @@
     <message>
         <source>Colours</source>
         <translation>Farben</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Öffnen der Geräte</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>Lesen der Kennlinie</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Messung des Lichttransports</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2279,18 +2631,6 @@
     <message>
         <source>Focus area</source>
         <translation>Fokusbereich</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>Prüfung von Projektor und Kamera</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>Bestimmung der Belichtungen</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>Blick durch die Kamera</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2860,14 +3200,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>Nichts wurde geändert.</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Öffnen der Geräte</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>Messung der Kennlinie</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3530,10 +3862,6 @@ Projektor %2</translation>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>Vorbereitung des Rechenkerns</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>Öffnen Sie die Ausgabe noch einmal.</translation>
     </message>
@@ -3544,25 +3872,6 @@ Projektor %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, ohne OpenGL gezeigt</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Öffnen der Geräte</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>Aufnahme des Prüffotos</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>Prüfung auf Drift</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>Schreiben des Berichts</translation>
     </message>
 </context>
 <context>
@@ -3685,14 +3994,6 @@ Projektor %2</translation>
     <message>
         <source>The picture of before stays.</source>
         <translation>Das vorige Bild bleibt.</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>Lesen des Lichttransports</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Inversion des Lichttransports</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4722,6 +5023,644 @@ Projektor %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Installieren Sie für diese Ansicht den Treiber der Grafikkarte und starten Sie Relucent neu.</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>geben Sie Speicherplatz frei</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>der Bericht kann nicht geschrieben werden</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>die Datei kann nicht entfernt werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>prüfen Sie die Zugriffsrechte des Ordners</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>wählen Sie mit --log einen anderen Ordner</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>die Engine hat ihr Gerät verloren</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>das Protokoll kann nicht geschrieben werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>der Bildschirm des Projektors schläft und lässt sich nicht wecken</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>der Bildschirm des Projektors hat jetzt {} Pixel, kalibriert wurden {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>der Dienst lässt sich nicht einschalten ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>stellen Sie in den Einstellungen des Desktops wieder seine frühere Auflösung ein, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>starten Sie die Show neu</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>schalten Sie seinen Energiesparmodus und den Bildschirmschoner in den Einstellungen des Desktops aus, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algorithmus 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Zusammensetzen des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>Schwarz und Volllicht</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>Kalibrierung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Prüfung der Farbsumme: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Prüfung auf Drift</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Prüfung von Projektor und Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Clusterbildung im Lichttransport</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Cluster mit begrenzter Größe</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Vergleich der Cluster-Inversen: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Vergleich der Methoden</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Vergleich der Methoden: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>Kompensation</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>Dekodierung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Schätzung des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Schätzung von Kennlinie und Farben</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>Auswertung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Bestimmung des Defokus</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Bestimmung der Belichtung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Bestimmung der Belichtungen</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Suche nach nicht Korrigierbarem</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Anpassung der Lichtstreuung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>Bildung der Pixelbereiche</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Begrenzung der Clustergröße</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Inversion der Cluster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversion des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Inversion: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Vereinigung der Cluster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>Beurteilung des Lichts</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>Ebene {} von {}: {} Muster</numerusform>
+            <numerusform>Ebene {} von {}: {} Muster</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>Lichttransport</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linearisierung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Suche nach dem Projektorbild</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Suche nach Schatten</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Blick durch die Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Messung der Helligkeitskurven: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Messung der Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>Neumessung von {} markierten Pixel</numerusform>
+            <numerusform>Neumessung von {} markierten Pixeln</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Messung der Latenz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Messung des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Messung der Kennlinie</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Messung: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Öffnen der Geräte</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Fotografieren der Projektionen</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Fotografieren der Testmuster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Vorhersage zurückgehaltener Muster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Vorbereitung der Benchmarks</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Vorbereitung der Geräte</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Vorbereitung des Rechenkerns</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Vorbereitung der Vorschau</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Vorbereitung des Spielorts</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Lesen der Kalibrierung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lesen des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Lesen der Muster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Lesen der Fotos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Lesen der Bilder</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>Lesen der Kennlinie</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>Lesen: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Skalierung auf das Volllichtbild</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Trennung von direktem und indirektem Licht</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>Schärfung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>Berechnung der Lösung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Aufnahme des Prüffotos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>Testmuster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Zeitmessung des Rechenkerns</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>Lichtberechnung am simulierten Spielort</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>Fenster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>Schreiben</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Ausschreiben des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>Schreiben des Berichts</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>Schreiben der Ergebnisse</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>das Bild konnte nicht geschrieben werden</translation>
     </message>
 </context>
 </TS>

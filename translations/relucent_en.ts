@@ -2,23 +2,6 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en" sourcelanguage="en">
 <context>
-    <name>CheckVerdict</name>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>Pictures come late, by %n photograph: the latency has to be measured and waited for.</numerusform>
-            <numerusform>Pictures come late, by %n photographs: the latency has to be measured and waited for.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>A picture is out %n frame after it is sent: %1 are waited for.</numerusform>
-            <numerusform>A picture is out %n frames after it is sent: %1 are waited for.</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>Overlay</name>
     <message numerus="yes">
         <source>compensated, %n step(s), %1 % out of reach</source>
@@ -29,19 +12,24 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
+    <name>check.picture-out</name>
     <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
-            <numerusform>level {} of {}: %n pattern</numerusform>
-            <numerusform>level {} of {}: %n patterns</numerusform>
+            <numerusform>A picture is out {} frame after it is sent: {} ms are waited for.</numerusform>
+            <numerusform>A picture is out {} frames after it is sent: {} ms are waited for.</numerusform>
         </translation>
     </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
         <translation>
-            <numerusform>measuring %n flagged pixel again</numerusform>
-            <numerusform>measuring %n flagged pixels again</numerusform>
+            <numerusform>Pictures come late, by {} photograph: the latency has to be measured and waited for.</numerusform>
+            <numerusform>Pictures come late, by {} photographs: the latency has to be measured and waited for.</numerusform>
         </translation>
     </message>
 </context>
@@ -237,6 +225,28 @@
         <translation>
             <numerusform>There is %n venue within it: open it.</numerusform>
             <numerusform>There are %n venues within it: open one of them.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>level {} of {}: {} pattern</numerusform>
+            <numerusform>level {} of {}: {} patterns</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>measuring {} flagged pixel again</numerusform>
+            <numerusform>measuring {} flagged pixels again</numerusform>
         </translation>
     </message>
 </context>

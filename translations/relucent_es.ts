@@ -13,1122 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>La cámara ve %1: el %2 de su imagen sigue el patrón de prueba.</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>La imagen aparece reflejada. Si no es intencionado (retroproyección, un espejo), desactívelo en el menú del proyector.</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>Las imágenes llegan %n fotografía tarde: hay que medir la latencia y esperarla.</numerusform>
-            <numerusform>Las imágenes llegan %n fotografías tarde: hay que medir la latencia y esperarla.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>La cámara ve %1 y no %2.</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>La cámara no ve %1.</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>Una imagen aparece %n fotograma después de enviarse: se esperan %1.</numerusform>
-            <numerusform>Una imagen aparece %n fotogramas después de enviarse: se esperan %1.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>El blanco cambia un %1 de una fotografía a otra: exponga fotogramas enteros del proyector, múltiplos de %2, y desactive su brillo dinámico.</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>La luz cambia un %1 entre exposiciones de fotogramas enteros: deje que la lámpara se caliente y apague el brillo dinámico y las lámparas de la sala.</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>La cámara no puede exponer menos de un fotograma, o entonces ve demasiado poco: no se puede detectar el parpadeo dentro de un fotograma.</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>La lámpara parpadea dentro de un fotograma, un %1 en %2: exponga fotogramas enteros, múltiplos de %3.</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>Los colores llegan uno tras otro, como por una rueda de color (%1 en %2): exponga fotogramas enteros, múltiplos de %3.</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>La cámara expone sus filas una tras otra (obturador rodante): las exposiciones breves tienen bandas del %1. Exponga fotogramas enteros, múltiplos de %2.</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>El proyector mezcla los grises en el tiempo, píxel a píxel (%1): exponga varios fotogramas enteros y desactive el suavizado y los modos 3D.</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>La luz es uniforme: no se ven parpadeo, rueda de color, bandas ni tramado.</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>una cámara o un proyector se ha movido: la vista de la cámara {} está desplazada {}, {} píxeles y girada {} grados</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>un archivo de la calibración ({}) tiene {} bytes en lugar de {}</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>falta un archivo de la calibración ({})</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>se pide una ganancia de {}</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>una imagen nueva no aparece por completo tras {} fotogramas</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>no se puede mover una fotografía ({})</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>no se puede eliminar una fotografía ({})</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>una fotografía de {}x{} píxeles en formato {} ha llegado con {} de {} bytes</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>se pidió una fotografía y no llegó ninguna</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>apúntela a la proyección, quite la tapa del objetivo y use una exposición más larga</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>otro programa está usando la cámara</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>otro programa está usando la cámara, normalmente el escritorio, que la monta como una memoria USB</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>pida un tamaño que admita: v4l2-ctl --list-formats-ext los enumera</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>pida ese tamaño o uno menor</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>pida el tamaño que entrega</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>no se puede crear una carpeta temporal ({})</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>no se puede crear la carpeta ({})</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>no se puede ver el contenido de la carpeta ({})</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>no se puede abrir ({})</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>no se puede abrir la carpeta ({})</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>no se puede leer ({})</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>no se puede eliminar el archivo ({})</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>no se puede escribir ({})</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>cambie o vacíe la tarjeta de memoria</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>cargue o cambie la batería (mejor, use un adaptador de corriente) y vuelva a encender la cámara</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>revise su cable y su alimentación</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>revise su cable y desactive el ahorro de energía</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>revise su cable, su alimentación y su dirección; `relucent-cli devices` muestra los dispositivos presentes</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>revise su cable, enciéndala y desactive su apagado automático</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>compruebe que la imagen de la cámara es estable y su exposición corta, y desactive el suavizado de movimiento del proyector</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>compruebe que se puede escribir en la carpeta y continúe</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>compruebe que se puede escribir en la carpeta e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>compruebe que el proyector está encendido y muestra esa salida, apunte la cámara hacia él y quite la tapa del objetivo; o elija otra pantalla</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>compruebe que se ha elegido la pantalla correcta y que nada tapa la imagen, e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>compruebe que tiene permiso de lectura o elija otro nombre</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>revise el cable y la tarjeta de red de la cámara, y que ningún otro programa la use</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>revise el dispositivo o conceda más tiempo al comando: {}</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>revise el disco y su cable</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>revise los permisos de la carpeta</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>revise la ruta</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>revise la ruta y compruebe que tiene permiso de lectura</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>revise la ruta y el disco</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>elija una carpeta en la que pueda escribir o solicite el permiso</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>elija otra calibración o vuelva a copiarla desde donde se midió</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>elija otra carpeta con --log</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>elija {} o apunte la cámara a {}</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>cierre sus menús y su reproducción, y termine la vista en directo</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>cierre sus menús, apáguela y vuelva a encenderla</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>cierre otros programas e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>conecte la cámara con la que se empezó la medición</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>cópielo de nuevo o vuelva a tomar la fotografía; una cámara más reciente que esta versión de LibRaw necesita archivos DNG</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>revele los archivos de forma lineal, como TIFF de 16 bits, o use otra cámara</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>todas las fotografías anteriores al transporte de luz están a salvo</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>todas las fotografías hasta la comprobación anterior están a salvo</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>libere espacio</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>libere espacio allí o revise el disco e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>libere espacio allí o elija otro disco e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>libere espacio allí o indique en TMPDIR una carpeta en la que pueda escribir</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>libere espacio o grabe en otro lugar</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>instale Aravis (libaravis-dev) y vuelva a compilar, o use otro tipo de cámara</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>instale libgphoto2 y LibRaw (libgphoto2-dev, libraw-dev) y vuelva a compilar, o use un comando</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>instale el controlador de la tarjeta gráfica o deje que el procesador haga el trabajo</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>no se puede eliminar ({})</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>admite {}</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>admite {}; se leen Mono, Bayer y RGB sin empaquetar de 8 a 16 bits</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>está vacío</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>haga que escriba la fotografía en {output}: {}</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>haga que el comando escriba ese tamaño o empiece de nuevo con el tamaño que entrega la cámara</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>haga que el escritorio la libere con `gio mount -s gphoto2` (o expúlsela en el gestor de archivos) y cierre los programas de fotografía</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>deje que el procesador haga el trabajo</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>inicie sesión en un escritorio con X («Xorg» en el inicio de sesión) o reproduzca archivos</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>indique una por su puerto: gphoto2:{} o gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>indique esa: gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>no responde ninguna cámara GenICam «{}»</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>no hay conectada ninguna cámara con ese nombre, pero sí {}</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>no ha llegado ninguna fotografía en {} s</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>no está conectado ese dispositivo de vídeo</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>no se puede leer ninguno de los formatos de píxel de la cámara</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>faltan partes del archivo</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>partes de la fotografía se perdieron por el camino</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>conéctelo, cierre otros programas que lo usen e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>pulse el disparador hasta la mitad, o apáguela y vuelva a encenderla, y desactive su apagado automático</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>el proyector {} no muestra la imagen que se le envía</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>vuelva a colocarlo en su sitio con una precisión de medio píxel e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>elimínelo a mano e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>ejecútelo en un terminal para averiguar la causa: {}</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>ajústela a mano a ISO 100</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>ponga su modo de exposición en temporizado y manual o actualice su firmware</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>restablezca su resolución en los ajustes del escritorio e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>ajústelas a intervalos de tiempos de exposición que se solapen</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>inicie el show de nuevo</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>déjela como estaba, mantenga cerradas puertas y cortinas, e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>apáguela y vuelva a encenderla, cargue sus ajustes predeterminados con el programa del fabricante e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>desactívelo con el programa del fabricante de la cámara o use otra cámara</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>desactívelo con v4l2-ctl (--list-ctrls enumera los controles disponibles) o use otra cámara</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>desactive su exposición automática y su límite de velocidad de fotogramas</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>desactive su exposición automática; no se puede usar una cámara sin exposición manual</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>ponga su objetivo en enfoque manual</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>ponga su objetivo en enfoque manual, cierre sus menús y tome una fotografía a mano para ver de qué se queja</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>ponga a mano su calidad de imagen en RAW; no se puede usar una cámara sin RAW</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>desactive su ahorro de energía y el salvapantallas en los ajustes del escritorio e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>apague las lámparas atenuadas y fluorescentes, desactive el ahorro de energía del proyector e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>desactive su brillo automático y sus modos eco, deje que se caliente e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>desactive en el proyector el modo de retroproyección o de techo, o permita una imagen reflejada, e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>apague y vuelva a encender la cámara o elija otro de sus formatos de píxel</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>ponga la cámara en RAW de tamaño completo (ni sRAW, ni mRAW, ni DNG lineal)</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>retire lo que esté en la luz o en la imagen e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>el manifiesto de la calibración está dañado</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>la cámara admite de {} a {}</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>la cámara ha vuelto con {}x{} píxeles en lugar de {}x{}</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>la cámara elige ella misma su sensibilidad (ISO automático)</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>la cámara declara exposiciones de {} a {} s</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>la cámara no entrega archivos RAW</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>la cámara no ve lo que se muestra en {}</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>la cámara no ha podido enfocar y no ha tomado ninguna fotografía ({})</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>la cámara lleva {} s sin responder: {}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>la cámara se ha desconectado, se ha apagado o ha entrado en reposo</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>la cámara ha olvidado el formato de píxel que se le había fijado</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>la cámara no tiene un formato de píxel {} que se pueda leer</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>a la cámara no le queda sitio para una fotografía: su tarjeta de memoria está llena</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>la cámara está presente pero no responde, puede que esté en reposo</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>la cámara se mantiene en {} s sea cual sea la exposición que se le pida</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>la cámara ha dejado de responder ({}: {})</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>la cámara ha rechazado lo que se le pidió ({})</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>la cámara se niega ({}: {})</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>la cámara no ve diferencia entre blanco y negro</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>la cámara no ve nada en absoluto</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>la cámara ve {} y no {}</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>la cámara no envía ninguna transmisión</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>la cámara ha enviado {} y ningún archivo RAW</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>la cámara sigue ocupada</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>se pidió una fotografía a la cámara y no tomó ninguna</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>se pidió a la cámara una exposición de {} s y se mantiene en {} s</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>la batería de la cámara parece agotada ({} % en la última consulta)</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>el filtro de color de la cámara no es un filtro de Bayer</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>no se puede ajustar el tiempo de exposición de la cámara</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>el dial de modos de la cámara está en {}, donde la cámara elige ella misma las exposiciones</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>las cámaras no tienen ningún tiempo de exposición en común</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>el dispositivo de captura no da ninguna imagen</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>no se puede iniciar el comando ({})</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>el comando terminó bien pero no escribió nada, ni siquiera {}</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>el comando terminó bien pero escribió {} y no {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>el comando falló con el estado {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>el comando falló con el estado {} y el mensaje «{}»</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>el comando tardó más de {} s</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>el comando tardó más de {} s, con el mensaje «{}»</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>la señal {} terminó el comando</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>la señal {} terminó el comando, con el mensaje «{}»</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>el motor ha perdido su dispositivo</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>no se puede usar la tarjeta gráfica</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>a la tarjeta gráfica no le quedan {} MB de memoria</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>la tarjeta gráfica alcanza {} MB a la vez y se necesitan {} MB</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>se ha perdido la tarjeta gráfica</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la luz parpadea: las fotografías de un mismo patrón difieren en un {} %</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>la luz de la sala ha aumentado</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>la luz de la sala ha disminuido</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>la imagen en directo de una pantalla necesita un servidor X y ninguno responde</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>no se puede escribir el registro ({})</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>la fotografía tiene {}x{} píxeles en formato {} cuando se habían acordado {}x{} en formato {}</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>la fotografía tiene {}x{} píxeles cuando se habían anunciado {}x{}</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>la fotografía es mayor de lo que anunció la cámara</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>la fotografía no se completó</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>no se ha podido escribir la imagen</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>la imagen del proyector {} aparece reflejada</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>el proyector no muestra nada, pero se sigue viendo la luz de la propia sala</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>la luz del proyector ha cambiado un {} % en pocas fotografías</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>la pantalla del proyector tiene ahora {}x{} píxeles y se calibraron {}x{}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>la pantalla del proyector está en reposo y no se activa</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>la pantalla del proyector pierde la imagen una y otra vez</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>no se puede leer el archivo RAW ({})</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>el archivo RAW no contiene los valores propios del sensor</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>no se puede escribir la grabación ({})</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>no se puede escribir el informe</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>no se puede activar el servicio ({})</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>no se puede volver a abrir el dispositivo de vídeo</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>no se puede abrir el dispositivo de vídeo: quizá lo esté usando otro programa</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>el dispositivo de vídeo se ha desconectado</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>el dispositivo de vídeo no tiene una exposición ajustable</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>el dispositivo de vídeo no envía imágenes</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>no se puede desactivar la exposición automática del dispositivo de vídeo</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>no se puede desactivar el enfoque automático del dispositivo de vídeo</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>no se puede desactivar el balance de blancos automático del dispositivo de vídeo</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>no hay OpenGL 4.3 con compute shaders</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>no hay ninguna tarjeta gráfica con OpenGL 4.3 y compute shaders</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>falta libEGL o libOpenGL, que abren tarjetas gráficas sin pantalla</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>esta compilación de Relucent no admite cámaras réflex (DSLR) ni sin espejo</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>esta compilación de Relucent no admite cámaras GenICam</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>esto no es una calibración de Relucent</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>gírelo a M</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>gire su dial de modos a M; no se puede usar una cámara que no lo tenga</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>destape el objetivo, compruebe que el proyector está encendido e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>use una cámara con exposición manual</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>active el proyector, desactive su ahorro de energía y el de la pantalla, e inténtelo de nuevo</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>se pide ISO {} y la cámara no lo tiene</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>el {} % de la vista de la cámara {} se ve distinto que antes</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>han fallado {} intentos de tomar una fotografía: {}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{} reanudando la calibración; {}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>hay {} cámaras de este modelo conectadas</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>no se puede desactivar {}</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}; después, continúe: todas las fotografías tomadas hasta ahora se conservan</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>se piden {}x{} píxeles y la cámara da {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>se piden {}x{} píxeles y la cámara tiene {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>se piden {}x{} píxeles y el dispositivo de vídeo da {}x{}</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}: {}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}; {}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{} ({})</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}.</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>declara exposiciones de hasta {} s pero se queda en {} s</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>entrega 8 bits: las zonas oscuras quedan inciertas</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>no indica cuándo se captaron las imágenes: se descartan algunas antes de cada fotografía</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>enfoca por sí sola: ponga el objetivo en enfoque manual</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>no tiene disparo por software: cada fotografía puede esperar una exposición más</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>tiene un {} % de batería: una medición necesita la batería llena o un adaptador de red</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>puede disparar el flash: ciérrelo</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>puede tomar una imagen oscura tras exposiciones largas, lo que duplica su tiempo</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>puede tomar varias fotografías a la vez: póngala en disparo único</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>no ve colores: se puede compensar el brillo, no los colores</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>se apaga sola al cabo de un rato: desactívelo</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>dispositivo de vídeo</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>se le pidió ISO {} y se queda en ISO {}</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>se le pidió una ganancia de {} y se queda en {}</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>Cámaras réflex y sin espejo: a este programa le falta libgphoto2 o LibRaw; instale libgphoto2-dev y libraw-dev y vuelva a compilarlo</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>Cámaras GigE Vision y USB3 Vision: a este programa le falta Aravis; instale libaravis-dev y vuelva a compilarlo</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>cierre el diafragma o añada un filtro gris si son importantes</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>cierre el diafragma, reduzca la ganancia o añada un filtro gris</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>revélelas linealmente, como TIFF o EXR, para medir con más exactitud</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>abra el diafragma o aumente la ganancia</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>los patrones y las fotografías son grises: no se distinguen los colores y los bloques de T son neutros</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>aceptado antes del patrón {}: {}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>algunos brillos están sobreexpuestos incluso a {} s, la exposición más corta, y no se compensarán</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>desactive el ahorro de energía, la gestión de color y los modos de imagen dinámicos</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>desactive el iris dinámico, el contraste dinámico y todo modo de imagen que se adapte al contenido</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>desactive los modos de lámpara dinámicos del proyector, apague otras lámparas cercanas y elija tiempos de exposición que sean múltiplos del período de la red eléctrica</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>desactive el segmento blanco (a menudo llamado «Brilliant Color» o modo brillante) y elija un modo de imagen para vídeo o sRGB</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>se ha tenido en cuenta, pero deje que el proyector se caliente antes de la próxima vez</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>se supone que la cámara es lineal, y una fotografía cuenta como un segundo de exposición</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>la luz cambió un {} % entre la primera y la última fotografía</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>la luz cambia un {} % de una fotografía a la siguiente</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>los patrones son grises: no se midió cómo se mezclan los colores y los bloques de T son diagonales</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>los patrones solo contienen blanco y negro: se supone que la respuesta del proyector es una potencia de 2,2</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>las fotografías son grises: lo que aporta cada color del proyector solo se conoce en luminosidad</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>las fotografías son JPEG: se linealizaron con la curva de sRGB, que las cámaras solo siguen aproximadamente</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>las fotografías se emparejaron con los patrones en el orden en que se tomaron, de {} a {}, que no es el de sus nombres</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>la proyección está sobreexpuesta incluso a {} s, la exposición más corta</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>la proyección solo alcanza el {0} % del rango de la cámara a {1} s, la exposición más larga</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>el proyector ilumina el {} % de los píxeles de la cámara</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>estos píxeles quedan fuera de la compensación</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>dos mitades de una imagen son un {} % más claras que el conjunto</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>dos mitades de una imagen son un {} % más oscuras que el conjunto</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>el blanco es un {} % más claro que el rojo, el verde y el azul juntos</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>el blanco es un {} % más oscuro que el rojo, el verde y el azul juntos</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>el {} % de los píxeles de la cámara está sobreexpuesto incluso con la exposición más corta: cierre el diafragma de la cámara o permita exposiciones más cortas y mida de nuevo</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>el {} % de los píxeles de la cámara ve algo distinto de lo previsto en los patrones de prueba: compruebe que nada se movió ni parpadeó</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>una cámara de {}x{} píxeles es imposible: cada lado tiene de {} a {}</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>un proyector de {}x{} píxeles es imposible: cada lado tiene de {} a {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>en la orden de la cámara falta {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>la orden de la cámara está vacía</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>en la orden del proyector falta {}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>la orden del proyector está vacía</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>la exposición más corta debe ser mayor que cero y no superar la más larga</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1301,263 +185,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>Algoritmo 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>Componiendo el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>Calibrando</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>Comprobando la suma de colores: {}</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>Agrupando el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Clústeres de tamaño limitado</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>Comparando inversas de clústeres: {}</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>Comparando los métodos</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>Comparando los métodos: {}</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>Compensando</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>Decodificando</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>Estimando respuesta y colores</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>Estimando el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>Evaluando</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>Determinando el desenfoque</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>Determinando la exposición</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>Ajustando la dispersión de la luz</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>Formando parches</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Limitando el tamaño de clústeres</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>Invirtiendo los clústeres</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Invirtiendo el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>Invirtiendo: {}</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>Uniendo clústeres</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>Linealizando</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Buscando sombras</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>Buscando lo que no se puede corregir</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>Midiendo las curvas de brillo: {}</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>Midiendo la cámara</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>Evaluando la luz</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Buscando la imagen del proyector</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>Midiendo la latencia</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Midiendo el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>Midiendo: {}</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>Fotografiando los patrones de prueba</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>Fotografiando las proyecciones</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>Prediciendo los patrones reservados</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>Preparando las pruebas de rendimiento</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>Preparando los dispositivos</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>Preparando el motor</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>Preparando el lugar</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>Leyendo la calibración</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>Leyendo los patrones</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>Leyendo las fotografías</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>Leyendo las imágenes</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>Leyendo: {}</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>Escalando a la imagen de luz plena</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>Separando luz directa e indirecta</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>Aplicando nitidez</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>Resolviendo</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>Cronometrando el motor</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Ventanas</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>Escribiendo</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>Escribiendo el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>Escribiendo los resultados</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>negro y luz plena</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>transporte de luz</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>proyector {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>patrones de prueba</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>proyector</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>trazando la luz del lugar simulado</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>nivel {} de {}: %n patrón</numerusform>
-            <numerusform>nivel {} de {}: %n patrones</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>midiendo de nuevo %n píxel marcado</numerusform>
-            <numerusform>midiendo de nuevo %n píxeles marcados</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1605,6 +232,1743 @@
     <message>
         <source>A venue is being measured</source>
         <translation>Se está midiendo un lugar</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>aceptado antes del patrón {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>la luz cambió un {} % entre la primera y la última fotografía; se ha tenido en cuenta, pero deje que el proyector se caliente antes de la próxima vez</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>el {} % de los píxeles de la cámara está sobreexpuesto incluso con la exposición más corta: cierre el diafragma de la cámara o permita exposiciones más cortas y mida de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>el {} % de los píxeles de la cámara ve algo distinto de lo previsto en los patrones de prueba: compruebe que nada se movió ni parpadeó; estos píxeles quedan fuera de la compensación</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} reanudando la calibración; {}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>la cámara no ve nada en absoluto</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>compruebe que se ha elegido la pantalla correcta y que nada tapa la imagen, e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>retire lo que esté en la luz o en la imagen e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>la luz del proyector ha cambiado un {} % en pocas fotografías</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>la luz parpadea: las fotografías de un mismo patrón difieren en un {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>una cámara o un proyector se ha movido: la vista de la cámara {} está desplazada {}, {} píxeles y girada {} grados</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>la imagen del proyector {} aparece reflejada</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>el proyector no muestra nada, pero se sigue viendo la luz de la propia sala</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>vuelva a colocarlo en su sitio con una precisión de medio píxel e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>déjela como estaba, mantenga cerradas puertas y cortinas, e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>la luz de la sala ha aumentado</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>la luz de la sala ha disminuido</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>todas las fotografías hasta la comprobación anterior están a salvo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>todas las fotografías anteriores al transporte de luz están a salvo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>apague las lámparas atenuadas y fluorescentes, desactive el ahorro de energía del proyector e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>desactive su brillo automático y sus modos eco, deje que se caliente e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>desactive en el proyector el modo de retroproyección o de techo, o permita una imagen reflejada, e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>destape el objetivo, compruebe que el proyector está encendido e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>el {} % de la vista de la cámara {} se ve distinto que antes</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>active el proyector, desactive su ahorro de energía y el de la pantalla, e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>el proyector {} no muestra la imagen que se le envía</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>el manifiesto de la calibración está dañado</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>no se puede ver el contenido de la carpeta ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>no se puede abrir la carpeta ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>compruebe que se puede escribir en la carpeta y continúe</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>compruebe que se puede escribir en la carpeta e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>revise la ruta y compruebe que tiene permiso de lectura</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>compruebe que tiene permiso de lectura o elija otro nombre</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>elija otra calibración o vuelva a copiarla desde donde se midió</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un archivo de la calibración ({}) tiene {} bytes en lugar de {}</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>falta un archivo de la calibración ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>libere espacio allí o revise el disco e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>esto no es una calibración de Relucent</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>no se puede mover una fotografía ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>no se puede eliminar una fotografía ({})</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>Los colores llegan uno tras otro, como por una rueda de color ({} % en {} ms): exponga fotogramas enteros, múltiplos de {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>El proyector mezcla los grises en el tiempo, píxel a píxel ({} %): exponga varios fotogramas enteros y desactive el suavizado y los modos 3D.</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>La lámpara parpadea dentro de un fotograma, un {} % en {} ms: exponga fotogramas enteros, múltiplos de {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>La luz es uniforme: no se ven parpadeo, rueda de color, bandas ni tramado.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>La luz cambia un {} % entre exposiciones de fotogramas enteros: deje que la lámpara se caliente y apague el brillo dinámico y las lámparas de la sala.</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>La cámara no puede exponer menos de un fotograma, o entonces ve demasiado poco: no se puede detectar el parpadeo dentro de un fotograma.</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>La cámara ve {} y no {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>Una imagen aparece {} fotograma después de enviarse: se esperan {} ms.</numerusform>
+            <numerusform>Una imagen aparece {} fotogramas después de enviarse: se esperan {} ms.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>Las imágenes llegan {} fotografía tarde: hay que medir la latencia y esperarla.</numerusform>
+            <numerusform>Las imágenes llegan {} fotografías tarde: hay que medir la latencia y esperarla.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>La cámara expone sus filas una tras otra (obturador rodante): las exposiciones breves tienen bandas del {} %. Exponga fotogramas enteros, múltiplos de {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>La imagen aparece reflejada. Si no es intencionado (retroproyección, un espejo), desactívelo en el menú del proyector.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>La cámara no ve {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>La cámara ve {}: el {} % de su imagen sigue el patrón de prueba.</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>El blanco cambia un {} % de una fotografía a otra: exponga fotogramas enteros del proyector, múltiplos de {} ms, y desactive su brillo dinámico.</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>el dispositivo de captura no da ninguna imagen</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>la imagen en directo de una pantalla necesita un servidor X y ninguno responde</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>inicie sesión en un escritorio con X («Xorg» en el inicio de sesión) o reproduzca archivos</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>conéctelo, cierre otros programas que lo usen e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>apúntela a la proyección, quite la tapa del objetivo y use una exposición más larga</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>otro programa está usando la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>pida ese tamaño o uno menor</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>pida el tamaño que entrega</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>pida un tamaño que admita: v4l2-ctl --list-formats-ext los enumera</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>se le pidió una ganancia de {} y se queda en {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>se le pidió ISO {} y se queda en ISO {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>han fallado {} intentos de tomar una fotografía: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>no se puede desactivar la exposición automática del dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>no se puede desactivar el enfoque automático del dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>la cámara elige ella misma su sensibilidad (ISO automático)</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>no se puede desactivar el balance de blancos automático del dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>la batería de la cámara parece agotada ({} % en la última consulta)</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>tiene un {} % de batería: una medición necesita la batería llena o un adaptador de red</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>esta compilación de Relucent no admite cámaras réflex (DSLR) ni sin espejo</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>esta compilación de Relucent no admite cámaras GenICam</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>se pidió a la cámara una exposición de {} s y se mantiene en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>se pidió una fotografía a la cámara y no tomó ninguna</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>la cámara está presente pero no responde, puede que esté en reposo</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la cámara lleva {} s sin responder: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>la cámara ha vuelto con {} píxeles en lugar de {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>la cámara admite de {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la cámara declara exposiciones de {} a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>el filtro de color de la cámara no es un filtro de Bayer</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>la orden de la cámara está vacía</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>en la orden de la cámara falta {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la cámara ha olvidado el formato de píxel que se le había fijado</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>la cámara no ha podido enfocar y no ha tomado ninguna fotografía ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>la cámara se ha desconectado, se ha apagado o ha entrado en reposo</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>la cámara se mantiene en {} s sea cual sea la exposición que se le pida</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>la cámara ha dejado de responder ({}: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la cámara no tiene un formato de píxel {} que se pueda leer</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la cámara no ve lo que se muestra en {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la cámara ha rechazado lo que se le pidió ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>la cámara se niega ({}: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la cámara no ve diferencia entre blanco y negro</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la cámara ve {} y no {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>la cámara no envía ninguna transmisión</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>la cámara sigue ocupada</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>hay {} cámaras de este modelo conectadas</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>no se puede crear una carpeta temporal ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>no se puede eliminar el archivo ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>no se puede desactivar {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>a la cámara no le queda sitio para una fotografía: su tarjeta de memoria está llena</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>cambie o vacíe la tarjeta de memoria</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>cargue o cambie la batería (mejor, use un adaptador de corriente) y vuelva a encender la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>revise su cable y su alimentación</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>revise su cable, su alimentación y su dirección; `relucent-cli devices` muestra los dispositivos presentes</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>revise su cable y desactive el ahorro de energía</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>revise su cable, enciéndala y desactive su apagado automático</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>revise el cable y la tarjeta de red de la cámara, y que ningún otro programa la use</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>compruebe que la imagen de la cámara es estable y su exposición corta, y desactive el suavizado de movimiento del proyector</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>revise el dispositivo o conceda más tiempo al comando: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>compruebe que el proyector está encendido y muestra esa salida, apunte la cámara hacia él y quite la tapa del objetivo; o elija otra pantalla</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>elija {} o apunte la cámara a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>declara exposiciones de hasta {} s pero se queda en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>cierre sus menús y su reproducción, y termine la vista en directo</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>cierre sus menús, apáguela y vuelva a encenderla</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>cierre otros programas e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>no se puede iniciar el comando ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>el comando falló con el estado {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>el comando falló con el estado {} y el mensaje «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>la señal {} terminó el comando</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>la señal {} terminó el comando, con el mensaje «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>el comando tardó más de {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>el comando tardó más de {} s, con el mensaje «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>el comando terminó bien pero no escribió nada, ni siquiera {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>el comando terminó bien pero escribió {} y no {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>conecte la cámara con la que se empezó la medición</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>cópielo de nuevo o vuelva a tomar la fotografía; una cámara más reciente que esta versión de LibRaw necesita archivos DNG</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>entrega 8 bits: las zonas oscuras quedan inciertas</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>revele los archivos de forma lineal, como TIFF de 16 bits, o use otra cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>no se puede ajustar el tiempo de exposición de la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>enfoca por sí sola: ponga el objetivo en enfoque manual</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>libere espacio o grabe en otro lugar</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>libere espacio allí o indique en TMPDIR una carpeta en la que pueda escribir</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>se pide una ganancia de {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>Cámaras GigE Vision y USB3 Vision: a este programa le falta Aravis; instale libaravis-dev y vuelva a compilarlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Cámaras réflex y sin espejo: a este programa le falta libgphoto2 o LibRaw; instale libgphoto2-dev y libraw-dev y vuelva a compilarlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>otro programa está usando la cámara, normalmente el escritorio, que la monta como una memoria USB</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>una cámara de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>un proyector de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>instale Aravis (libaravis-dev) y vuelva a compilar, o use otro tipo de cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>instale libgphoto2 y LibRaw (libgphoto2-dev, libraw-dev) y vuelva a compilar, o use un comando</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>se pide ISO {} y la cámara no lo tiene</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>admite {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>haga que el comando escriba ese tamaño o empiece de nuevo con el tamaño que entrega la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>haga que el escritorio la libere con `gio mount -s gphoto2` (o expúlsela en el gestor de archivos) y cierre los programas de fotografía</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>haga que escriba la fotografía en {output}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>puede disparar el flash: ciérrelo</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>puede tomar una imagen oscura tras exposiciones largas, lo que duplica su tiempo</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>puede tomar varias fotografías a la vez: póngala en disparo único</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>el dial de modos de la cámara está en {}, donde la cámara elige ella misma las exposiciones</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indique esa: gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>indique una por su puerto: gphoto2:{} o gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>una imagen nueva no aparece por completo tras {} fotogramas</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>no hay conectada ninguna cámara con ese nombre, pero sí {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>no responde ninguna cámara GenICam «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>no ha llegado ninguna fotografía en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>la cámara ha enviado {} y ningún archivo RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>la cámara no entrega archivos RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>no tiene disparo por software: cada fotografía puede esperar una exposición más</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>no está conectado ese dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>no se puede leer ninguno de los formatos de píxel de la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>no indica cuándo se captaron las imágenes: se descartan algunas antes de cada fotografía</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>partes de la fotografía se perdieron por el camino</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>se pidió una fotografía y no llegó ninguna</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>la fotografía es mayor de lo que anunció la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>la fotografía no se completó</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>la fotografía tiene {} píxeles en formato {} cuando se habían acordado {} en formato {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>la fotografía tiene {} píxeles cuando se habían anunciado {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>una fotografía de {} píxeles en formato {} ha llegado con {} de {} bytes</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>se piden {} píxeles y la cámara tiene {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>se piden {} píxeles y la cámara da {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>se piden {} píxeles y el dispositivo de vídeo da {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>pulse el disparador hasta la mitad, o apáguela y vuelva a encenderla, y desactive su apagado automático</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>la orden del proyector está vacía</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>en la orden del proyector falta {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>la pantalla del proyector pierde la imagen una y otra vez</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>no se puede leer el archivo RAW ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>está vacío</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>faltan partes del archivo</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>el archivo RAW no contiene los valores propios del sensor</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>no se puede escribir la grabación ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>elimínelo a mano e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>ejecútelo en un terminal para averiguar la causa: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>no ve colores: se puede compensar el brillo, no los colores</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>ponga su modo de exposición en temporizado y manual o actualice su firmware</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>ajústela a mano a ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>la exposición más corta debe ser mayor que cero y no superar la más larga</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>desactive su exposición automática y su límite de velocidad de fotogramas</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>desactive su exposición automática; no se puede usar una cámara sin exposición manual</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>ponga la cámara en RAW de tamaño completo (ni sRAW, ni mRAW, ni DNG lineal)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>apague y vuelva a encender la cámara o elija otro de sus formatos de píxel</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>ponga su objetivo en enfoque manual</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>ponga su objetivo en enfoque manual, cierre sus menús y tome una fotografía a mano para ver de qué se queja</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>desactívelo con el programa del fabricante de la cámara o use otra cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>apáguela y vuelva a encenderla, cargue sus ajustes predeterminados con el programa del fabricante e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>desactívelo con v4l2-ctl (--list-ctrls enumera los controles disponibles) o use otra cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>ponga a mano su calidad de imagen en RAW; no se puede usar una cámara sin RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>se apaga sola al cabo de un rato: desactívelo</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}; después, continúe: todas las fotografías tomadas hasta ahora se conservan</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>gírelo a M</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>gire su dial de modos a M; no se puede usar una cámara que no lo tenga</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>admite {}; se leen Mono, Bayer y RGB sin empaquetar de 8 a 16 bits</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>use una cámara con exposición manual</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>el dispositivo de vídeo se ha desconectado</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>no se puede volver a abrir el dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>no se puede abrir el dispositivo de vídeo: quizá lo esté usando otro programa</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>el dispositivo de vídeo no tiene una exposición ajustable</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>el dispositivo de vídeo no envía imágenes</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>no se puede crear la carpeta ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>no se puede abrir ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>no se puede leer ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>no se puede escribir ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>revise el disco y su cable</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>revise la ruta</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>revise la ruta y el disco</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>elija una carpeta en la que pueda escribir o solicite el permiso</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>libere espacio allí o elija otro disco e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>no se puede usar la tarjeta gráfica</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>se ha perdido la tarjeta gráfica</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>a la tarjeta gráfica no le quedan {} MB de memoria</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>la tarjeta gráfica alcanza {} MB a la vez y se necesitan {} MB</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>instale el controlador de la tarjeta gráfica o deje que el procesador haga el trabajo</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>deje que el procesador haga el trabajo</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>no hay ninguna tarjeta gráfica con OpenGL 4.3 y compute shaders</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>falta libEGL o libOpenGL, que abren tarjetas gráficas sin pantalla</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>no hay OpenGL 4.3 con compute shaders</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>se supone que la cámara es lineal, y una fotografía cuenta como un segundo de exposición</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>el proyector ilumina el {} % de los píxeles de la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>las fotografías se emparejaron con los patrones en el orden en que se tomaron, de {} a {}, que no es el de sus nombres</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>los patrones y las fotografías son grises: no se distinguen los colores y los bloques de T son neutros</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>los patrones solo contienen blanco y negro: se supone que la respuesta del proyector es una potencia de 2,2</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>los patrones son grises: no se midió cómo se mezclan los colores y los bloques de T son diagonales</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>las fotografías son JPEG: se linealizaron con la curva de sRGB, que las cámaras solo siguen aproximadamente; revélelas linealmente, como TIFF o EXR, para medir con más exactitud</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>las fotografías son grises: lo que aporta cada color del proyector solo se conoce en luminosidad</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>las cámaras no tienen ningún tiempo de exposición en común</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}: dos mitades de una imagen son un {} % más claras que el conjunto; desactive el iris dinámico, el contraste dinámico y todo modo de imagen que se adapte al contenido</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}: dos mitades de una imagen son un {} % más oscuras que el conjunto; desactive el iris dinámico, el contraste dinámico y todo modo de imagen que se adapte al contenido</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>{}: algunos brillos están sobreexpuestos incluso a {} s, la exposición más corta, y no se compensarán; cierre el diafragma o añada un filtro gris si son importantes</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>{}: la luz cambia un {} % de una fotografía a la siguiente; desactive los modos de lámpara dinámicos del proyector, apague otras lámparas cercanas y elija tiempos de exposición que sean múltiplos del período de la red eléctrica</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>{}: la proyección está sobreexpuesta incluso a {} s, la exposición más corta; cierre el diafragma, reduzca la ganancia o añada un filtro gris</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>ajústelas a intervalos de tiempos de exposición que se solapen</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>{}: la proyección solo alcanza el {} % del rango de la cámara a {} s, la exposición más larga; abra el diafragma o aumente la ganancia</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>{}: el blanco es un {} % más claro que el rojo, el verde y el azul juntos; desactive el segmento blanco (a menudo llamado «Brilliant Color» o modo brillante) y elija un modo de imagen para vídeo o sRGB</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>{}: el blanco es un {} % más oscuro que el rojo, el verde y el azul juntos; desactive el ahorro de energía, la gestión de color y los modos de imagen dinámicos</translation>
     </message>
 </context>
 <context>
@@ -1725,18 +2089,6 @@
     <message>
         <source>Colours</source>
         <translation>Colores</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Abriendo los dispositivos</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>Leyendo la respuesta</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Midiendo el transporte de luz</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2279,18 +2631,6 @@
     <message>
         <source>Focus area</source>
         <translation>Área de enfoque</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>Comprobando proyector y cámara</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>Determinando las exposiciones</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>Mirando por la cámara</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2860,14 +3200,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>No se ha cambiado nada.</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Abriendo los dispositivos</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>Midiendo la respuesta</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3530,10 +3862,6 @@ proyector %2</translation>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>Preparando el motor</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>Abra la salida de nuevo.</translation>
     </message>
@@ -3544,25 +3872,6 @@ proyector %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, mostrado sin OpenGL</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Abriendo los dispositivos</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>Tomando la fotografía de verificación</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>Comprobando la deriva</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>Escribiendo el informe</translation>
     </message>
 </context>
 <context>
@@ -3685,14 +3994,6 @@ proyector %2</translation>
     <message>
         <source>The picture of before stays.</source>
         <translation>Se mantiene la imagen anterior.</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>Leyendo el transporte de luz</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Invirtiendo el transporte de luz</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4722,6 +5023,644 @@ proyector %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Para esta vista, instale el controlador de la tarjeta gráfica y reinicie Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>libere espacio</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>no se puede escribir el informe</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>no se puede eliminar ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>revise los permisos de la carpeta</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>elija otra carpeta con --log</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>el motor ha perdido su dispositivo</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>no se puede escribir el registro ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>la pantalla del proyector está en reposo y no se activa</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>la pantalla del proyector tiene ahora {} píxeles y se calibraron {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>no se puede activar el servicio ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>restablezca su resolución en los ajustes del escritorio e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>inicie el show de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>desactive su ahorro de energía y el salvapantallas en los ajustes del escritorio e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algoritmo 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Componiendo el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>negro y luz plena</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>Calibrando</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Comprobando la suma de colores: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Comprobando la deriva</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Comprobando proyector y cámara</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Agrupando el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Clústeres de tamaño limitado</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Comparando inversas de clústeres: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Comparando los métodos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Comparando los métodos: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>Compensando</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>Decodificando</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Estimando el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Estimando respuesta y colores</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>Evaluando</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Determinando el desenfoque</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Determinando la exposición</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Determinando las exposiciones</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Buscando lo que no se puede corregir</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Ajustando la dispersión de la luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>Formando parches</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitando el tamaño de clústeres</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Invirtiendo los clústeres</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Invirtiendo el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Invirtiendo: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Uniendo clústeres</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>Evaluando la luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>nivel {} de {}: {} patrón</numerusform>
+            <numerusform>nivel {} de {}: {} patrones</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linealizando</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Buscando la imagen del proyector</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Buscando sombras</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Mirando por la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Midiendo las curvas de brillo: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Midiendo la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>midiendo de nuevo {} píxel marcado</numerusform>
+            <numerusform>midiendo de nuevo {} píxeles marcados</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Midiendo la latencia</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Midiendo el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Midiendo la respuesta</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Midiendo: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Abriendo los dispositivos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Fotografiando las proyecciones</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Fotografiando los patrones de prueba</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Prediciendo los patrones reservados</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Preparando las pruebas de rendimiento</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Preparando los dispositivos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Preparando el motor</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Preparando la vista previa</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Preparando el lugar</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Leyendo la calibración</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Leyendo el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Leyendo los patrones</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Leyendo las fotografías</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Leyendo las imágenes</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>Leyendo la respuesta</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>Leyendo: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Escalando a la imagen de luz plena</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Separando luz directa e indirecta</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>Aplicando nitidez</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>Resolviendo</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Tomando la fotografía de verificación</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>patrones de prueba</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Cronometrando el motor</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>trazando la luz del lugar simulado</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>Ventanas</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>Escribiendo</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Escribiendo el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>Escribiendo el informe</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>Escribiendo los resultados</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>no se ha podido escribir la imagen</translation>
     </message>
 </context>
 </TS>

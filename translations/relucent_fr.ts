@@ -13,1122 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>La caméra voit %1 : %2 de son champ suivent la mire.</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>L’image apparaît en miroir. Si ce n’est pas voulu (rétroprojection, miroir), désactivez-le dans le menu du projecteur.</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>Les images arrivent %n photo trop tard : la latence doit être mesurée et attendue.</numerusform>
-            <numerusform>Les images arrivent %n photos trop tard : la latence doit être mesurée et attendue.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>La caméra voit %1 et non %2.</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>La caméra ne voit pas %1.</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>Une image apparaît %n trame après l’envoi : attente de %1.</numerusform>
-            <numerusform>Une image apparaît %n trames après l’envoi : attente de %1.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>Le blanc varie de %1 d’une photo à l’autre : exposez des trames entières du projecteur, multiples de %2, et désactivez sa luminosité dynamique.</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>La lumière varie de %1 entre des poses de trames entières : laissez chauffer la lampe, désactivez la luminosité dynamique et éteignez les lampes de la salle.</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>La caméra ne peut pas exposer moins d’une trame, ou voit alors trop peu : un scintillement au sein d’une trame ne peut être décelé.</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>La lampe scintille au sein d’une trame, de %1 en %2 : exposez des trames entières, multiples de %3.</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>Les couleurs se succèdent, comme à travers une roue chromatique (%1 en %2) : exposez des trames entières, multiples de %3.</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>La caméra expose ses lignes l’une après l’autre (obturateur déroulant) : les poses brèves ont des bandes de %1. Exposez des trames entières, multiples de %2.</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>Le projecteur mélange les gris dans le temps, pixel par pixel (%1) : exposez plusieurs trames entières et désactivez son lissage et ses modes 3D.</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>La lumière est régulière : ni scintillement, ni roue chromatique, ni bandes, ni tramage.</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>une caméra ou un projecteur a bougé&#x202f;: le champ de la caméra {} est décalé de {} et {} pixels et tourné de {} degrés</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>un fichier de la calibration ({}) a {} octets au lieu de {}</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>un fichier de la calibration ({}) est absent</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>un gain de {} est demandé</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>une nouvelle image n’est pas entièrement affichée après {} trames</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>une photo ne peut pas être déplacée ({})</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>une photo ne peut pas être supprimée ({})</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>une photo de {}x{} pixels en {} est arrivée avec {} octets sur {}</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>une photo a été demandée et aucune n’est arrivée</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>tournez-la vers la projection, retirez son bouchon d’objectif et allongez la pose</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>un autre programme occupe la caméra</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>un autre programme occupe la caméra, le plus souvent le bureau, qui la monte comme une clé USB</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>demandez une taille qu’il propose&#x202f;: v4l2-ctl --list-formats-ext les affiche</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>n’en demandez pas plus</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>demandez la taille qu’elle fournit</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>impossible de créer un dossier temporaire ({})</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>impossible de créer le dossier ({})</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>impossible de lire le contenu du dossier ({})</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>ouverture impossible ({})</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>impossible d’ouvrir le dossier ({})</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>lecture impossible ({})</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>impossible de supprimer le fichier ({})</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>écriture impossible ({})</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>changez ou videz la carte mémoire</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>rechargez ou changez la batterie, utilisez de préférence un adaptateur secteur, et rallumez la caméra</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>vérifiez son câble et son alimentation</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>vérifiez son câble et désactivez sa mise en veille</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>vérifiez son câble, son alimentation et son adresse&#x202f;; `relucent-cli devices` affiche ce qui est présent</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>vérifiez son câble, allumez-la et désactivez son extinction automatique</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>vérifiez que le champ de la caméra est stable et sa pose courte, et désactivez le lissage des mouvements du projecteur</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>vérifiez que l’écriture dans le dossier est autorisée, puis continuez</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>vérifiez que l’écriture dans le dossier est autorisée, puis réessayez</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif&#x202f;; ou choisissez un autre écran</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>vérifiez que le bon écran est choisi et que rien ne cache l’image, puis réessayez</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>vérifiez que vous avez le droit de le lire, ou choisissez un autre nom</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>vérifiez le câble et la carte réseau de la caméra, et qu’aucun autre programme ne l’utilise</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>vérifiez le disque et son câble</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>vérifiez les droits d’accès du dossier</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>vérifiez le chemin</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>vérifiez le chemin et que vous avez le droit de le lire</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>vérifiez le chemin et le disque</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>choisissez un dossier où vous avez le droit d’écrire, ou demandez ce droit</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>choisissez une autre calibration, ou recopiez-la depuis l’endroit où elle a été mesurée</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>choisissez un autre dossier avec --log</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>choisissez {}, ou tournez la caméra vers {}</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>fermez ses menus et sa lecture, et quittez la visée écran (Live View)</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>fermez ses menus, éteignez-la et rallumez-la</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>fermez d’autres programmes et réessayez</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>branchez la caméra avec laquelle la mesure a commencé</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>recopiez-le, ou reprenez la photo&#x202f;; une caméra plus récente que ce LibRaw demande des fichiers DNG</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>développez les fichiers en linéaire, en TIFF 16 bits, ou utilisez une autre caméra</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>toutes les photos antérieures au transport lumineux sont en sécurité</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>toutes les photos prises jusqu’à la vérification précédente sont en sécurité</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>libérez de l’espace</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>libérez de l’espace à cet endroit ou vérifiez le disque, puis réessayez</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>libérez de l’espace à cet endroit ou choisissez un autre disque, puis réessayez</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>libérez de l’espace à cet endroit, ou indiquez dans TMPDIR un dossier où vous avez le droit d’écrire</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>libérez de l’espace, ou enregistrez ailleurs</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>installez Aravis (libaravis-dev) et recompilez, ou utilisez un autre type de caméra</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>installez libgphoto2 et LibRaw (libgphoto2-dev, libraw-dev) et recompilez, ou utilisez une commande</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>installez le pilote de la carte graphique, ou confiez le calcul au processeur</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>le fichier ne peut pas être retiré ({})</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>elle propose {}</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>elle propose {}&#x202f;; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>il est vide</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>faites-lui écrire la photo dans {output}&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>faites écrire cette taille par la commande, ou recommencez avec la taille que fournit la caméra</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>faites-la libérer par le bureau avec `gio mount -s gphoto2` (ou éjectez-la dans le gestionnaire de fichiers) et fermez les programmes de photo</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>confiez le calcul au processeur</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>ouvrez une session de bureau X («&#x202f;Xorg&#x202f;» à l’ouverture de session), ou diffusez des fichiers</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>indiquez l’une d’elles par son port&#x202f;: gphoto2:{} ou gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>indiquez celle-ci&#x202f;: gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>aucune caméra GenICam «&#x202f;{}&#x202f;» ne répond</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>aucune caméra de ce nom n’est branchée, mais {} l’est</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>aucune photo n’est arrivée en {}&#x202f;s</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>aucun périphérique vidéo de ce nom n’est branché</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>aucun des formats de pixel de la caméra ne peut être lu</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>il en manque des parties</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>des parties de la photo ont été perdues en route</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>branchez-le, fermez les autres programmes qui l’utilisent, puis réessayez</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>enfoncez son déclencheur à mi-course ou éteignez-la et rallumez-la, et désactivez son extinction automatique</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>le projecteur {} n’affiche pas l’image qu’il reçoit</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>remettez l’appareil en place à un demi-pixel près, puis réessayez</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>supprimez-le à la main, puis réessayez</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>exécutez-la dans un terminal pour en trouver la raison&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>réglez-la à la main sur ISO 100</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>réglez son mode d’exposition sur «&#x202f;Timed&#x202f;» et manuel, ou mettez à jour son micrologiciel</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>rétablissez sa définition dans les réglages du bureau, puis réessayez</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>réglez-les sur des plages de temps de pose qui se recoupent</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>relancez la diffusion</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>remettez-la comme avant, gardez portes et rideaux fermés, puis réessayez</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>éteignez-la et rallumez-la, chargez ses réglages par défaut avec le programme du fabricant, puis réessayez</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>désactivez ce réglage avec le programme du fabricant de la caméra, ou utilisez une autre caméra</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>désactivez ce réglage avec v4l2-ctl (--list-ctrls affiche ceux du périphérique), ou utilisez une autre caméra</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>désactivez son exposition automatique et la limite de sa fréquence d’images</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>désactivez son exposition automatique&#x202f;; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>mettez son objectif en mise au point manuelle</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>mettez son objectif en mise au point manuelle, fermez ses menus et prenez une photo à la main pour voir ce qu’elle signale</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>réglez à la main sa qualité d’image sur RAW&#x202f;; une caméra sans RAW ne peut pas être utilisée</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>désactivez sa mise en veille et l’économiseur d’écran dans les réglages du bureau, puis réessayez</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>éteignez les lampes à variateur et les tubes fluorescents, désactivez le mode économie d’énergie du projecteur, puis réessayez</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>désactivez sa luminosité automatique et ses modes éco, laissez-le chauffer, puis réessayez</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>désactivez la rétroprojection ou le montage au plafond du projecteur, ou autorisez une image en miroir, puis réessayez</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>éteignez et rallumez la caméra, ou choisissez un autre de ses formats de pixel</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>réglez la caméra sur RAW en pleine taille (ni sRAW, ni mRAW, ni DNG linéaire)</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>retirez ce qui se trouve dans la lumière ou dans le champ, puis réessayez</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>le manifeste de la calibration est endommagé</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>la caméra permet de {} à {}</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>la caméra est revenue avec {}x{} pixels au lieu de {}x{}</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>la caméra choisit elle-même sa sensibilité (ISO automatique)</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>la caméra annonce des temps de pose de {} à {}&#x202f;s</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>la caméra ne fournit pas de fichiers RAW</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>la caméra n’a pas pu faire la mise au point et n’a pas pris de photo ({})</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>la caméra a disparu depuis {}&#x202f;s&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>la caméra a été débranchée ou éteinte, ou s’est mise en veille</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>la caméra a oublié le format de pixel réglé</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>la caméra n’a pas de format de pixel {} qui puisse être lu</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>la caméra n’a plus de place pour une photo&#x202f;: sa carte mémoire est pleine</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>la caméra est là mais ne répond pas, elle est peut-être en veille</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>la caméra s’en tient à {}&#x202f;s quelle que soit la pose demandée</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>la caméra ne répond plus ({}&#x202f;: {})</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>la caméra a refusé ce qui lui était demandé ({})</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>la caméra refuse ({}&#x202f;: {})</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>la caméra ne voit aucune différence entre le blanc et le noir</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>la caméra ne voit rien du tout</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>la caméra voit {}, et non {}</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>la caméra n’envoie pas de flux</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>la caméra a envoyé {} et aucun fichier RAW</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>la caméra reste occupée</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>une photo a été demandée à la caméra, qui n’en a pas pris</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>une pose de {}&#x202f;s a été demandée à la caméra, qui s’en tient à {}&#x202f;s</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>la batterie de la caméra semble vide ({}&#x202f;% à la dernière lecture)</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>le filtre coloré de la caméra n’est pas un filtre de Bayer</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>le temps de pose de la caméra ne peut pas être réglé</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>la molette de mode de la caméra est sur {}, où la caméra choisit elle-même la pose</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>les caméras n’ont aucun temps de pose en commun</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>le périphérique de capture ne fournit aucune image</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>la commande ne peut pas être lancée ({})</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>la commande s’est bien terminée mais n’a rien écrit&#x202f;; {} était attendu</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>la commande s’est bien terminée mais a écrit {}&#x202f;; {} était attendu</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>la commande a échoué avec le statut {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>la commande a échoué avec le statut {}, en signalant «&#x202f;{}&#x202f;»</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>la commande a duré plus de {}&#x202f;s</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>la commande a duré plus de {}&#x202f;s, en signalant «&#x202f;{}&#x202f;»</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>la commande a été tuée par le signal {}</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>la commande a été tuée par le signal {}, en signalant «&#x202f;{}&#x202f;»</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>le moteur de rendu a perdu son périphérique</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>la carte graphique ne peut pas être utilisée</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>la carte graphique n’a plus {}&#x202f;Mo de mémoire libre</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>la carte graphique atteint {}&#x202f;Mo à la fois alors qu’il en faut {}&#x202f;Mo</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>la carte graphique a été perdue</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la lumière scintille&#x202f;: les photos d’un même motif diffèrent de {}&#x202f;%</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>la lumière de la salle a augmenté</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>la lumière de la salle a diminué</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>l’image en direct d’un écran demande un serveur X, et aucun ne répond</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>le journal ne peut pas être écrit ({})</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>la photo a {}x{} pixels en {} alors que {}x{} en {} étaient convenus</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>la photo a {}x{} pixels alors que {}x{} étaient annoncés</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>la photo est plus grande que ce que la caméra annonçait</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>la photo n’a pas été terminée</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>l’image n’a pas pu être écrite</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>l’image du projecteur {} apparaît en miroir</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>le projecteur n’affiche rien, seule la lumière de la salle est encore visible</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>la lumière du projecteur a changé de {}&#x202f;% en quelques photos</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>l’écran du projecteur a maintenant {}x{} pixels alors que {}x{} ont été calibrés</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>l’écran du projecteur est en veille et ne se réveille pas</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>l’écran du projecteur perd sans cesse son image</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>le fichier RAW ne peut pas être lu ({})</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>le fichier RAW ne contient pas les valeurs mêmes du capteur</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>l’enregistrement ne peut pas être écrit ({})</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>le rapport ne peut pas être écrit</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>le service ne peut pas être activé ({})</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>le périphérique vidéo ne peut pas être rouvert</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>le périphérique vidéo ne peut pas être ouvert&#x202f;: un autre programme l’utilise peut-être</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>le périphérique vidéo a été débranché</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>le périphérique vidéo n’a pas d’exposition réglable</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>le périphérique vidéo n’envoie pas d’images</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>l’exposition automatique du périphérique vidéo ne peut pas être désactivée</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>la mise au point automatique du périphérique vidéo ne peut pas être désactivée</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>la balance des blancs automatique du périphérique vidéo ne peut pas être désactivée</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>il manque OpenGL 4.3 avec shaders de calcul</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>aucune carte graphique avec OpenGL 4.3 et shaders de calcul n’est présente</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>il manque libEGL ou libOpenGL, qui ouvrent les cartes graphiques sans écran</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>cette version compilée de Relucent ne gère pas les reflex ni les hybrides</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>cette version compilée de Relucent ne gère pas les caméras GenICam</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>ce n’est pas une calibration de Relucent</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>tournez-la sur M</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>tournez sa molette de mode sur M&#x202f;; une caméra sans M ne peut pas être utilisée</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>découvrez l’objectif, vérifiez que le projecteur est allumé, puis réessayez</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>utilisez une caméra à exposition manuelle</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>réveillez le projecteur, désactivez sa mise en veille et celle de l’écran, puis réessayez</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>ISO {} est demandé et la caméra ne l’a pas</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>{}&#x202f;% du champ de la caméra {} ont changé d’aspect</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} tentatives de photo ont échoué&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{} en reprenant la calibration&#x202f;; {}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>{} caméras de ce modèle sont branchées</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>{} ne peut pas être désactivé</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}, puis continuez&#x202f;: toutes les photos déjà prises sont conservées</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>{}x{} pixels sont demandés et la caméra fournit {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>{}x{} pixels sont demandés et la caméra a {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>{}x{} pixels sont demandés et le périphérique vidéo fournit {}x{}</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}&#x202f;; {}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{} ({})</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}.</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>annonce des temps de pose jusqu’à {} s mais s’en tient à {} s</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>fournit 8 bits&#x202f;: les zones sombres restent incertaines</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>ne dit pas quand les images ont été prises&#x202f;: quelques-unes sont écartées avant chaque photo</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>fait la mise au point seule&#x202f;: passez l’objectif en mise au point manuelle</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>n’a pas de déclencheur logiciel&#x202f;: chaque photo peut attendre une pose de plus</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>n’a plus que {} % de batterie&#x202f;: une mesure demande une batterie pleine ou une alimentation secteur</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>peut déclencher son flash&#x202f;: refermez-le</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>peut prendre une image noire après les poses longues, ce qui double leur durée</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>peut prendre plusieurs photos à la fois&#x202f;: passez en vue par vue</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>ne voit pas les couleurs&#x202f;: la luminosité peut être compensée, pas les couleurs</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>s’éteint seule au bout d’un moment&#x202f;: désactivez cela</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>périphérique vidéo</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>a reçu la demande ISO {} et s’en tient à ISO {}</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>a reçu la demande d’un gain de {} et s’en tient à {}</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>Appareils reflex et hybrides&#x202f;: ce programme a été construit sans libgphoto2 ou LibRaw&#x202f;; installez libgphoto2-dev et libraw-dev et reconstruisez-le</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>Caméras GigE Vision et USB3 Vision&#x202f;: ce programme a été construit sans Aravis&#x202f;; installez libaravis-dev et reconstruisez-le</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>fermez le diaphragme ou ajoutez un filtre gris s’ils comptent</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>fermez le diaphragme, réduisez le gain ou ajoutez un filtre gris</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>développez-les linéairement, en TIFF ou EXR, pour mesurer plus exactement</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>ouvrez le diaphragme ou augmentez le gain</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>motifs et photos sont gris&#x202f;: les couleurs ne sont pas distinguées, et les blocs de T sont neutres</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>accepté avant le motif {}&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>certains reflets sont surexposés même à {}&#x202f;s, le temps de pose le plus court, et ne seront pas compensés</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>désactivez l’économie d’énergie, la gestion des couleurs et les modes d’image dynamiques</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>désactivez l’iris dynamique, le contraste dynamique et tout mode d’image qui s’adapte au contenu</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>désactivez les modes de lampe dynamiques du projecteur, éteignez les autres lampes proches et choisissez des temps de pose multiples de la période du secteur</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>désactivez le segment blanc (souvent appelé « Brilliant Color » ou mode lumineux) et choisissez un mode d’image pour la vidéo ou le sRGB</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>il en a été tenu compte, mais laissez le projecteur chauffer avant la prochaine fois</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>la caméra est supposée linéaire, et une photo compte pour une seconde de pose</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>la lumière a changé de {}&#x202f;% entre la première et la dernière photo</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>la lumière change de {}&#x202f;% d’une photo à la suivante</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>les motifs sont gris&#x202f;: le mélange des couleurs n’a pas été mesuré, et les blocs de T sont diagonaux</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>les motifs ne contiennent que du noir et du blanc&#x202f;: la réponse du projecteur est supposée être une puissance de 2,2</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>les photos sont grises&#x202f;: l’apport de chaque couleur du projecteur n’est connu qu’en luminosité</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>les photos sont en JPEG&#x202f;: elles ont été linéarisées par la courbe sRGB, que les caméras ne suivent qu’approximativement</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>les photos ont été associées aux motifs dans l’ordre de prise de vue, de {} à {}, qui n’est pas celui de leurs noms</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>la projection est surexposée même à {}&#x202f;s, le temps de pose le plus court</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>la projection n’atteint que {0}&#x202f;% de la plage de la caméra à {1}&#x202f;s, le temps de pose le plus long</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>le projecteur éclaire {}&#x202f;% des pixels de la caméra</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>ces pixels sont exclus de la compensation</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>deux moitiés d’une image sont plus lumineuses de {}&#x202f;% que l’ensemble</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>deux moitiés d’une image sont plus sombres de {}&#x202f;% que l’ensemble</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>le blanc est plus lumineux de {}&#x202f;% que le rouge, le vert et le bleu réunis</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>le blanc est plus sombre de {}&#x202f;% que le rouge, le vert et le bleu réunis</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{}&#x202f;% des pixels de la caméra sont surexposés même au temps de pose le plus court&#x202f;: fermez le diaphragme de la caméra ou autorisez des temps de pose plus courts, puis mesurez à nouveau</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>{}&#x202f;% des pixels de la caméra voient autre chose que prévu dans les motifs de test&#x202f;: vérifiez que rien n’a bougé ni scintillé</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>une caméra de {}x{} pixels est impossible : chaque côté en a {} à {}</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>un projecteur de {}x{} pixels est impossible : chaque côté en a {} à {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>la commande de la caméra ne contient pas {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>la commande de la caméra est vide</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>la commande du projecteur ne contient pas {}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>la commande du projecteur est vide</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>le temps de pose le plus court doit être supérieur à zéro et ne pas dépasser le plus long</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1301,263 +185,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>Algorithme 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>Assemblage du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>Calibration</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>Vérification de l’additivité des couleurs&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>Regroupement du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Groupes de taille limitée</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>Comparaison des inverses des groupes&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>Comparaison des méthodes</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>Comparaison des méthodes&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>Correction</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>Décodage</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>Estimation de la réponse et des couleurs</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>Estimation du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>Évaluation</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>Recherche du flou</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>Recherche du temps de pose</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>Ajustement de l’étalement de la lumière</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>Formation des zones</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Limitation de la taille des groupes</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>Inversion des groupes</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Inversion du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>Inversion&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>Réunion des groupes</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>Linéarisation</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Recherche d’ombres</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>Recherche de ce qui ne peut être corrigé</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>Mesure des courbes de luminosité&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>Mesure de la caméra</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>Évaluation de la lumière</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Recherche de l’image du projecteur</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>Mesure de la latence</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Mesure du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>Mesure&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>Photographie des motifs d’essai</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>Photographie des projections</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>Prévision des motifs réservés</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>Préparation des tests de vitesse</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>Préparation des appareils</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>Préparation du moteur</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>Préparation du lieu</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>Lecture de la calibration</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>Lecture des motifs</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>Lecture des photos</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>Lecture des images</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>Lecture&#x202f;: {}</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>Mise à l’échelle sur la pleine lumière</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>Séparation des lumières directe et indirecte</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>Accentuation</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>Résolution</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>Chronométrage du moteur</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Fenêtres</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>Écriture</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>Écriture du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>Écriture des résultats</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>noir et pleine lumière</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>transport lumineux</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>projecteur {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>motifs d’essai</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>projecteur</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>tracé de la lumière du lieu simulé</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>niveau {} sur {} : %n motif</numerusform>
-            <numerusform>niveau {} sur {} : %n motifs</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>nouvelle mesure de %n pixel signalé</numerusform>
-            <numerusform>nouvelle mesure de %n pixels signalés</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1605,6 +232,1743 @@
     <message>
         <source>A venue is being measured</source>
         <translation>La mesure d’un lieu est en cours</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>accepté avant le motif {}&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>la lumière a changé de {}&#x202f;% entre la première et la dernière photo&#x202f;; il en a été tenu compte, mais laissez le projecteur chauffer avant la prochaine fois</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>{}&#x202f;% des pixels de la caméra sont surexposés même au temps de pose le plus court&#x202f;: fermez le diaphragme de la caméra ou autorisez des temps de pose plus courts, puis mesurez à nouveau</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>{}&#x202f;% des pixels de la caméra voient autre chose que prévu dans les motifs de test&#x202f;: vérifiez que rien n’a bougé ni scintillé&#x202f;; ces pixels sont exclus de la compensation</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} en reprenant la calibration&#x202f;; {}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>la caméra ne voit rien du tout</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>vérifiez que le bon écran est choisi et que rien ne cache l’image, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>retirez ce qui se trouve dans la lumière ou dans le champ, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>la lumière du projecteur a changé de {}&#x202f;% en quelques photos</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>la lumière scintille&#x202f;: les photos d’un même motif diffèrent de {}&#x202f;%</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>une caméra ou un projecteur a bougé&#x202f;: le champ de la caméra {} est décalé de {} et {} pixels et tourné de {} degrés</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>l’image du projecteur {} apparaît en miroir</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>le projecteur n’affiche rien, seule la lumière de la salle est encore visible</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>remettez l’appareil en place à un demi-pixel près, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>remettez-la comme avant, gardez portes et rideaux fermés, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>la lumière de la salle a augmenté</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>la lumière de la salle a diminué</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>toutes les photos prises jusqu’à la vérification précédente sont en sécurité</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>toutes les photos antérieures au transport lumineux sont en sécurité</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>éteignez les lampes à variateur et les tubes fluorescents, désactivez le mode économie d’énergie du projecteur, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>désactivez sa luminosité automatique et ses modes éco, laissez-le chauffer, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>désactivez la rétroprojection ou le montage au plafond du projecteur, ou autorisez une image en miroir, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>découvrez l’objectif, vérifiez que le projecteur est allumé, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>{}&#x202f;% du champ de la caméra {} ont changé d’aspect</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>réveillez le projecteur, désactivez sa mise en veille et celle de l’écran, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>le projecteur {} n’affiche pas l’image qu’il reçoit</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>le manifeste de la calibration est endommagé</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>impossible de lire le contenu du dossier ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>impossible d’ouvrir le dossier ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>vérifiez que l’écriture dans le dossier est autorisée, puis continuez</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>vérifiez que l’écriture dans le dossier est autorisée, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>vérifiez le chemin et que vous avez le droit de le lire</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>vérifiez que vous avez le droit de le lire, ou choisissez un autre nom</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>choisissez une autre calibration, ou recopiez-la depuis l’endroit où elle a été mesurée</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un fichier de la calibration ({}) a {} octets au lieu de {}</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>un fichier de la calibration ({}) est absent</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>libérez de l’espace à cet endroit ou vérifiez le disque, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>ce n’est pas une calibration de Relucent</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>une photo ne peut pas être déplacée ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>une photo ne peut pas être supprimée ({})</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>Les couleurs se succèdent, comme à travers une roue chromatique ({} % en {} ms) : exposez des trames entières, multiples de {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>Le projecteur mélange les gris dans le temps, pixel par pixel ({} %) : exposez plusieurs trames entières et désactivez son lissage et ses modes 3D.</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>La lampe scintille au sein d’une trame, de {} % en {} ms : exposez des trames entières, multiples de {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>La lumière est régulière : ni scintillement, ni roue chromatique, ni bandes, ni tramage.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>La lumière varie de {} % entre des poses de trames entières : laissez chauffer la lampe, désactivez la luminosité dynamique et éteignez les lampes de la salle.</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>La caméra ne peut pas exposer moins d’une trame, ou voit alors trop peu : un scintillement au sein d’une trame ne peut être décelé.</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>La caméra voit {} et non {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>Une image apparaît {} trame après l’envoi : attente de {} ms.</numerusform>
+            <numerusform>Une image apparaît {} trames après l’envoi : attente de {} ms.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>Les images arrivent {} photo trop tard : la latence doit être mesurée et attendue.</numerusform>
+            <numerusform>Les images arrivent {} photos trop tard : la latence doit être mesurée et attendue.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>La caméra expose ses lignes l’une après l’autre (obturateur déroulant) : les poses brèves ont des bandes de {} %. Exposez des trames entières, multiples de {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>L’image apparaît en miroir. Si ce n’est pas voulu (rétroprojection, miroir), désactivez-le dans le menu du projecteur.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>La caméra ne voit pas {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>La caméra voit {} : {} % de son champ suivent la mire.</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>Le blanc varie de {} % d’une photo à l’autre : exposez des trames entières du projecteur, multiples de {} ms, et désactivez sa luminosité dynamique.</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>le périphérique de capture ne fournit aucune image</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>l’image en direct d’un écran demande un serveur X, et aucun ne répond</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>ouvrez une session de bureau X («&#x202f;Xorg&#x202f;» à l’ouverture de session), ou diffusez des fichiers</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>branchez-le, fermez les autres programmes qui l’utilisent, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>tournez-la vers la projection, retirez son bouchon d’objectif et allongez la pose</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>un autre programme occupe la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>n’en demandez pas plus</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>demandez la taille qu’elle fournit</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>demandez une taille qu’il propose&#x202f;: v4l2-ctl --list-formats-ext les affiche</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>a reçu la demande d’un gain de {} et s’en tient à {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>a reçu la demande ISO {} et s’en tient à ISO {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} tentatives de photo ont échoué&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>l’exposition automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>la mise au point automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>la caméra choisit elle-même sa sensibilité (ISO automatique)</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>la balance des blancs automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>la batterie de la caméra semble vide ({}&#x202f;% à la dernière lecture)</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>n’a plus que {} % de batterie&#x202f;: une mesure demande une batterie pleine ou une alimentation secteur</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>cette version compilée de Relucent ne gère pas les reflex ni les hybrides</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>cette version compilée de Relucent ne gère pas les caméras GenICam</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>une pose de {}&#x202f;s a été demandée à la caméra, qui s’en tient à {}&#x202f;s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>une photo a été demandée à la caméra, qui n’en a pas pris</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>la caméra est là mais ne répond pas, elle est peut-être en veille</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la caméra a disparu depuis {}&#x202f;s&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>la caméra est revenue avec {} pixels au lieu de {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>la caméra permet de {} à {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la caméra annonce des temps de pose de {} à {}&#x202f;s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>le filtre coloré de la caméra n’est pas un filtre de Bayer</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>la commande de la caméra est vide</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>la commande de la caméra ne contient pas {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la caméra a oublié le format de pixel réglé</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>la caméra n’a pas pu faire la mise au point et n’a pas pris de photo ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>la caméra a été débranchée ou éteinte, ou s’est mise en veille</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>la caméra s’en tient à {}&#x202f;s quelle que soit la pose demandée</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>la caméra ne répond plus ({}&#x202f;: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la caméra n’a pas de format de pixel {} qui puisse être lu</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la caméra a refusé ce qui lui était demandé ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>la caméra refuse ({}&#x202f;: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la caméra ne voit aucune différence entre le blanc et le noir</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la caméra voit {}, et non {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>la caméra n’envoie pas de flux</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>la caméra reste occupée</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>{} caméras de ce modèle sont branchées</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>impossible de créer un dossier temporaire ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>impossible de supprimer le fichier ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} ne peut pas être désactivé</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>la caméra n’a plus de place pour une photo&#x202f;: sa carte mémoire est pleine</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>changez ou videz la carte mémoire</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>rechargez ou changez la batterie, utilisez de préférence un adaptateur secteur, et rallumez la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>vérifiez son câble et son alimentation</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>vérifiez son câble, son alimentation et son adresse&#x202f;; `relucent-cli devices` affiche ce qui est présent</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>vérifiez son câble et désactivez sa mise en veille</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>vérifiez son câble, allumez-la et désactivez son extinction automatique</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>vérifiez le câble et la carte réseau de la caméra, et qu’aucun autre programme ne l’utilise</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>vérifiez que le champ de la caméra est stable et sa pose courte, et désactivez le lissage des mouvements du projecteur</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif&#x202f;; ou choisissez un autre écran</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>choisissez {}, ou tournez la caméra vers {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>annonce des temps de pose jusqu’à {} s mais s’en tient à {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>fermez ses menus et sa lecture, et quittez la visée écran (Live View)</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>fermez ses menus, éteignez-la et rallumez-la</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>fermez d’autres programmes et réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>la commande ne peut pas être lancée ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>la commande a échoué avec le statut {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>la commande a échoué avec le statut {}, en signalant «&#x202f;{}&#x202f;»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>la commande a été tuée par le signal {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>la commande a été tuée par le signal {}, en signalant «&#x202f;{}&#x202f;»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>la commande a duré plus de {}&#x202f;s</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>la commande a duré plus de {}&#x202f;s, en signalant «&#x202f;{}&#x202f;»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>la commande s’est bien terminée mais n’a rien écrit&#x202f;; {} était attendu</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>la commande s’est bien terminée mais a écrit {}&#x202f;; {} était attendu</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>branchez la caméra avec laquelle la mesure a commencé</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>recopiez-le, ou reprenez la photo&#x202f;; une caméra plus récente que ce LibRaw demande des fichiers DNG</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>fournit 8 bits&#x202f;: les zones sombres restent incertaines</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>développez les fichiers en linéaire, en TIFF 16 bits, ou utilisez une autre caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>le temps de pose de la caméra ne peut pas être réglé</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>fait la mise au point seule&#x202f;: passez l’objectif en mise au point manuelle</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>libérez de l’espace, ou enregistrez ailleurs</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>libérez de l’espace à cet endroit, ou indiquez dans TMPDIR un dossier où vous avez le droit d’écrire</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>un gain de {} est demandé</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>Caméras GigE Vision et USB3 Vision&#x202f;: ce programme a été construit sans Aravis&#x202f;; installez libaravis-dev et reconstruisez-le</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Appareils reflex et hybrides&#x202f;: ce programme a été construit sans libgphoto2 ou LibRaw&#x202f;; installez libgphoto2-dev et libraw-dev et reconstruisez-le</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>un autre programme occupe la caméra, le plus souvent le bureau, qui la monte comme une clé USB</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>une caméra de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>un projecteur de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>installez Aravis (libaravis-dev) et recompilez, ou utilisez un autre type de caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>installez libgphoto2 et LibRaw (libgphoto2-dev, libraw-dev) et recompilez, ou utilisez une commande</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>ISO {} est demandé et la caméra ne l’a pas</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>elle propose {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>faites écrire cette taille par la commande, ou recommencez avec la taille que fournit la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>faites-la libérer par le bureau avec `gio mount -s gphoto2` (ou éjectez-la dans le gestionnaire de fichiers) et fermez les programmes de photo</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>faites-lui écrire la photo dans {output}&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>peut déclencher son flash&#x202f;: refermez-le</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>peut prendre une image noire après les poses longues, ce qui double leur durée</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>peut prendre plusieurs photos à la fois&#x202f;: passez en vue par vue</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>la molette de mode de la caméra est sur {}, où la caméra choisit elle-même la pose</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indiquez celle-ci&#x202f;: gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>indiquez l’une d’elles par son port&#x202f;: gphoto2:{} ou gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>une nouvelle image n’est pas entièrement affichée après {} trames</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>aucune caméra de ce nom n’est branchée, mais {} l’est</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>aucune caméra GenICam «&#x202f;{}&#x202f;» ne répond</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>aucune photo n’est arrivée en {}&#x202f;s</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>la caméra a envoyé {} et aucun fichier RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>la caméra ne fournit pas de fichiers RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>n’a pas de déclencheur logiciel&#x202f;: chaque photo peut attendre une pose de plus</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>aucun périphérique vidéo de ce nom n’est branché</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>aucun des formats de pixel de la caméra ne peut être lu</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>ne dit pas quand les images ont été prises&#x202f;: quelques-unes sont écartées avant chaque photo</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>des parties de la photo ont été perdues en route</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>une photo a été demandée et aucune n’est arrivée</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>la photo est plus grande que ce que la caméra annonçait</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>la photo n’a pas été terminée</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>la photo a {} pixels en {} alors que {} en {} étaient convenus</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>la photo a {} pixels alors que {} étaient annoncés</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>une photo de {} pixels en {} est arrivée avec {} octets sur {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>{} pixels sont demandés et la caméra a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>{} pixels sont demandés et la caméra fournit {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>{} pixels sont demandés et le périphérique vidéo fournit {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>enfoncez son déclencheur à mi-course ou éteignez-la et rallumez-la, et désactivez son extinction automatique</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>la commande du projecteur est vide</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>la commande du projecteur ne contient pas {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>l’écran du projecteur perd sans cesse son image</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>le fichier RAW ne peut pas être lu ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>il est vide</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>il en manque des parties</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>le fichier RAW ne contient pas les valeurs mêmes du capteur</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>l’enregistrement ne peut pas être écrit ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>supprimez-le à la main, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>exécutez-la dans un terminal pour en trouver la raison&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>ne voit pas les couleurs&#x202f;: la luminosité peut être compensée, pas les couleurs</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>réglez son mode d’exposition sur «&#x202f;Timed&#x202f;» et manuel, ou mettez à jour son micrologiciel</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>réglez-la à la main sur ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>le temps de pose le plus court doit être supérieur à zéro et ne pas dépasser le plus long</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>désactivez son exposition automatique et la limite de sa fréquence d’images</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>désactivez son exposition automatique&#x202f;; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>réglez la caméra sur RAW en pleine taille (ni sRAW, ni mRAW, ni DNG linéaire)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>éteignez et rallumez la caméra, ou choisissez un autre de ses formats de pixel</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>mettez son objectif en mise au point manuelle</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>mettez son objectif en mise au point manuelle, fermez ses menus et prenez une photo à la main pour voir ce qu’elle signale</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>désactivez ce réglage avec le programme du fabricant de la caméra, ou utilisez une autre caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>éteignez-la et rallumez-la, chargez ses réglages par défaut avec le programme du fabricant, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>désactivez ce réglage avec v4l2-ctl (--list-ctrls affiche ceux du périphérique), ou utilisez une autre caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>réglez à la main sa qualité d’image sur RAW&#x202f;; une caméra sans RAW ne peut pas être utilisée</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>s’éteint seule au bout d’un moment&#x202f;: désactivez cela</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}, puis continuez&#x202f;: toutes les photos déjà prises sont conservées</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>tournez-la sur M</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>tournez sa molette de mode sur M&#x202f;; une caméra sans M ne peut pas être utilisée</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>elle propose {}&#x202f;; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>utilisez une caméra à exposition manuelle</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>périphérique vidéo</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>le périphérique vidéo a été débranché</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>le périphérique vidéo ne peut pas être rouvert</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>le périphérique vidéo ne peut pas être ouvert&#x202f;: un autre programme l’utilise peut-être</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>le périphérique vidéo n’a pas d’exposition réglable</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>le périphérique vidéo n’envoie pas d’images</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>impossible de créer le dossier ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>ouverture impossible ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>lecture impossible ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>écriture impossible ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>vérifiez le disque et son câble</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>vérifiez le chemin</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>vérifiez le chemin et le disque</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>choisissez un dossier où vous avez le droit d’écrire, ou demandez ce droit</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>libérez de l’espace à cet endroit ou choisissez un autre disque, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>la carte graphique ne peut pas être utilisée</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>la carte graphique a été perdue</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>la carte graphique n’a plus {}&#x202f;Mo de mémoire libre</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>la carte graphique atteint {}&#x202f;Mo à la fois alors qu’il en faut {}&#x202f;Mo</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>installez le pilote de la carte graphique, ou confiez le calcul au processeur</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>confiez le calcul au processeur</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>aucune carte graphique avec OpenGL 4.3 et shaders de calcul n’est présente</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>il manque libEGL ou libOpenGL, qui ouvrent les cartes graphiques sans écran</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>il manque OpenGL 4.3 avec shaders de calcul</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>la caméra est supposée linéaire, et une photo compte pour une seconde de pose</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>le projecteur éclaire {}&#x202f;% des pixels de la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>les photos ont été associées aux motifs dans l’ordre de prise de vue, de {} à {}, qui n’est pas celui de leurs noms</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>motifs et photos sont gris&#x202f;: les couleurs ne sont pas distinguées, et les blocs de T sont neutres</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>les motifs ne contiennent que du noir et du blanc&#x202f;: la réponse du projecteur est supposée être une puissance de 2,2</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>les motifs sont gris&#x202f;: le mélange des couleurs n’a pas été mesuré, et les blocs de T sont diagonaux</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>les photos sont en JPEG&#x202f;: elles ont été linéarisées par la courbe sRGB, que les caméras ne suivent qu’approximativement&#x202f;; développez-les linéairement, en TIFF ou EXR, pour mesurer plus exactement</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>les photos sont grises&#x202f;: l’apport de chaque couleur du projecteur n’est connu qu’en luminosité</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>les caméras n’ont aucun temps de pose en commun</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}&#x202f;: deux moitiés d’une image sont plus lumineuses de {}&#x202f;% que l’ensemble&#x202f;; désactivez l’iris dynamique, le contraste dynamique et tout mode d’image qui s’adapte au contenu</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}&#x202f;: deux moitiés d’une image sont plus sombres de {}&#x202f;% que l’ensemble&#x202f;; désactivez l’iris dynamique, le contraste dynamique et tout mode d’image qui s’adapte au contenu</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>{}&#x202f;: certains reflets sont surexposés même à {}&#x202f;s, le temps de pose le plus court, et ne seront pas compensés&#x202f;; fermez le diaphragme ou ajoutez un filtre gris s’ils comptent</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>{}&#x202f;: la lumière change de {}&#x202f;% d’une photo à la suivante&#x202f;; désactivez les modes de lampe dynamiques du projecteur, éteignez les autres lampes proches et choisissez des temps de pose multiples de la période du secteur</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>{}&#x202f;: la projection est surexposée même à {}&#x202f;s, le temps de pose le plus court&#x202f;; fermez le diaphragme, réduisez le gain ou ajoutez un filtre gris</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>réglez-les sur des plages de temps de pose qui se recoupent</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>{}&#x202f;: la projection n’atteint que {}&#x202f;% de la plage de la caméra à {}&#x202f;s, le temps de pose le plus long&#x202f;; ouvrez le diaphragme ou augmentez le gain</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>{}&#x202f;: le blanc est plus lumineux de {}&#x202f;% que le rouge, le vert et le bleu réunis&#x202f;; désactivez le segment blanc (souvent appelé « Brilliant Color » ou mode lumineux) et choisissez un mode d’image pour la vidéo ou le sRGB</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>{}&#x202f;: le blanc est plus sombre de {}&#x202f;% que le rouge, le vert et le bleu réunis&#x202f;; désactivez l’économie d’énergie, la gestion des couleurs et les modes d’image dynamiques</translation>
     </message>
 </context>
 <context>
@@ -1725,18 +2089,6 @@
     <message>
         <source>Colours</source>
         <translation>Couleurs</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Ouverture des appareils</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>Lecture de la réponse</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Mesure du transport lumineux</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2279,18 +2631,6 @@
     <message>
         <source>Focus area</source>
         <translation>Zone de netteté</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>Vérification du projecteur et de la caméra</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>Recherche des temps de pose</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>Vue caméra en direct</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2860,14 +3200,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>Rien n’a été modifié.</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Ouverture des appareils</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>Mesure de la réponse</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3530,10 +3862,6 @@ projecteur %2</translation>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>Préparation du moteur</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>Rouvrez la sortie.</translation>
     </message>
@@ -3544,25 +3872,6 @@ projecteur %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, affiché sans OpenGL</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Ouverture des appareils</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>Prise de la photo de contrôle</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>Recherche d’une dérive</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>Écriture du rapport</translation>
     </message>
 </context>
 <context>
@@ -3685,14 +3994,6 @@ projecteur %2</translation>
     <message>
         <source>The picture of before stays.</source>
         <translation>L’image précédente reste en place.</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>Lecture du transport lumineux</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Inversion du transport lumineux</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4722,6 +5023,644 @@ projecteur %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Pour cette vue, installez le pilote de la carte graphique et redémarrez Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>libérez de l’espace</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>le rapport ne peut pas être écrit</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}&#x202f;; {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>le fichier ne peut pas être retiré ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>vérifiez les droits d’accès du dossier</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>choisissez un autre dossier avec --log</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>le moteur de rendu a perdu son périphérique</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>le journal ne peut pas être écrit ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>l’écran du projecteur est en veille et ne se réveille pas</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>l’écran du projecteur a maintenant {} pixels alors que {} ont été calibrés</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>le service ne peut pas être activé ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>rétablissez sa définition dans les réglages du bureau, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>relancez la diffusion</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>désactivez sa mise en veille et l’économiseur d’écran dans les réglages du bureau, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algorithme 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Assemblage du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>noir et pleine lumière</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>Calibration</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Vérification de l’additivité des couleurs&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Recherche d’une dérive</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Vérification du projecteur et de la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Regroupement du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Groupes de taille limitée</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Comparaison des inverses des groupes&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Comparaison des méthodes</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Comparaison des méthodes&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>Correction</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>Décodage</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Estimation du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Estimation de la réponse et des couleurs</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>Évaluation</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Recherche du flou</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Recherche du temps de pose</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Recherche des temps de pose</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Recherche de ce qui ne peut être corrigé</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Ajustement de l’étalement de la lumière</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>Formation des zones</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitation de la taille des groupes</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Inversion des groupes</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversion du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Inversion&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Réunion des groupes</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>Évaluation de la lumière</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>niveau {} sur {} : {} motif</numerusform>
+            <numerusform>niveau {} sur {} : {} motifs</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linéarisation</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Recherche de l’image du projecteur</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Recherche d’ombres</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Vue caméra en direct</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Mesure des courbes de luminosité&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Mesure de la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>nouvelle mesure de {} pixel signalé</numerusform>
+            <numerusform>nouvelle mesure de {} pixels signalés</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Mesure de la latence</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Mesure du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Mesure de la réponse</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Mesure&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Ouverture des appareils</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Photographie des projections</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Photographie des motifs d’essai</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Prévision des motifs réservés</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Préparation des tests de vitesse</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Préparation des appareils</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Préparation du moteur</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Préparation de l’aperçu</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Préparation du lieu</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Lecture de la calibration</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lecture du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Lecture des motifs</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Lecture des photos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Lecture des images</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>Lecture de la réponse</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>Lecture&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Mise à l’échelle sur la pleine lumière</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Séparation des lumières directe et indirecte</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>Accentuation</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>Résolution</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Prise de la photo de contrôle</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>motifs d’essai</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Chronométrage du moteur</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>tracé de la lumière du lieu simulé</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>Fenêtres</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>Écriture</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Écriture du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>Écriture du rapport</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>Écriture des résultats</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>l’image n’a pas pu être écrite</translation>
     </message>
 </context>
 </TS>

@@ -13,1122 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>La fotocamera vede %1: %2 dell’inquadratura segue il pattern di prova.</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>L’immagine appare specchiata. Se non è voluto (retroproiezione, uno specchio), disattivarlo nel menu del proiettore.</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>Le immagini arrivano in ritardo di %n foto: la latenza va misurata e attesa.</numerusform>
-            <numerusform>Le immagini arrivano in ritardo di %n foto: la latenza va misurata e attesa.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>La fotocamera vede %1 e non %2.</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>La fotocamera non vede %1.</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>Un’immagine appare %n fotogramma dopo l’invio: si attendono %1.</numerusform>
-            <numerusform>Un’immagine appare %n fotogrammi dopo l’invio: si attendono %1.</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>Il bianco cambia di %1 da una foto all’altra: esporre fotogrammi interi del proiettore, multipli di %2, e disattivarne la luminosità dinamica.</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>La luce cambia di %1 tra pose di fotogrammi interi: lasciare scaldare la lampada, disattivare la luminosità dinamica e spegnere le lampade della sala.</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>La fotocamera non può esporre per una parte di fotogramma, o allora vede troppo poco: lo sfarfallio entro un fotogramma non è rilevabile.</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>La lampada sfarfalla entro un fotogramma, di %1 in %2: esporre fotogrammi interi, multipli di %3.</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>I colori arrivano uno dopo l’altro, come da una ruota colore (%1 in %2): esporre fotogrammi interi, multipli di %3.</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>La fotocamera espone le righe una dopo l’altra (rolling shutter): le pose brevi hanno bande di %1. Esporre fotogrammi interi, multipli di %2.</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>Il proiettore mescola i grigi nel tempo, pixel per pixel (%1): esporre più fotogrammi interi e disattivarne la levigatura e le modalità 3D.</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>La luce è uniforme: né sfarfallio, né ruota colore, né bande, né dithering.</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>una fotocamera o un proiettore si è spostato: l’inquadratura della fotocamera {} è spostata di {}, {} pixel e ruotata di {} gradi</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>un file della calibrazione ({}) ha {} byte invece di {}</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>manca un file della calibrazione ({})</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>è richiesto un guadagno di {}</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>una nuova immagine non è completa dopo {} fotogrammi</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>impossibile spostare una foto ({})</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>impossibile eliminare una foto ({})</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>una foto di {}x{} pixel in formato {} è arrivata con {} byte su {}</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>è stata richiesta una foto e non ne è arrivata nessuna</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>puntarla sulla proiezione, togliere il tappo dell’obiettivo e usare un’esposizione più lunga</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>un altro programma sta usando la fotocamera</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>un altro programma sta usando la fotocamera, di solito il desktop, che la monta come una chiavetta USB</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>richiedere una dimensione disponibile: v4l2-ctl --list-formats-ext le elenca</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>richiedere quella dimensione o una minore</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>richiedere la dimensione che fornisce</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>impossibile creare una cartella temporanea ({})</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>impossibile creare la cartella ({})</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>impossibile esaminare il contenuto della cartella ({})</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>impossibile aprire ({})</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>impossibile aprire la cartella ({})</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>impossibile leggere ({})</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>impossibile eliminare il file ({})</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>impossibile scrivere ({})</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>sostituire o svuotare la scheda di memoria</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>caricare o sostituire la batteria (meglio usare un alimentatore di rete) e riaccendere la fotocamera</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>controllare il cavo e l’alimentazione</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>controllare il cavo e disattivare il risparmio energetico</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>controllare il cavo, l’alimentazione e l’indirizzo; `relucent-cli devices` elenca i dispositivi presenti</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>controllare il cavo, accenderla e disattivarne lo spegnimento automatico</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>controllare che l’inquadratura della fotocamera sia stabile e l’esposizione breve, e disattivare la compensazione del movimento del proiettore</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>controllare che la cartella sia scrivibile, poi proseguire</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>controllare che la cartella sia scrivibile, poi riprovare</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>controllare che il proiettore sia acceso e mostri quell’uscita, puntare la fotocamera sulla proiezione e togliere il tappo dell’obiettivo; oppure scegliere un altro schermo</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>controllare che sia scelto lo schermo giusto e che nulla copra l’immagine, poi riprovare</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>controllare di avere il permesso di lettura o scegliere un altro nome</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>controllare il cavo e la scheda di rete della fotocamera, e che nessun altro programma la usi</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>controllare il dispositivo o concedere più tempo al comando: {}</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>controllare il disco e il suo cavo</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>controllare i permessi della cartella</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>controllare il percorso</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>controllare il percorso e i permessi di lettura</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>controllare il percorso e il disco</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>scegliere una cartella in cui è consentito scrivere o chiedere il permesso</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>scegliere un’altra calibrazione o copiarla di nuovo da dove è stata misurata</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>scegliere un’altra cartella con --log</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>scegliere {} o puntare la fotocamera su {}</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>chiuderne i menu e la riproduzione, e terminare il live view</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>chiuderne i menu, poi spegnerla e riaccenderla</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>chiudere altri programmi e riprovare</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>collegare la fotocamera con cui è iniziata la misura</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>copiarlo di nuovo o scattare di nuovo la foto; una fotocamera più recente di questa versione di LibRaw richiede file DNG</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>sviluppare i file in modo lineare, come TIFF a 16 bit, o usare un’altra fotocamera</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>ogni foto precedente al trasporto della luce è al sicuro</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>ogni foto fino al controllo precedente è al sicuro</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>liberare spazio</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>liberare spazio lì o controllare il disco, poi riprovare</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>liberare spazio lì o scegliere un altro disco, poi riprovare</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>liberare spazio lì o indicare in TMPDIR una cartella in cui è consentito scrivere</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>liberare spazio o registrare altrove</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>installare Aravis (libaravis-dev) e ricompilare, o usare un altro tipo di fotocamera</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>installare libgphoto2 e LibRaw (libgphoto2-dev, libraw-dev) e ricompilare, o usare un comando</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>installare il driver della scheda grafica o far svolgere il lavoro al processore</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>impossibile eliminarlo ({})</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>valori disponibili: {}</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>formati disponibili: {}; vengono letti Mono, Bayer e RGB non impacchettati (unpacked) da 8 a 16 bit</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>è vuoto</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>fare in modo che scriva la foto in {output}: {}</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>far scrivere al comando quella dimensione o ricominciare con la dimensione fornita dalla fotocamera</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>farla rilasciare dal desktop con `gio mount -s gphoto2` (o espellerla nel gestore dei file) e chiudere i programmi di fotografia</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>far svolgere il lavoro al processore</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>accedere a un desktop con X («Xorg» all’accesso) o riprodurre file</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>indicarne una con la sua porta: gphoto2:{} o gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>indicare quella: gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>nessuna fotocamera GenICam «{}» risponde</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>nessuna fotocamera con questo nome è collegata, ma è presente {}</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>nessuna foto è arrivata entro {} s</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>quel dispositivo video non è collegato</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>nessuno dei formati pixel della fotocamera è leggibile</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>ne mancano delle parti</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>parti della foto sono andate perse durante la trasmissione</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>collegarlo, chiudere altri programmi che lo usano e riprovare</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>premere a metà il pulsante di scatto, oppure spegnerla e riaccenderla, e disattivarne lo spegnimento automatico</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>il proiettore {} non mostra l’immagine che gli viene inviata</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>riportarlo in posizione entro mezzo pixel, poi riprovare</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>eliminarlo a mano, poi riprovare</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>eseguirlo in un terminale per scoprirne la causa: {}</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>impostarla a mano su ISO 100</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>impostarne la modalità di esposizione su temporizzata e manuale o aggiornarne il firmware</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>ripristinarne la risoluzione nelle impostazioni del desktop, poi riprovare</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>impostarle su intervalli di tempi di esposizione che si sovrappongano</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>avviare di nuovo lo show</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>riportarla com’era, tenere chiuse porte e tende, poi riprovare</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>spegnerla e riaccenderla, caricarne le impostazioni predefinite con il programma del produttore e riprovare</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>disattivarlo con il programma del produttore della fotocamera o usare un’altra fotocamera</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>disattivarlo con v4l2-ctl (--list-ctrls elenca i controlli disponibili) o usare un’altra fotocamera</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>disattivarne l’esposizione automatica e il limite di frequenza dei fotogrammi</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>disattivarne l’esposizione automatica; una fotocamera senza esposizione manuale non è utilizzabile</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>impostarne l’obiettivo sulla messa a fuoco manuale</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>impostarne l’obiettivo sulla messa a fuoco manuale, chiuderne i menu e scattare una foto a mano per vedere quale problema segnala</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>impostarne a mano la qualità d’immagine su RAW; una fotocamera senza RAW non è utilizzabile</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>disattivarne il risparmio energetico e il salvaschermo nelle impostazioni del desktop, poi riprovare</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>spegnere le lampade con dimmer e fluorescenti, disattivare il risparmio energetico del proiettore, poi riprovare</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>disattivarne la luminosità automatica e le modalità eco, lasciarlo scaldare, poi riprovare</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>disattivare la modalità retroproiezione o soffitto del proiettore, o consentire un’immagine specchiata, poi riprovare</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>spegnere e riaccendere la fotocamera o scegliere un altro dei suoi formati pixel</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>impostare la fotocamera su RAW a dimensione piena (né sRAW, né mRAW, né DNG lineare)</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>togliere ciò che si trova nella luce o nell’inquadratura, poi riprovare</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>il manifest della calibrazione è danneggiato</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>la fotocamera consente valori da {} a {}</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>la fotocamera è tornata con {}x{} pixel invece di {}x{}</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>la fotocamera sceglie da sola la sensibilità (ISO automatico)</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>la fotocamera dichiara esposizioni da {} a {} s</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>la fotocamera non fornisce file RAW</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>la fotocamera non ha messo a fuoco e non ha scattato alcuna foto ({})</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>la fotocamera è assente da {} s: {}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>la fotocamera è stata scollegata o spenta, oppure è andata in standby</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>la fotocamera ha perso il formato pixel che le era stato impostato</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>la fotocamera non ha un formato pixel {} leggibile</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>la fotocamera non ha più spazio per una foto: la scheda di memoria è piena</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>la fotocamera è presente ma non risponde, forse è in standby</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>la fotocamera resta a {} s qualunque esposizione le venga richiesta</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>la fotocamera non risponde più ({}: {})</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>la fotocamera ha rifiutato quanto richiesto ({})</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>la fotocamera rifiuta ({}: {})</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>la fotocamera non vede differenza tra bianco e nero</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>la fotocamera non vede assolutamente nulla</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>la fotocamera vede {} e non {}</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>la fotocamera non invia alcun flusso</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>la fotocamera ha inviato {} e nessun file RAW</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>la fotocamera resta occupata</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>alla fotocamera è stata richiesta una foto e non ne ha scattata nessuna</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>alla fotocamera è stata richiesta un’esposizione di {} s ma resta a {} s</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>la batteria della fotocamera sembra scarica ({} % all’ultima lettura)</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>il filtro colore della fotocamera non è un filtro Bayer</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>il tempo di esposizione della fotocamera non è impostabile</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>la ghiera dei modi della fotocamera è su {}, dove la fotocamera sceglie da sola le esposizioni</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>le fotocamere non hanno tempi di esposizione in comune</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>il dispositivo di acquisizione non fornisce immagini</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>impossibile avviare il comando ({})</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>il comando è terminato correttamente ma non ha scritto nulla, nemmeno {}</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>il comando è terminato correttamente ma ha scritto {} e non {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>il comando non è riuscito, con stato {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>il comando non è riuscito, con stato {} e il messaggio «{}»</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>il comando ha impiegato più di {} s</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>il comando ha impiegato più di {} s, con il messaggio «{}»</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>il comando è stato terminato dal segnale {}</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>il comando è stato terminato dal segnale {}, con il messaggio «{}»</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>il motore ha perso il suo dispositivo</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>la scheda grafica non è utilizzabile</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>la scheda grafica non ha più {} MB di memoria liberi</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>la scheda grafica raggiunge {} MB alla volta mentre servono {} MB</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>la scheda grafica non è più disponibile</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>la luce sfarfalla: le foto di uno stesso pattern differiscono del {} %</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>la luce della sala è aumentata</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>la luce della sala è diminuita</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>l’immagine dal vivo di uno schermo richiede un server X e nessuno risponde</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>impossibile scrivere il log ({})</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>la foto ha {}x{} pixel in formato {} mentre erano concordati {}x{} in formato {}</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>la foto ha {}x{} pixel mentre ne erano annunciati {}x{}</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>la foto è più grande di quanto annunciato dalla fotocamera</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>la foto non è stata completata</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>impossibile scrivere l’immagine</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>l’immagine del proiettore {} appare specchiata</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>il proiettore non mostra nulla, ma la luce della sala è ancora visibile</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>la luce del proiettore è cambiata del {} % nel giro di poche foto</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>lo schermo del proiettore ora ha {}x{} pixel e ne sono stati calibrati {}x{}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>lo schermo del proiettore è in standby e non si riattiva</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>lo schermo del proiettore perde ripetutamente l’immagine</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>impossibile leggere il file RAW ({})</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>il file RAW non contiene i valori originali del sensore</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>impossibile scrivere la registrazione ({})</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>impossibile scrivere il rapporto</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>impossibile attivare il servizio ({})</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>impossibile riaprire il dispositivo video</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>impossibile aprire il dispositivo video: forse un altro programma lo sta usando</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>il dispositivo video è stato scollegato</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>il dispositivo video non ha un’esposizione impostabile</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>il dispositivo video non invia immagini</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>impossibile disattivare l’esposizione automatica del dispositivo video</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>impossibile disattivare la messa a fuoco automatica del dispositivo video</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>impossibile disattivare il bilanciamento automatico del bianco del dispositivo video</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>OpenGL 4.3 con compute shader non è disponibile</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>non c’è una scheda grafica con OpenGL 4.3 e compute shader</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>manca libEGL o libOpenGL, che aprono le schede grafiche senza schermo</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>questa build di Relucent non supporta le fotocamere reflex (DSLR) e mirrorless</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>questa build di Relucent non supporta le fotocamere GenICam</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>questa non è una calibrazione di Relucent</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>ruotarla su M</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>ruotarne la ghiera dei modi su M; una fotocamera che ne è priva non è utilizzabile</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>scoprire l’obiettivo, controllare che il proiettore sia acceso, poi riprovare</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>usare una fotocamera con esposizione manuale</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>riattivare il proiettore, disattivarne il risparmio energetico e quello dello schermo, poi riprovare</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>è richiesto ISO {} e la fotocamera non lo ha</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>il {} % dell’inquadratura della fotocamera {} appare diverso da prima</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} tentativi di scattare una foto non sono riusciti: {}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{} riprendendo la calibrazione; {}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>sono collegate {} fotocamere di questo modello</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>impossibile disattivare {}</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}, poi proseguire: ogni foto scattata finora è conservata</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>sono richiesti {}x{} pixel e la fotocamera ne fornisce {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>sono richiesti {}x{} pixel e la fotocamera ne ha {}x{}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>sono richiesti {}x{} pixel e il dispositivo video ne fornisce {}x{}</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}: {}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}; {}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{} ({})</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}.</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>dichiara esposizioni fino a {} s ma resta a {} s</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>fornisce 8 bit: le zone scure restano incerte</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>non dice quando le immagini sono state acquisite: alcune vengono scartate prima di ogni fotografia</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>mette a fuoco da sola: passare l’obiettivo alla messa a fuoco manuale</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>non ha scatto via software: ogni fotografia può attendere un’esposizione in più</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>ha il {} % di batteria: una misura richiede la batteria piena o un alimentatore</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>può far scattare il flash: chiuderlo</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>può acquisire un’immagine nera dopo le esposizioni lunghe, raddoppiandone il tempo</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>può scattare più fotografie insieme: passare allo scatto singolo</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>non vede i colori: si può compensare la luminosità, non i colori</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>si spegne da sola dopo un po’: disattivarlo</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>dispositivo video</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>ha ricevuto la richiesta ISO {} e resta a ISO {}</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>ha ricevuto la richiesta di un guadagno di {} e resta a {}</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>Reflex e mirrorless: a questo programma manca libgphoto2 o LibRaw; installare libgphoto2-dev e libraw-dev e ricompilarlo</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>Telecamere GigE Vision e USB3 Vision: a questo programma manca Aravis; installare libaravis-dev e ricompilarlo</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>chiudere il diaframma o aggiungere un filtro grigio se sono importanti</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>chiudere il diaframma, ridurre il guadagno o aggiungere un filtro grigio</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>svilupparle linearmente, come TIFF o EXR, per misurare con più esattezza</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>aprire il diaframma o aumentare il guadagno</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>pattern e foto sono grigi: i colori non si distinguono e i blocchi di T sono neutri</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>accettato prima del pattern {}: {}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>alcune alte luci sono sovraesposte anche a {} s, l’esposizione più breve, e non verranno compensate</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>disattivare il risparmio energetico, la gestione del colore e le modalità immagine dinamiche</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>disattivare l’iride dinamica, il contrasto dinamico e ogni modalità immagine che si adatta al contenuto</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>disattivare le modalità dinamiche della lampada del proiettore, spegnere le altre lampade vicine e scegliere tempi di esposizione multipli del periodo di rete</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>disattivare il segmento bianco (spesso chiamato «Brilliant Color» o modalità luminosa) e scegliere una modalità immagine per video o sRGB</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>se n’è tenuto conto, ma la prossima volta lasciare prima scaldare il proiettore</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>la fotocamera è assunta lineare, e una foto conta come un secondo di esposizione</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>la luce è cambiata del {} % tra la prima e l’ultima foto</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>la luce cambia del {} % da una foto alla successiva</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>i pattern sono grigi: il mescolarsi dei colori non è stato misurato e i blocchi di T sono diagonali</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>i pattern contengono solo bianco e nero: la risposta del proiettore è assunta come potenza di 2,2</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>le foto sono grigie: il contributo di ogni colore del proiettore è noto solo in luminosità</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>le foto sono JPEG: sono state linearizzate con la curva sRGB, che le fotocamere seguono solo approssimativamente</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>le foto sono state abbinate ai pattern nell’ordine di scatto, da {} a {}, che non è quello dei nomi</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>la proiezione è sovraesposta anche a {} s, l’esposizione più breve</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>la proiezione raggiunge solo il {0} % della gamma della fotocamera a {1} s, l’esposizione più lunga</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>il proiettore illumina il {} % dei pixel della fotocamera</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>questi pixel sono esclusi dalla compensazione</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>due metà di un’immagine sono più luminose del {} % rispetto all’insieme</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>due metà di un’immagine sono più scure del {} % rispetto all’insieme</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>il bianco è più luminoso del {} % rispetto a rosso, verde e blu insieme</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>il bianco è più scuro del {} % rispetto a rosso, verde e blu insieme</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>il {} % dei pixel della fotocamera è sovraesposto anche con l’esposizione più breve: chiudere il diaframma della fotocamera o consentire esposizioni più brevi, poi misurare di nuovo</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>il {} % dei pixel della fotocamera vede qualcosa di diverso dal previsto nei pattern di prova: controllare che nulla si sia mosso o abbia sfarfallato</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>una fotocamera di {}x{} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>un proiettore di {}x{} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>nel comando della fotocamera manca {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>il comando della fotocamera è vuoto</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>nel comando del proiettore manca {}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>il comando del proiettore è vuoto</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>l’esposizione più breve deve essere maggiore di zero e non superare la più lunga</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1301,263 +185,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>Algoritmo 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>Composizione del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>Calibrazione</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>Controllo dell’additività dei colori: {}</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>Raggruppamento del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Cluster di dimensione limitata</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>Confronto delle inverse dei cluster: {}</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>Confronto dei metodi</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>Confronto dei metodi: {}</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>Compensazione</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>Decodifica</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>Stima della risposta e dei colori</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>Stima del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>Valutazione</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>Ricerca della sfocatura</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>Ricerca dell’esposizione</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>Modello della diffusione della luce</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>Formazione delle zone</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Limitazione dei cluster</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>Inversione dei cluster</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Inversione del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>Inversione: {}</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>Unione dei cluster</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>Linearizzazione</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Ricerca delle ombre</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>Ricerca di ciò che non è correggibile</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>Misura delle curve di luminosità: {}</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>Misura della fotocamera</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>Valutazione della luce</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Ricerca dell’immagine del proiettore</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>Misura della latenza</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Misura del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>Misura: {}</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>Foto dei pattern di test</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>Foto delle proiezioni</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>Previsione dei pattern di controllo</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>Preparazione dei benchmark</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>Preparazione dei dispositivi</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>Preparazione del motore</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>Preparazione del luogo</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>Lettura della calibrazione</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>Lettura dei pattern</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>Lettura delle foto</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>Lettura delle immagini</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>Lettura: {}</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>Adeguamento all’immagine a piena luce</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>Separazione di luce diretta e indiretta</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>Aumento nitidezza</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>Soluzione</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>Misura dei tempi del motore</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>Finestre</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>Scrittura</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>Scrittura per esteso del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>Scrittura dei risultati</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>nero e piena luce</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>trasporto della luce</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>proiettore {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>pattern di test</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>proiettore</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>tracciamento del luogo simulato</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>livello {} di {}: %n pattern</numerusform>
-            <numerusform>livello {} di {}: %n pattern</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>nuova misura di %n pixel segnalato</numerusform>
-            <numerusform>nuova misura di %n pixel segnalati</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1605,6 +232,1743 @@
     <message>
         <source>A venue is being measured</source>
         <translation>Misura di un luogo in corso</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>accettato prima del pattern {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>la luce è cambiata del {} % tra la prima e l’ultima foto; se n’è tenuto conto, ma la prossima volta lasciare prima scaldare il proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>il {} % dei pixel della fotocamera è sovraesposto anche con l’esposizione più breve: chiudere il diaframma della fotocamera o consentire esposizioni più brevi, poi misurare di nuovo</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>il {} % dei pixel della fotocamera vede qualcosa di diverso dal previsto nei pattern di prova: controllare che nulla si sia mosso o abbia sfarfallato; questi pixel sono esclusi dalla compensazione</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{} riprendendo la calibrazione; {}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>la fotocamera non vede assolutamente nulla</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>controllare che sia scelto lo schermo giusto e che nulla copra l’immagine, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>togliere ciò che si trova nella luce o nell’inquadratura, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>la luce del proiettore è cambiata del {} % nel giro di poche foto</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>la luce sfarfalla: le foto di uno stesso pattern differiscono del {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>una fotocamera o un proiettore si è spostato: l’inquadratura della fotocamera {} è spostata di {}, {} pixel e ruotata di {} gradi</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>l’immagine del proiettore {} appare specchiata</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>il proiettore non mostra nulla, ma la luce della sala è ancora visibile</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>riportarlo in posizione entro mezzo pixel, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>riportarla com’era, tenere chiuse porte e tende, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>la luce della sala è aumentata</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>la luce della sala è diminuita</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>ogni foto fino al controllo precedente è al sicuro</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>ogni foto precedente al trasporto della luce è al sicuro</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>spegnere le lampade con dimmer e fluorescenti, disattivare il risparmio energetico del proiettore, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>disattivarne la luminosità automatica e le modalità eco, lasciarlo scaldare, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>disattivare la modalità retroproiezione o soffitto del proiettore, o consentire un’immagine specchiata, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>scoprire l’obiettivo, controllare che il proiettore sia acceso, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>il {} % dell’inquadratura della fotocamera {} appare diverso da prima</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>riattivare il proiettore, disattivarne il risparmio energetico e quello dello schermo, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>il proiettore {} non mostra l’immagine che gli viene inviata</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>il manifest della calibrazione è danneggiato</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>impossibile esaminare il contenuto della cartella ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>impossibile aprire la cartella ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>controllare che la cartella sia scrivibile, poi proseguire</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>controllare che la cartella sia scrivibile, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>controllare il percorso e i permessi di lettura</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>controllare di avere il permesso di lettura o scegliere un altro nome</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>scegliere un’altra calibrazione o copiarla di nuovo da dove è stata misurata</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un file della calibrazione ({}) ha {} byte invece di {}</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>manca un file della calibrazione ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>liberare spazio lì o controllare il disco, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>questa non è una calibrazione di Relucent</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>impossibile spostare una foto ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>impossibile eliminare una foto ({})</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>I colori arrivano uno dopo l’altro, come da una ruota colore ({} % in {} ms): esporre fotogrammi interi, multipli di {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>Il proiettore mescola i grigi nel tempo, pixel per pixel ({} %): esporre più fotogrammi interi e disattivarne la levigatura e le modalità 3D.</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>La lampada sfarfalla entro un fotogramma, di {} % in {} ms: esporre fotogrammi interi, multipli di {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>La luce è uniforme: né sfarfallio, né ruota colore, né bande, né dithering.</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>La luce cambia di {} % tra pose di fotogrammi interi: lasciare scaldare la lampada, disattivare la luminosità dinamica e spegnere le lampade della sala.</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>La fotocamera non può esporre per una parte di fotogramma, o allora vede troppo poco: lo sfarfallio entro un fotogramma non è rilevabile.</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>La fotocamera vede {} e non {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>Un’immagine appare {} fotogramma dopo l’invio: si attendono {} ms.</numerusform>
+            <numerusform>Un’immagine appare {} fotogrammi dopo l’invio: si attendono {} ms.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>Le immagini arrivano in ritardo di {} foto: la latenza va misurata e attesa.</numerusform>
+            <numerusform>Le immagini arrivano in ritardo di {} foto: la latenza va misurata e attesa.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>La fotocamera espone le righe una dopo l’altra (rolling shutter): le pose brevi hanno bande di {} %. Esporre fotogrammi interi, multipli di {} ms.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>L’immagine appare specchiata. Se non è voluto (retroproiezione, uno specchio), disattivarlo nel menu del proiettore.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>La fotocamera non vede {}.</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>La fotocamera vede {}: {} % dell’inquadratura segue il pattern di prova.</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>Il bianco cambia di {} % da una foto all’altra: esporre fotogrammi interi del proiettore, multipli di {} ms, e disattivarne la luminosità dinamica.</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>il dispositivo di acquisizione non fornisce immagini</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>l’immagine dal vivo di uno schermo richiede un server X e nessuno risponde</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>accedere a un desktop con X («Xorg» all’accesso) o riprodurre file</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>collegarlo, chiudere altri programmi che lo usano e riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>puntarla sulla proiezione, togliere il tappo dell’obiettivo e usare un’esposizione più lunga</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>un altro programma sta usando la fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>richiedere quella dimensione o una minore</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>richiedere la dimensione che fornisce</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>richiedere una dimensione disponibile: v4l2-ctl --list-formats-ext le elenca</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>ha ricevuto la richiesta di un guadagno di {} e resta a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>ha ricevuto la richiesta ISO {} e resta a ISO {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} tentativi di scattare una foto non sono riusciti: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>impossibile disattivare l’esposizione automatica del dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>impossibile disattivare la messa a fuoco automatica del dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>la fotocamera sceglie da sola la sensibilità (ISO automatico)</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>impossibile disattivare il bilanciamento automatico del bianco del dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>la batteria della fotocamera sembra scarica ({} % all’ultima lettura)</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>ha il {} % di batteria: una misura richiede la batteria piena o un alimentatore</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>questa build di Relucent non supporta le fotocamere reflex (DSLR) e mirrorless</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>questa build di Relucent non supporta le fotocamere GenICam</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>alla fotocamera è stata richiesta un’esposizione di {} s ma resta a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>alla fotocamera è stata richiesta una foto e non ne ha scattata nessuna</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>la fotocamera è presente ma non risponde, forse è in standby</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la fotocamera è assente da {} s: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>la fotocamera è tornata con {} pixel invece di {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>la fotocamera consente valori da {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la fotocamera dichiara esposizioni da {} a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>il filtro colore della fotocamera non è un filtro Bayer</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>il comando della fotocamera è vuoto</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>nel comando della fotocamera manca {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la fotocamera ha perso il formato pixel che le era stato impostato</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>la fotocamera non ha messo a fuoco e non ha scattato alcuna foto ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>la fotocamera è stata scollegata o spenta, oppure è andata in standby</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>la fotocamera resta a {} s qualunque esposizione le venga richiesta</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>la fotocamera non risponde più ({}: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la fotocamera non ha un formato pixel {} leggibile</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la fotocamera ha rifiutato quanto richiesto ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>la fotocamera rifiuta ({}: {})</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la fotocamera non vede differenza tra bianco e nero</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la fotocamera vede {} e non {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>la fotocamera non invia alcun flusso</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>la fotocamera resta occupata</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>sono collegate {} fotocamere di questo modello</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>impossibile creare una cartella temporanea ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>impossibile eliminare il file ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>impossibile disattivare {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>la fotocamera non ha più spazio per una foto: la scheda di memoria è piena</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>sostituire o svuotare la scheda di memoria</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>caricare o sostituire la batteria (meglio usare un alimentatore di rete) e riaccendere la fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>controllare il cavo e l’alimentazione</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>controllare il cavo, l’alimentazione e l’indirizzo; `relucent-cli devices` elenca i dispositivi presenti</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>controllare il cavo e disattivare il risparmio energetico</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>controllare il cavo, accenderla e disattivarne lo spegnimento automatico</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>controllare il cavo e la scheda di rete della fotocamera, e che nessun altro programma la usi</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>controllare che l’inquadratura della fotocamera sia stabile e l’esposizione breve, e disattivare la compensazione del movimento del proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>controllare il dispositivo o concedere più tempo al comando: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>controllare che il proiettore sia acceso e mostri quell’uscita, puntare la fotocamera sulla proiezione e togliere il tappo dell’obiettivo; oppure scegliere un altro schermo</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>scegliere {} o puntare la fotocamera su {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>dichiara esposizioni fino a {} s ma resta a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>chiuderne i menu e la riproduzione, e terminare il live view</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>chiuderne i menu, poi spegnerla e riaccenderla</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>chiudere altri programmi e riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>impossibile avviare il comando ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>il comando non è riuscito, con stato {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>il comando non è riuscito, con stato {} e il messaggio «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>il comando è stato terminato dal segnale {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>il comando è stato terminato dal segnale {}, con il messaggio «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>il comando ha impiegato più di {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>il comando ha impiegato più di {} s, con il messaggio «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>il comando è terminato correttamente ma non ha scritto nulla, nemmeno {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>il comando è terminato correttamente ma ha scritto {} e non {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>collegare la fotocamera con cui è iniziata la misura</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>copiarlo di nuovo o scattare di nuovo la foto; una fotocamera più recente di questa versione di LibRaw richiede file DNG</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>fornisce 8 bit: le zone scure restano incerte</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>sviluppare i file in modo lineare, come TIFF a 16 bit, o usare un’altra fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>il tempo di esposizione della fotocamera non è impostabile</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>mette a fuoco da sola: passare l’obiettivo alla messa a fuoco manuale</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>liberare spazio o registrare altrove</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>liberare spazio lì o indicare in TMPDIR una cartella in cui è consentito scrivere</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>è richiesto un guadagno di {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>Telecamere GigE Vision e USB3 Vision: a questo programma manca Aravis; installare libaravis-dev e ricompilarlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>Reflex e mirrorless: a questo programma manca libgphoto2 o LibRaw; installare libgphoto2-dev e libraw-dev e ricompilarlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>un altro programma sta usando la fotocamera, di solito il desktop, che la monta come una chiavetta USB</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>una fotocamera di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>un proiettore di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>installare Aravis (libaravis-dev) e ricompilare, o usare un altro tipo di fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>installare libgphoto2 e LibRaw (libgphoto2-dev, libraw-dev) e ricompilare, o usare un comando</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>è richiesto ISO {} e la fotocamera non lo ha</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>valori disponibili: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>far scrivere al comando quella dimensione o ricominciare con la dimensione fornita dalla fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>farla rilasciare dal desktop con `gio mount -s gphoto2` (o espellerla nel gestore dei file) e chiudere i programmi di fotografia</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>fare in modo che scriva la foto in {output}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>può far scattare il flash: chiuderlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>può acquisire un’immagine nera dopo le esposizioni lunghe, raddoppiandone il tempo</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>può scattare più fotografie insieme: passare allo scatto singolo</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>la ghiera dei modi della fotocamera è su {}, dove la fotocamera sceglie da sola le esposizioni</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indicare quella: gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>indicarne una con la sua porta: gphoto2:{} o gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>una nuova immagine non è completa dopo {} fotogrammi</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>nessuna fotocamera con questo nome è collegata, ma è presente {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>nessuna fotocamera GenICam «{}» risponde</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>nessuna foto è arrivata entro {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>la fotocamera ha inviato {} e nessun file RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>la fotocamera non fornisce file RAW</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>non ha scatto via software: ogni fotografia può attendere un’esposizione in più</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>quel dispositivo video non è collegato</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>nessuno dei formati pixel della fotocamera è leggibile</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>non dice quando le immagini sono state acquisite: alcune vengono scartate prima di ogni fotografia</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>parti della foto sono andate perse durante la trasmissione</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>è stata richiesta una foto e non ne è arrivata nessuna</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>la foto è più grande di quanto annunciato dalla fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>la foto non è stata completata</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>la foto ha {} pixel in formato {} mentre erano concordati {} in formato {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>la foto ha {} pixel mentre ne erano annunciati {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>una foto di {} pixel in formato {} è arrivata con {} byte su {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>sono richiesti {} pixel e la fotocamera ne ha {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>sono richiesti {} pixel e la fotocamera ne fornisce {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>sono richiesti {} pixel e il dispositivo video ne fornisce {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>premere a metà il pulsante di scatto, oppure spegnerla e riaccenderla, e disattivarne lo spegnimento automatico</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>il comando del proiettore è vuoto</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>nel comando del proiettore manca {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>lo schermo del proiettore perde ripetutamente l’immagine</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>impossibile leggere il file RAW ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>è vuoto</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>ne mancano delle parti</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>il file RAW non contiene i valori originali del sensore</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>impossibile scrivere la registrazione ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>eliminarlo a mano, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>eseguirlo in un terminale per scoprirne la causa: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>non vede i colori: si può compensare la luminosità, non i colori</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>impostarne la modalità di esposizione su temporizzata e manuale o aggiornarne il firmware</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>impostarla a mano su ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>l’esposizione più breve deve essere maggiore di zero e non superare la più lunga</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>disattivarne l’esposizione automatica e il limite di frequenza dei fotogrammi</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>disattivarne l’esposizione automatica; una fotocamera senza esposizione manuale non è utilizzabile</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>impostare la fotocamera su RAW a dimensione piena (né sRAW, né mRAW, né DNG lineare)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>spegnere e riaccendere la fotocamera o scegliere un altro dei suoi formati pixel</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>impostarne l’obiettivo sulla messa a fuoco manuale</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>impostarne l’obiettivo sulla messa a fuoco manuale, chiuderne i menu e scattare una foto a mano per vedere quale problema segnala</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>disattivarlo con il programma del produttore della fotocamera o usare un’altra fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>spegnerla e riaccenderla, caricarne le impostazioni predefinite con il programma del produttore e riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>disattivarlo con v4l2-ctl (--list-ctrls elenca i controlli disponibili) o usare un’altra fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>impostarne a mano la qualità d’immagine su RAW; una fotocamera senza RAW non è utilizzabile</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>si spegne da sola dopo un po’: disattivarlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}, poi proseguire: ogni foto scattata finora è conservata</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>ruotarla su M</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>ruotarne la ghiera dei modi su M; una fotocamera che ne è priva non è utilizzabile</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>formati disponibili: {}; vengono letti Mono, Bayer e RGB non impacchettati (unpacked) da 8 a 16 bit</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>usare una fotocamera con esposizione manuale</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>il dispositivo video è stato scollegato</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>impossibile riaprire il dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>impossibile aprire il dispositivo video: forse un altro programma lo sta usando</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>il dispositivo video non ha un’esposizione impostabile</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>il dispositivo video non invia immagini</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>impossibile creare la cartella ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>impossibile aprire ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>impossibile leggere ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>impossibile scrivere ({})</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>controllare il disco e il suo cavo</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>controllare il percorso</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>controllare il percorso e il disco</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>scegliere una cartella in cui è consentito scrivere o chiedere il permesso</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>liberare spazio lì o scegliere un altro disco, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>la scheda grafica non è utilizzabile</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>la scheda grafica non è più disponibile</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>la scheda grafica non ha più {} MB di memoria liberi</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>la scheda grafica raggiunge {} MB alla volta mentre servono {} MB</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>installare il driver della scheda grafica o far svolgere il lavoro al processore</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>far svolgere il lavoro al processore</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>non c’è una scheda grafica con OpenGL 4.3 e compute shader</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>manca libEGL o libOpenGL, che aprono le schede grafiche senza schermo</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>OpenGL 4.3 con compute shader non è disponibile</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>la fotocamera è assunta lineare, e una foto conta come un secondo di esposizione</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>il proiettore illumina il {} % dei pixel della fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>le foto sono state abbinate ai pattern nell’ordine di scatto, da {} a {}, che non è quello dei nomi</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>pattern e foto sono grigi: i colori non si distinguono e i blocchi di T sono neutri</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>i pattern contengono solo bianco e nero: la risposta del proiettore è assunta come potenza di 2,2</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>i pattern sono grigi: il mescolarsi dei colori non è stato misurato e i blocchi di T sono diagonali</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>le foto sono JPEG: sono state linearizzate con la curva sRGB, che le fotocamere seguono solo approssimativamente; svilupparle linearmente, come TIFF o EXR, per misurare con più esattezza</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>le foto sono grigie: il contributo di ogni colore del proiettore è noto solo in luminosità</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>le fotocamere non hanno tempi di esposizione in comune</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}: due metà di un’immagine sono più luminose del {} % rispetto all’insieme; disattivare l’iride dinamica, il contrasto dinamico e ogni modalità immagine che si adatta al contenuto</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}: due metà di un’immagine sono più scure del {} % rispetto all’insieme; disattivare l’iride dinamica, il contrasto dinamico e ogni modalità immagine che si adatta al contenuto</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>{}: alcune alte luci sono sovraesposte anche a {} s, l’esposizione più breve, e non verranno compensate; chiudere il diaframma o aggiungere un filtro grigio se sono importanti</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>{}: la luce cambia del {} % da una foto alla successiva; disattivare le modalità dinamiche della lampada del proiettore, spegnere le altre lampade vicine e scegliere tempi di esposizione multipli del periodo di rete</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>{}: la proiezione è sovraesposta anche a {} s, l’esposizione più breve; chiudere il diaframma, ridurre il guadagno o aggiungere un filtro grigio</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>impostarle su intervalli di tempi di esposizione che si sovrappongano</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>{}: la proiezione raggiunge solo il {} % della gamma della fotocamera a {} s, l’esposizione più lunga; aprire il diaframma o aumentare il guadagno</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>{}: il bianco è più luminoso del {} % rispetto a rosso, verde e blu insieme; disattivare il segmento bianco (spesso chiamato «Brilliant Color» o modalità luminosa) e scegliere una modalità immagine per video o sRGB</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>{}: il bianco è più scuro del {} % rispetto a rosso, verde e blu insieme; disattivare il risparmio energetico, la gestione del colore e le modalità immagine dinamiche</translation>
     </message>
 </context>
 <context>
@@ -1725,18 +2089,6 @@
     <message>
         <source>Colours</source>
         <translation>Colori</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Apertura dei dispositivi</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>Lettura della risposta</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>Misura del trasporto della luce</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2279,18 +2631,6 @@
     <message>
         <source>Focus area</source>
         <translation>Area di messa a fuoco</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>Controllo di proiettore e fotocamera</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>Ricerca delle esposizioni</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>Osservazione con la fotocamera</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2860,14 +3200,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>Nulla è stato modificato.</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Apertura dei dispositivi</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>Misura della risposta</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3530,10 +3862,6 @@ proiettore %2</translation>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>Preparazione del motore</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>Aprire di nuovo l’uscita.</translation>
     </message>
@@ -3544,25 +3872,6 @@ proiettore %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, mostrato senza OpenGL</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>Apertura dei dispositivi</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>Scatto della foto di verifica</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>Controllo della deriva</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>Scrittura del rapporto</translation>
     </message>
 </context>
 <context>
@@ -3685,14 +3994,6 @@ proiettore %2</translation>
     <message>
         <source>The picture of before stays.</source>
         <translation>Resta l’immagine precedente.</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>Lettura del trasporto della luce</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>Inversione del trasporto della luce</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4722,6 +5023,644 @@ proiettore %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Per questa vista, installare il driver della scheda grafica e riavviare Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>liberare spazio</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>impossibile scrivere il rapporto</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}.</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{} ({})</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>impossibile eliminarlo ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>controllare i permessi della cartella</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>scegliere un’altra cartella con --log</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>il motore ha perso il suo dispositivo</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>impossibile scrivere il log ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>lo schermo del proiettore è in standby e non si riattiva</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>lo schermo del proiettore ora ha {} pixel e ne sono stati calibrati {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>impossibile attivare il servizio ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>ripristinarne la risoluzione nelle impostazioni del desktop, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>avviare di nuovo lo show</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>disattivarne il risparmio energetico e il salvaschermo nelle impostazioni del desktop, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>Algoritmo 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>Composizione del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>nero e piena luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>Calibrazione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>Controllo dell’additività dei colori: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Controllo della deriva</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>Controllo di proiettore e fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>Raggruppamento del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Cluster di dimensione limitata</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>Confronto delle inverse dei cluster: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>Confronto dei metodi</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>Confronto dei metodi: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>Compensazione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>Decodifica</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>Stima del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>Stima della risposta e dei colori</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>Valutazione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>Ricerca della sfocatura</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>Ricerca dell’esposizione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>Ricerca delle esposizioni</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>Ricerca di ciò che non è correggibile</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>Modello della diffusione della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>Formazione delle zone</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitazione dei cluster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>Inversione dei cluster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>Inversione del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>Inversione: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>Unione dei cluster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>Valutazione della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>livello {} di {}: {} pattern</numerusform>
+            <numerusform>livello {} di {}: {} pattern</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>Linearizzazione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Ricerca dell’immagine del proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Ricerca delle ombre</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Osservazione con la fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>Misura delle curve di luminosità: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>Misura della fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>nuova misura di {} pixel segnalato</numerusform>
+            <numerusform>nuova misura di {} pixel segnalati</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>Misura della latenza</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>Misura del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>Misura della risposta</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>Misura: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Apertura dei dispositivi</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>Foto delle proiezioni</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>Foto dei pattern di test</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>Previsione dei pattern di controllo</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>Preparazione dei benchmark</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>Preparazione dei dispositivi</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>Preparazione del motore</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>Preparazione dell’anteprima</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>Preparazione del luogo</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>Lettura della calibrazione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>Lettura del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>Lettura dei pattern</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>Lettura delle foto</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>Lettura delle immagini</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>Lettura della risposta</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>Lettura: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>Adeguamento all’immagine a piena luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>Separazione di luce diretta e indiretta</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>Aumento nitidezza</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>Soluzione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>Scatto della foto di verifica</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>pattern di test</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>Misura dei tempi del motore</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>tracciamento del luogo simulato</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>Finestre</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>Scrittura</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>Scrittura per esteso del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>Scrittura del rapporto</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>Scrittura dei risultati</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>impossibile scrivere l’immagine</translation>
     </message>
 </context>
 </TS>

@@ -13,1120 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>カメラに %1 が見えています：視野の %2 がテストパターンに追従しています。</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>画像が反転しています。意図したもの（背面投写、鏡）でなければ、プロジェクターのメニューで反転をオフにしてください。</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>画像が写真 %n 枚分遅れて届きます：遅延を測定して待つ必要があります。</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>カメラに見えているのは %2 ではなく %1 です。</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>カメラに %1 が見えていません。</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>画像は送信から %n フレーム後に表示されます：%1 待ちます。</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>白が写真ごとに %1 変化します：プロジェクターの整数フレーム（%2 の倍数）で露光し、動的輝度をオフにしてください。</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>整数フレームの露光の間に光が %1 変化します：ランプを暖機し、動的輝度と室内の照明をオフにしてください。</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>カメラは 1 フレーム未満の露光ができないか、その場合は暗すぎます：フレーム内のちらつきは判定できません。</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>ランプがフレーム内でちらつきます（%2 で %1）：整数フレーム（%3 の倍数）で露光してください。</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>カラーホイールのように色が順に現れます（%2 で %1）：整数フレーム（%3 の倍数）で露光してください。</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>カメラは行を順に露光します（ローリングシャッター）：短い露光には %1 の縞が出ます。整数フレーム（%2 の倍数）で露光してください。</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>プロジェクターは画素ごとに灰色を時間的に混ぜています（%1）：複数の整数フレームで露光し、スムージングと 3D モードをオフにしてください。</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>光は均一です：ちらつき、カラーホイール、縞、ディザリングは見られません。</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>カメラかプロジェクターが動きました：カメラ {} の視野が {}、{} 画素ずれ、{} 度回転しています</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>校正データの {0} のファイルが {2} バイトではなく {1} バイトです</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>校正データの {} のファイルがありません</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>ゲイン {} が指定されています</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>新しい画像が {} フレーム後もまだ完全に表示されません</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>写真を移動できません（{}）</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>写真を削除できません（{}）</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>{0} × {1} 画素（{2}）の写真が、{4} バイト中 {3} バイトしか届きませんでした</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>撮影を要求しましたが、写真が届きませんでした</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>カメラを投影に向け、レンズキャップを外し、露出を長くしてください</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>ほかのプログラムがカメラを使用しています</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>ほかのプログラムがカメラを使用しています。多くの場合、デスクトップがカメラを USB メモリのようにマウントしています</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>対応しているサイズを指定してください：v4l2-ctl --list-formats-ext で一覧できます</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>それ以下のサイズを指定してください</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>カメラが出力するサイズを指定してください</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>一時フォルダーを作成できません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>フォルダーを作成できません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>フォルダーの内容を確認できません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>開けません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>フォルダーを開けません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>読み込めません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>ファイルを削除できません（{}）</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>書き込めません（{}）</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>メモリカードを交換するか、空にしてください</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>バッテリーを充電するか交換し（AC アダプターの使用を推奨）、カメラの電源を入れ直してください</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>ケーブルと電源を確認してください</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>ケーブルを確認し、省電力機能をオフにしてください</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>ケーブル、電源、アドレスを確認してください。`relucent-cli devices` で接続中の機器を一覧できます</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>ケーブルを確認し、カメラの電源を入れ、自動電源オフを無効にしてください</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>カメラの視野が動いていないことと露出が短いことを確認し、プロジェクターの動き補間をオフにしてください</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>フォルダーに書き込めることを確認してから、続行してください</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>フォルダーに書き込めることを確認してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>プロジェクターの電源が入り、その出力を表示していることを確認し、カメラをそこに向けてレンズキャップを外すか、別の画面を選んでください</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>正しい画面が選ばれ、画像を隠すものがないことを確認してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>読み取り権限があることを確認するか、別の名前にしてください</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>カメラのケーブルとネットワークカードを確認し、ほかのプログラムがカメラを使っていないことを確認してください</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>機器を確認するか、コマンドの制限時間を延ばしてください：{}</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>ディスクとそのケーブルを確認してください</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>フォルダーのアクセス権を確認してください</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>パスを確認してください</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>パスと読み取り権限を確認してください</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>パスとディスクを確認してください</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>書き込めるフォルダーを選ぶか、書き込み権限を取得してください</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>書き込めて空き容量のあるフォルダーを選んでください</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>別の校正データを選ぶか、測定した場所からコピーし直してください</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>--log で別のフォルダーを指定してください</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>{} を選ぶか、カメラを {} に向けてください</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>カメラのメニューと再生画面を閉じ、ライブビューを終了してください</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>カメラのメニューを閉じ、電源を入れ直してください</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>ほかのプログラムを終了して、再試行してください</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>測定を始めたときのカメラを接続してください</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>コピーし直すか、撮影し直してください。カメラがこの LibRaw より新しい場合は DNG ファイルが必要です</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>ファイルを線形の 16 ビット TIFF に現像するか、別のカメラを使ってください</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>光輸送測定より前の写真はすべて無事です</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>前回の確認までの写真はすべて無事です</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>空き容量を増やしてください</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>保存先の空き容量を増やすかディスクを確認してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>保存先の空き容量を増やすか別のディスクを選んでから、再試行してください</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>そこの空き容量を増やすか、TMPDIR に書き込めるフォルダーを指定してください</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>空き容量を増やすか、別の場所に記録してください</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>Aravis（libaravis-dev）をインストールしてビルドし直すか、別の種類のカメラを使ってください</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>libgphoto2 と LibRaw（libgphoto2-dev、libraw-dev）をインストールしてビルドし直すか、コマンドを使ってください</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>グラフィックカードのドライバーをインストールするか、CPU で処理してください</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>削除できません（{}）</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>選べる値は {} です</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>カメラの形式は {} です。読み込めるのは 8～16 ビットの非パック形式の Mono、Bayer、RGB です</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>ファイルが空です</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>コマンドが写真を {output} に書き込むようにしてください：{}</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>コマンドがそのサイズで書き込むようにするか、カメラが出力するサイズで最初からやり直してください</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>`gio mount -s gphoto2` でデスクトップのマウントを解除し（またはファイルマネージャーで取り出し）、写真用のプログラムを終了してください</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>CPU で処理してください</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>X のデスクトップにログインするか（ログイン画面で「Xorg」を選択）、ファイルを再生してください</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>どちらかをポートで指定してください：gphoto2:{} または gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>そのカメラを指定してください：gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>GenICam カメラ「{}」が応答しません</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>この名前のカメラは接続されていません。接続されているのは {} です</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>{} 秒以内に写真が届きませんでした</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>そのビデオデバイスは接続されていません</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>カメラの画素形式はどれも読み込めません</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>ファイルの一部が欠けています</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>写真の一部が転送中に失われました</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>接続し、それを使用しているほかのプログラムを終了して、再試行してください</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>シャッターボタンを半押しするか電源を入れ直し、自動電源オフを無効にしてください</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>プロジェクター {} が、送られた画像を表示していません</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>ずれが半画素以内になるように元の位置に戻してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>手動で削除してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>ターミナルで実行して原因を調べてください：{}</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>カメラを手動で ISO 100 に設定してください</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>露出モードを Timed（手動）に設定するか、ファームウェアを更新してください</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>デスクトップの設定で解像度を元に戻してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>露出時間の範囲が重なるようにカメラを設定してください</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>ショーをもう一度開始してください</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>照明を元に戻し、ドアとカーテンを閉めたままにして、再試行してください</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>電源を入れ直し、メーカーのプログラムで初期設定を読み込んでから、再試行してください</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>カメラメーカーのプログラムでオフにするか、別のカメラを使ってください</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>v4l2-ctl でオフにするか（--list-ctrls で設定項目を一覧できます）、別のカメラを使ってください</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>カメラの自動露出とフレームレート制限をオフにしてください</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>カメラの自動露出をオフにしてください。手動露出のないカメラは使用できません</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>レンズをマニュアルフォーカスに切り替えてください</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>レンズをマニュアルフォーカスに切り替え、カメラのメニューを閉じ、手動で 1 枚撮影して、カメラに出るエラーを確認してください</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>カメラの画質設定を手動で RAW に切り替えてください。RAW のないカメラは使用できません</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>デスクトップの設定で省電力機能とスクリーンセーバーをオフにしてから、再試行してください</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>調光した照明と蛍光灯、プロジェクターの省電力機能をオフにしてから、再試行してください</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>プロジェクターの自動輝度調整とエコモードをオフにし、暖機してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>プロジェクターの背面投写や天吊りのモードをオフにするか、反転した画像を許可してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>カメラの電源を入れ直すか、別の画素形式を選んでください</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>カメラをフルサイズの RAW に切り替えてください（sRAW、mRAW、リニア DNG は不可）</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>光路や視野にあるものを取り除いてから、再試行してください</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>校正データのマニフェストが破損しています</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>カメラの対応範囲は {}～{} です</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>再接続されたカメラの画素数が {2} × {3} ではなく {0} × {1} です</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>カメラが感度を自動で決めています（ISO オート）</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>カメラが無効な露出範囲（{}～{} 秒）を報告しています</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>カメラが RAW ファイルを出力しません</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>{} の表示内容がカメラに見えていません</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>ピントが合わず、カメラは撮影しませんでした（{}）</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>カメラとの接続が {} 秒間途切れています：{}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>カメラの接続が外れたか、電源が切れたか、スリープ状態になりました</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>カメラに設定した画素形式が失われました</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>カメラには、読み込める画素形式 {} がありません</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>カメラに写真を保存する空きがありません：メモリカードがいっぱいです</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>カメラは接続されていますが応答しません。スリープ状態かもしれません</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>どの露出を指定しても、カメラの露出は {} 秒のままです</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>カメラが応答しなくなりました（{}：{}）</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>カメラが要求を拒否しました（{}）</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>カメラが拒否しています（{}：{}）</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>カメラに白と黒の差が見えていません</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>カメラに何も見えていません</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>カメラに見えているのは {1} ではなく {0} です</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>カメラからストリームが届きません</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>カメラが送ったのは {} で、RAW ファイルではありません</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>カメラがビジー状態のままです</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>カメラに撮影を要求しましたが、撮影されませんでした</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>カメラに {} 秒の露出を指定しましたが、{} 秒のままです</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>カメラのバッテリーが切れているようです（前回の確認時は {} %）</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>カメラのカラーフィルターがベイヤー配列ではありません</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>カメラの露出時間を設定できません</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>カメラのモードダイヤルが {} になっており、カメラが露出を自動で決めます</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>カメラに共通する露出時間がありません</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>キャプチャーデバイスから画像が届きません</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>コマンドを開始できません（{}）</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>コマンドは正常に終了しましたが、{} に何も書き込みませんでした</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>コマンドは正常に終了しましたが、{1} ではなく {0} を書き込みました</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>コマンドがステータス {} で失敗しました</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>コマンドがステータス {} で失敗しました。出力：「{}」</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>コマンドが {} 秒以内に終わりませんでした</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>コマンドが {} 秒以内に終わりませんでした。出力：「{}」</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>コマンドがシグナル {} で強制終了されました</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>コマンドがシグナル {} で強制終了されました。出力：「{}」</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>エンジンが使用中のデバイスを失いました</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>グラフィックカードを使用できません</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>グラフィックカードのメモリに {} MB の空きがありません</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>グラフィックカードが一度に扱えるのは {} MB ですが、{} MB 必要です</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>グラフィックカードが使えなくなりました</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>光がちらついています：同じパターンの写真に {} % の差があります</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>室内光が明るくなりました</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>室内光が暗くなりました</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>画面のライブ映像には X サーバーが必要ですが、応答がありません</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>ログを書き込めません（{}）</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>写真が {0} × {1} 画素（{2}）で、取り決めた {3} × {4}（{5}）と異なります</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>写真が {} × {} 画素で、通知された {} × {} と異なります</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>写真が、カメラの通知したサイズより大きくなっています</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>写真が最後まで届きませんでした</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>画像を書き込めませんでした</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>プロジェクター {} の画像が反転しています</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>プロジェクターに何も映っていませんが、室内光は見えています</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>プロジェクターの光が、数枚の写真の間に {} % 変化しました</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>プロジェクターの画面は現在 {} × {} 画素ですが、校正時は {} × {} でした</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>プロジェクターの画面がスリープ状態から復帰しません</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>プロジェクターの画面の表示が何度も途切れます</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>RAW ファイルを読み込めません（{}）</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>RAW ファイルにセンサーの生の値が入っていません</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>記録を書き込めません（{}）</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>レポートを書き込めません</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>サービスを有効にできません（{}）</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>ビデオデバイスをもう一度開くことができません</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>ビデオデバイスを開けません：ほかのプログラムが使用しているかもしれません</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>ビデオデバイスの接続が外れました</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>ビデオデバイスに、設定できる露出がありません</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>ビデオデバイスから画像が届きません</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>ビデオデバイスの自動露出をオフにできません</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>ビデオデバイスのオートフォーカスをオフにできません</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>ビデオデバイスの自動ホワイトバランスをオフにできません</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>コンピュートシェーダー対応の OpenGL 4.3 がありません</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>OpenGL 4.3 とコンピュートシェーダーに対応したグラフィックカードがありません</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>ディスプレイなしでグラフィックカードを使うための libEGL または libOpenGL がありません</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>このビルドの Relucent は、一眼レフカメラとミラーレスカメラに対応していません</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>このビルドの Relucent は、GenICam カメラに対応していません</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>Relucent の校正データではありません</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>ダイヤルを M に合わせてください</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>カメラのモードダイヤルを M に合わせてください。M のないカメラは使用できません</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>レンズの覆いを外し、プロジェクターの電源が入っていることを確認してから、再試行してください</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>手動露出のあるカメラを使ってください</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>プロジェクターをスリープから復帰させ、プロジェクターと画面の省電力機能をオフにしてから、再試行してください</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>ISO {} を指定しましたが、カメラが対応していません</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>カメラ {1} の視野の {0} % が以前と違って見えます</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>撮影に {} 回失敗しました：{}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{}。再試行するときは校正を再開してください。{}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>この機種のカメラが {} 台接続されています</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>{} をオフにできません</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}。その後、続行してください：これまでの写真はすべて保持されています</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>{} × {} 画素を指定しましたが、カメラの出力は {} × {} です</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>{} × {} 画素を指定しましたが、カメラの画素数は {} × {} です</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>{} × {} 画素を指定しましたが、ビデオデバイスの出力は {} × {} です</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}：{}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}。{}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{}（{}）</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}。</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>{} 秒からの露出に対応すると表示しますが、実際は {} 秒までです</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>{} 秒までの露出に対応すると表示しますが、実際は {} 秒までです</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>8 ビットで出力します: 暗い部分は不確かになります</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>撮影時刻を知らせません: 撮影のたびに数枚を捨てます</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>自動でピントを合わせます: レンズをマニュアルフォーカスに切り替えてください</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>ソフトウェアトリガーがありません: 撮影ごとに露出 1 回分余計に待つことがあります</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>バッテリー残量は {} % です: 測定には満充電または AC アダプターが必要です</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>フラッシュが光ることがあります: フラッシュを閉じてください</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>長時間露出の後にダーク画像を撮ることがあり、時間が倍になります</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>一度に複数枚撮ることがあります: 1 枚撮影に切り替えてください</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>色を見分けません: 明るさは補正できますが、色はできません</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>しばらくすると自動で電源が切れます: その設定をオフにしてください</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>ビデオデバイス</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>ISO {} を指定しましたが、ISO {} のままです</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>ゲイン {} を指定しましたが、{} のままです</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>一眼レフ・ミラーレスカメラ: このビルドには libgphoto2 または LibRaw がありません。libgphoto2-dev と libraw-dev をインストールして再ビルドしてください</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>GigE Vision・USB3 Vision カメラ: このビルドには Aravis がありません。libaravis-dev をインストールして再ビルドしてください</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>重要な場合は、絞りを絞るか ND フィルターを付けてください</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>絞りを絞るか、ゲインを下げるか、ND フィルターを付けてください</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>より正確に測定するには、TIFF または EXR として線形に現像してください</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>絞りを開くか、ゲインを上げてください</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>パターンと写真がグレーです：色は区別されず、T のブロックは無彩色です</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>パターン {} の前に許容：{}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>最短の露出 {} 秒でも一部のハイライトが露出オーバーで、補償されません</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>省電力、カラーマネジメント、ダイナミックな画質モードをオフにしてください</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>ダイナミックアイリス、ダイナミックコントラスト、内容に応じて変わる画質モードをオフにしてください</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>プロジェクターのダイナミックなランプモードと近くの照明をオフにし、露出時間を電源周期の整数倍にしてください</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>ホワイトセグメント（「ブリリアントカラー」や「明るいモード」などと呼ばれます）をオフにし、ビデオまたは sRGB 用の画質モードを選んでください</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>補正済みですが、次回は測定前にプロジェクターを十分に温めてください</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>カメラは線形とみなし、写真 1 枚を 1 秒の露出として扱います</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>最初と最後の写真の間に光が {} % 変化しました</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>写真ごとに光が {} % 変化しています</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>パターンがグレーです：色の混ざり方は測定されておらず、T のブロックは対角です</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>パターンは白黒のみです：プロジェクターの応答は 2.2 乗とみなします</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>写真がグレーです：プロジェクターの各色の寄与は明るさでしか分かりません</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>写真が JPEG です：sRGB のカーブで線形化しましたが、カメラはこれにおおよそしか従いません</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>写真は撮影順（{} から {}）にパターンと対応付けました。これは名前の順とは異なります</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>最短の露出 {} 秒でも投影が露出オーバーです</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>最長の露出 {1} 秒でも、投影はカメラの範囲の {0} % にしか達しません</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>プロジェクターはカメラ画素の {} % を照らしています</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>これらの画素は補償の対象外です</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>画像の二つの半分の合計が全体より {} % 明るくなっています</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>画像の二つの半分の合計が全体より {} % 暗くなっています</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>白は赤・緑・青の合計より {} % 明るくなっています</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>白は赤・緑・青の合計より {} % 暗くなっています</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>カメラ画素の {} % が最短の露出でも露出オーバーです：カメラの絞りを絞るか、より短い露出を許可して、測定し直してください</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>カメラ画素の {} % がテストパターンで予測と異なるものを見ています：何も動いたりちらついたりしていないか確認してください</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>{}x{} 画素のカメラはありえません：各辺は {}～{} です</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>{}x{} 画素のプロジェクターはありえません：各辺は {}～{} です</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>カメラのコマンドに {} がありません</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>カメラのコマンドが空です</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>プロジェクターのコマンドに {} がありません</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>プロジェクターのコマンドが空です</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>最短の露出は 0 より大きく、最長の露出以下でなければなりません</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1298,261 +184,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>アルゴリズム 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>光輸送の組み立て</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>校正</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>{} の色の加法性の確認</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>光輸送のクラスター分け</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>サイズ制限付きクラスター</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>{} のクラスター逆変換の比較</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>方式の比較</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>{} の方式の比較</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>補正</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>復号</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>応答と色の推定</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>光輸送の推定</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>評価</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>ボケの検出</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>露出の決定</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>光の広がりの当てはめ</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>パッチの形成</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>クラスターのサイズ制限</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>クラスターの逆変換</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>光輸送の逆変換</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>{} の逆変換</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>クラスターの統合</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>線形化</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>影の検出</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>補正できない部分の検出</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>{} の明るさカーブの測定</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>カメラの測定</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>光の評価</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>プロジェクターの画像の検出</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>遅延時間の測定</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>光輸送の測定</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>{} の測定</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>テストパターンの撮影</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>投影の撮影</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>検証用パターンの予測</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>ベンチマークの準備</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>機器の準備</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>エンジンの準備</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>会場の準備</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>校正データの読み込み</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>パターンの読み込み</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>写真の読み込み</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>画像の読み込み</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>{} の読み込み</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>全点灯画像に合わせた調整</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>直接光と間接光の分離</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>鮮鋭化</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>求解</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>エンジンの速度測定</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>局所窓</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>書き込み</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>光輸送の書き出し</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>結果の書き込み</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>黒と全点灯</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>光輸送</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>プロジェクター {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>テストパターン</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>プロジェクター</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>模擬会場の光線追跡</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>階層 {}/{}：パターン %n 枚</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>要確認の %n 画素の再測定</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1600,6 +231,1741 @@
     <message>
         <source>A venue is being measured</source>
         <translation>会場を測定中です</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>パターン {} の前に許容：{}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>最初と最後の写真の間に光が {} % 変化しました。補正済みですが、次回は測定前にプロジェクターを十分に温めてください</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>カメラ画素の {} % が最短の露出でも露出オーバーです：カメラの絞りを絞るか、より短い露出を許可して、測定し直してください</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>カメラ画素の {} % がテストパターンで予測と異なるものを見ています：何も動いたりちらついたりしていないか確認してください。これらの画素は補償の対象外です</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{}。再試行するときは校正を再開してください。{}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>カメラに何も見えていません</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>正しい画面が選ばれ、画像を隠すものがないことを確認してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>光路や視野にあるものを取り除いてから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>プロジェクターの光が、数枚の写真の間に {} % 変化しました</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>光がちらついています：同じパターンの写真に {} % の差があります</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>カメラかプロジェクターが動きました：カメラ {} の視野が {}、{} 画素ずれ、{} 度回転しています</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>プロジェクター {} の画像が反転しています</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>プロジェクターに何も映っていませんが、室内光は見えています</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>ずれが半画素以内になるように元の位置に戻してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>照明を元に戻し、ドアとカーテンを閉めたままにして、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>室内光が明るくなりました</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>室内光が暗くなりました</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>前回の確認までの写真はすべて無事です</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>光輸送測定より前の写真はすべて無事です</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>調光した照明と蛍光灯、プロジェクターの省電力機能をオフにしてから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>プロジェクターの自動輝度調整とエコモードをオフにし、暖機してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>プロジェクターの背面投写や天吊りのモードをオフにするか、反転した画像を許可してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>レンズの覆いを外し、プロジェクターの電源が入っていることを確認してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>カメラ {1} の視野の {0} % が以前と違って見えます</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>プロジェクターをスリープから復帰させ、プロジェクターと画面の省電力機能をオフにしてから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>プロジェクター {} が、送られた画像を表示していません</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>校正データのマニフェストが破損しています</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>フォルダーの内容を確認できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>フォルダーを開けません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>フォルダーに書き込めることを確認してから、続行してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>フォルダーに書き込めることを確認してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>パスと読み取り権限を確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>読み取り権限があることを確認するか、別の名前にしてください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>別の校正データを選ぶか、測定した場所からコピーし直してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>校正データの {0} のファイルが {2} バイトではなく {1} バイトです</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>校正データの {} のファイルがありません</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>保存先の空き容量を増やすかディスクを確認してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>Relucent の校正データではありません</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>写真を移動できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>写真を削除できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>カラーホイールのように色が順に現れます（{1} ms で {0} %）：整数フレーム（{2} ms の倍数）で露光してください。</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>プロジェクターは画素ごとに灰色を時間的に混ぜています（{} %）：複数の整数フレームで露光し、スムージングと 3D モードをオフにしてください。</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>ランプがフレーム内でちらつきます（{1} ms で {0} %）：整数フレーム（{2} ms の倍数）で露光してください。</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>光は均一です：ちらつき、カラーホイール、縞、ディザリングは見られません。</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>整数フレームの露光の間に光が {} % 変化します：ランプを暖機し、動的輝度と室内の照明をオフにしてください。</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>カメラは 1 フレーム未満の露光ができないか、その場合は暗すぎます：フレーム内のちらつきは判定できません。</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>カメラに見えているのは {1} ではなく {0} です。</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>画像は送信から {} フレーム後に表示されます：{} ms 待ちます。</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>画像が写真 {} 枚分遅れて届きます：遅延を測定して待つ必要があります。</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>カメラは行を順に露光します（ローリングシャッター）：短い露光には {} % の縞が出ます。整数フレーム（{} ms の倍数）で露光してください。</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>画像が反転しています。意図したもの（背面投写、鏡）でなければ、プロジェクターのメニューで反転をオフにしてください。</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>カメラに {} が見えていません。</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>カメラに {} が見えています：視野の {} % がテストパターンに追従しています。</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>白が写真ごとに {} % 変化します：プロジェクターの整数フレーム（{} ms の倍数）で露光し、動的輝度をオフにしてください。</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>キャプチャーデバイスから画像が届きません</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>画面のライブ映像には X サーバーが必要ですが、応答がありません</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>X のデスクトップにログインするか（ログイン画面で「Xorg」を選択）、ファイルを再生してください</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>接続し、それを使用しているほかのプログラムを終了して、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>カメラを投影に向け、レンズキャップを外し、露出を長くしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>ほかのプログラムがカメラを使用しています</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>それ以下のサイズを指定してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>カメラが出力するサイズを指定してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>対応しているサイズを指定してください：v4l2-ctl --list-formats-ext で一覧できます</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>ゲイン {} を指定しましたが、{} のままです</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>ISO {} を指定しましたが、ISO {} のままです</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>撮影に {} 回失敗しました：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>ビデオデバイスの自動露出をオフにできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>ビデオデバイスのオートフォーカスをオフにできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>カメラが感度を自動で決めています（ISO オート）</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>ビデオデバイスの自動ホワイトバランスをオフにできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>カメラのバッテリーが切れているようです（前回の確認時は {} %）</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>バッテリー残量は {} % です: 測定には満充電または AC アダプターが必要です</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>このビルドの Relucent は、一眼レフカメラとミラーレスカメラに対応していません</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>このビルドの Relucent は、GenICam カメラに対応していません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>カメラに {} 秒の露出を指定しましたが、{} 秒のままです</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>カメラに撮影を要求しましたが、撮影されませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>カメラは接続されていますが応答しません。スリープ状態かもしれません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>カメラとの接続が {} 秒間途切れています：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>再接続されたカメラの画素数が {1} ではなく {0} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>カメラの対応範囲は {}～{} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>カメラが無効な露出範囲（{}～{} 秒）を報告しています</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>カメラのカラーフィルターがベイヤー配列ではありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>カメラのコマンドが空です</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>カメラのコマンドに {} がありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>カメラに設定した画素形式が失われました</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>ピントが合わず、カメラは撮影しませんでした（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>カメラの接続が外れたか、電源が切れたか、スリープ状態になりました</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>どの露出を指定しても、カメラの露出は {} 秒のままです</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>カメラが応答しなくなりました（{}：{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>カメラには、読み込める画素形式 {} がありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>{} の表示内容がカメラに見えていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>カメラが要求を拒否しました（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>カメラが拒否しています（{}：{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>カメラに白と黒の差が見えていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>カメラに見えているのは {1} ではなく {0} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>カメラからストリームが届きません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>カメラがビジー状態のままです</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>この機種のカメラが {} 台接続されています</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>一時フォルダーを作成できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>ファイルを削除できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} をオフにできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>カメラに写真を保存する空きがありません：メモリカードがいっぱいです</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>メモリカードを交換するか、空にしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>バッテリーを充電するか交換し（AC アダプターの使用を推奨）、カメラの電源を入れ直してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>ケーブルと電源を確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>ケーブル、電源、アドレスを確認してください。`relucent-cli devices` で接続中の機器を一覧できます</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>ケーブルを確認し、省電力機能をオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>ケーブルを確認し、カメラの電源を入れ、自動電源オフを無効にしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>カメラのケーブルとネットワークカードを確認し、ほかのプログラムがカメラを使っていないことを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>カメラの視野が動いていないことと露出が短いことを確認し、プロジェクターの動き補間をオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>機器を確認するか、コマンドの制限時間を延ばしてください：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>プロジェクターの電源が入り、その出力を表示していることを確認し、カメラをそこに向けてレンズキャップを外すか、別の画面を選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>{} を選ぶか、カメラを {} に向けてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>{} 秒からの露出に対応すると表示しますが、実際は {} 秒までです</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>{} 秒までの露出に対応すると表示しますが、実際は {} 秒までです</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>カメラのメニューと再生画面を閉じ、ライブビューを終了してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>カメラのメニューを閉じ、電源を入れ直してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>ほかのプログラムを終了して、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>コマンドを開始できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>コマンドがステータス {} で失敗しました</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>コマンドがステータス {} で失敗しました。出力：「{}」</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>コマンドがシグナル {} で強制終了されました</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>コマンドがシグナル {} で強制終了されました。出力：「{}」</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>コマンドが {} 秒以内に終わりませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>コマンドが {} 秒以内に終わりませんでした。出力：「{}」</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>コマンドは正常に終了しましたが、{} に何も書き込みませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>コマンドは正常に終了しましたが、{1} ではなく {0} を書き込みました</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>測定を始めたときのカメラを接続してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>コピーし直すか、撮影し直してください。カメラがこの LibRaw より新しい場合は DNG ファイルが必要です</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>8 ビットで出力します: 暗い部分は不確かになります</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>ファイルを線形の 16 ビット TIFF に現像するか、別のカメラを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>カメラの露出時間を設定できません</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>自動でピントを合わせます: レンズをマニュアルフォーカスに切り替えてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>空き容量を増やすか、別の場所に記録してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>そこの空き容量を増やすか、TMPDIR に書き込めるフォルダーを指定してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>ゲイン {} が指定されています</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>GigE Vision・USB3 Vision カメラ: このビルドには Aravis がありません。libaravis-dev をインストールして再ビルドしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>一眼レフ・ミラーレスカメラ: このビルドには libgphoto2 または LibRaw がありません。libgphoto2-dev と libraw-dev をインストールして再ビルドしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>ほかのプログラムがカメラを使用しています。多くの場合、デスクトップがカメラを USB メモリのようにマウントしています</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>{} 画素のカメラはありえません：各辺は {}～{} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>{} 画素のプロジェクターはありえません：各辺は {}～{} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>Aravis（libaravis-dev）をインストールしてビルドし直すか、別の種類のカメラを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>libgphoto2 と LibRaw（libgphoto2-dev、libraw-dev）をインストールしてビルドし直すか、コマンドを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>ISO {} を指定しましたが、カメラが対応していません</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>選べる値は {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>コマンドがそのサイズで書き込むようにするか、カメラが出力するサイズで最初からやり直してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>`gio mount -s gphoto2` でデスクトップのマウントを解除し（またはファイルマネージャーで取り出し）、写真用のプログラムを終了してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>コマンドが写真を {output} に書き込むようにしてください：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>フラッシュが光ることがあります: フラッシュを閉じてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>長時間露出の後にダーク画像を撮ることがあり、時間が倍になります</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>一度に複数枚撮ることがあります: 1 枚撮影に切り替えてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>カメラのモードダイヤルが {} になっており、カメラが露出を自動で決めます</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>そのカメラを指定してください：gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>どちらかをポートで指定してください：gphoto2:{} または gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>新しい画像が {} フレーム後もまだ完全に表示されません</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>この名前のカメラは接続されていません。接続されているのは {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>GenICam カメラ「{}」が応答しません</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>{} 秒以内に写真が届きませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>カメラが送ったのは {} で、RAW ファイルではありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>カメラが RAW ファイルを出力しません</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>ソフトウェアトリガーがありません: 撮影ごとに露出 1 回分余計に待つことがあります</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>そのビデオデバイスは接続されていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>カメラの画素形式はどれも読み込めません</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>撮影時刻を知らせません: 撮影のたびに数枚を捨てます</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>写真の一部が転送中に失われました</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>撮影を要求しましたが、写真が届きませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>写真が、カメラの通知したサイズより大きくなっています</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>写真が最後まで届きませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>写真が {} 画素（{}）で、取り決めた {}（{}）と異なります</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>写真が {} 画素で、通知された {} と異なります</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>{0} 画素（{1}）の写真が、{3} バイト中 {2} バイトしか届きませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>{} 画素を指定しましたが、カメラの画素数は {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>{} 画素を指定しましたが、カメラの出力は {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>{} 画素を指定しましたが、ビデオデバイスの出力は {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>シャッターボタンを半押しするか電源を入れ直し、自動電源オフを無効にしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>プロジェクターのコマンドが空です</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>プロジェクターのコマンドに {} がありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>プロジェクターの画面の表示が何度も途切れます</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>RAW ファイルを読み込めません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>ファイルが空です</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>ファイルの一部が欠けています</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>RAW ファイルにセンサーの生の値が入っていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>記録を書き込めません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>手動で削除してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>ターミナルで実行して原因を調べてください：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>色を見分けません: 明るさは補正できますが、色はできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>露出モードを Timed（手動）に設定するか、ファームウェアを更新してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>カメラを手動で ISO 100 に設定してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>最短の露出は 0 より大きく、最長の露出以下でなければなりません</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>カメラの自動露出とフレームレート制限をオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>カメラの自動露出をオフにしてください。手動露出のないカメラは使用できません</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>カメラをフルサイズの RAW に切り替えてください（sRAW、mRAW、リニア DNG は不可）</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>カメラの電源を入れ直すか、別の画素形式を選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>レンズをマニュアルフォーカスに切り替えてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>レンズをマニュアルフォーカスに切り替え、カメラのメニューを閉じ、手動で 1 枚撮影して、カメラに出るエラーを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>カメラメーカーのプログラムでオフにするか、別のカメラを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>電源を入れ直し、メーカーのプログラムで初期設定を読み込んでから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>v4l2-ctl でオフにするか（--list-ctrls で設定項目を一覧できます）、別のカメラを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>カメラの画質設定を手動で RAW に切り替えてください。RAW のないカメラは使用できません</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>しばらくすると自動で電源が切れます: その設定をオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}。その後、続行してください：これまでの写真はすべて保持されています</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>ダイヤルを M に合わせてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>カメラのモードダイヤルを M に合わせてください。M のないカメラは使用できません</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>カメラの形式は {} です。読み込めるのは 8～16 ビットの非パック形式の Mono、Bayer、RGB です</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>手動露出のあるカメラを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>ビデオデバイス</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>ビデオデバイスの接続が外れました</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>ビデオデバイスをもう一度開くことができません</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>ビデオデバイスを開けません：ほかのプログラムが使用しているかもしれません</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>ビデオデバイスに、設定できる露出がありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>ビデオデバイスから画像が届きません</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>フォルダーを作成できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>開けません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>読み込めません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>書き込めません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>ディスクとそのケーブルを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>パスを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>パスとディスクを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>書き込めるフォルダーを選ぶか、書き込み権限を取得してください</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>保存先の空き容量を増やすか別のディスクを選んでから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>グラフィックカードを使用できません</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>グラフィックカードが使えなくなりました</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>グラフィックカードのメモリに {} MB の空きがありません</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>グラフィックカードが一度に扱えるのは {} MB ですが、{} MB 必要です</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>グラフィックカードのドライバーをインストールするか、CPU で処理してください</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>CPU で処理してください</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>OpenGL 4.3 とコンピュートシェーダーに対応したグラフィックカードがありません</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>ディスプレイなしでグラフィックカードを使うための libEGL または libOpenGL がありません</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>コンピュートシェーダー対応の OpenGL 4.3 がありません</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>カメラは線形とみなし、写真 1 枚を 1 秒の露出として扱います</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>プロジェクターはカメラ画素の {} % を照らしています</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>写真は撮影順（{} から {}）にパターンと対応付けました。これは名前の順とは異なります</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>パターンと写真がグレーです：色は区別されず、T のブロックは無彩色です</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>パターンは白黒のみです：プロジェクターの応答は 2.2 乗とみなします</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>パターンがグレーです：色の混ざり方は測定されておらず、T のブロックは対角です</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>写真が JPEG です：sRGB のカーブで線形化しましたが、カメラはこれにおおよそしか従いません。より正確に測定するには、TIFF または EXR として線形に現像してください</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>写真がグレーです：プロジェクターの各色の寄与は明るさでしか分かりません</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>カメラに共通する露出時間がありません</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}：画像の二つの半分の合計が全体より {} % 明るくなっています。ダイナミックアイリス、ダイナミックコントラスト、内容に応じて変わる画質モードをオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}：画像の二つの半分の合計が全体より {} % 暗くなっています。ダイナミックアイリス、ダイナミックコントラスト、内容に応じて変わる画質モードをオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>{}：最短の露出 {} 秒でも一部のハイライトが露出オーバーで、補償されません。重要な場合は、絞りを絞るか ND フィルターを付けてください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>{}：写真ごとに光が {} % 変化しています。プロジェクターのダイナミックなランプモードと近くの照明をオフにし、露出時間を電源周期の整数倍にしてください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>{}：最短の露出 {} 秒でも投影が露出オーバーです。絞りを絞るか、ゲインを下げるか、ND フィルターを付けてください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>露出時間の範囲が重なるようにカメラを設定してください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>{0}：最長の露出 {2} 秒でも、投影はカメラの範囲の {1} % にしか達しません。絞りを開くか、ゲインを上げてください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>{}：白は赤・緑・青の合計より {} % 明るくなっています。ホワイトセグメント（「ブリリアントカラー」や「明るいモード」などと呼ばれます）をオフにし、ビデオまたは sRGB 用の画質モードを選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>{}：白は赤・緑・青の合計より {} % 暗くなっています。省電力、カラーマネジメント、ダイナミックな画質モードをオフにしてください</translation>
     </message>
 </context>
 <context>
@@ -1717,18 +2083,6 @@
     <message>
         <source>Colours</source>
         <translation>色</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>機器への接続</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>応答の読み込み</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>光輸送の測定</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2264,18 +2618,6 @@
     <message>
         <source>Focus area</source>
         <translation>ピント領域</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>プロジェクターとカメラの確認</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>露出の決定</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>ライブビュー</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2838,14 +3180,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>何も変更していません。</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>機器への接続</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>応答の測定</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3505,10 +3839,6 @@ projector %2</source>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>エンジンの準備</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>出力をもう一度開いてください。</translation>
     </message>
@@ -3519,25 +3849,6 @@ projector %2</source>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1、OpenGL なしで表示</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>機器への接続</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>検証写真の撮影</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>ドリフトの確認</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>レポートの書き込み</translation>
     </message>
 </context>
 <context>
@@ -3660,14 +3971,6 @@ projector %2</source>
     <message>
         <source>The picture of before stays.</source>
         <translation>以前の画像のままです。</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>光輸送の読み込み</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>光輸送の逆変換</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4693,6 +4996,642 @@ projector %2</source>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>この表示には、グラフィックカードのドライバーをインストールして Relucent を再起動してください。</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>空き容量を増やしてください</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>レポートを書き込めません</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}。</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{}（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}。{}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>削除できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>フォルダーのアクセス権を確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>--log で別のフォルダーを指定してください</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>エンジンが使用中のデバイスを失いました</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>ログを書き込めません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>プロジェクターの画面がスリープ状態から復帰しません</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>プロジェクターの画面は現在 {} 画素ですが、校正時は {} でした</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>サービスを有効にできません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>デスクトップの設定で解像度を元に戻してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>ショーをもう一度開始してください</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>デスクトップの設定で省電力機能とスクリーンセーバーをオフにしてから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>アルゴリズム 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>光輸送の組み立て</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>黒と全点灯</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>校正</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>{} の色の加法性の確認</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>ドリフトの確認</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>プロジェクターとカメラの確認</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>光輸送のクラスター分け</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>サイズ制限付きクラスター</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>{} のクラスター逆変換の比較</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>方式の比較</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>{} の方式の比較</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>補正</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>復号</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>光輸送の推定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>応答と色の推定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>評価</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>ボケの検出</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>露出の決定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>露出の決定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>補正できない部分の検出</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>光の広がりの当てはめ</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>パッチの形成</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>クラスターのサイズ制限</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>クラスターの逆変換</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>光輸送の逆変換</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>{} の逆変換</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>クラスターの統合</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>光の評価</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>階層 {}/{}：パターン {} 枚</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>光輸送</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>線形化</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>プロジェクターの画像の検出</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>影の検出</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>ライブビュー</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>{} の明るさカーブの測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>カメラの測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>要確認の {} 画素の再測定</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>遅延時間の測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>光輸送の測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>応答の測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>{} の測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>機器への接続</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>投影の撮影</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>テストパターンの撮影</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>検証用パターンの予測</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>ベンチマークの準備</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>機器の準備</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>エンジンの準備</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>プレビューの準備</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>会場の準備</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>校正データの読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>光輸送の読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>パターンの読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>写真の読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>画像の読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>応答の読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>{} の読み込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>全点灯画像に合わせた調整</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>直接光と間接光の分離</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>鮮鋭化</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>求解</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>検証写真の撮影</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>テストパターン</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>エンジンの速度測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>模擬会場の光線追跡</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>局所窓</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>書き込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>光輸送の書き出し</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>レポートの書き込み</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>結果の書き込み</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>書き込めて空き容量のあるフォルダーを選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>画像を書き込めませんでした</translation>
     </message>
 </context>
 </TS>

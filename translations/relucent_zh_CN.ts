@@ -13,1120 +13,6 @@
     </message>
 </context>
 <context>
-    <name>CheckVerdict</name>
-    <message>
-        <source>The camera sees %1: %2 of its view follow the test pattern.</source>
-        <translation>相机看到了 %1：画面的 %2 跟随测试图案。</translation>
-    </message>
-    <message>
-        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
-        <translation>图像呈镜像。如非有意（背投、镜子），请在投影机菜单中关闭镜像。</translation>
-    </message>
-    <message numerus="yes">
-        <source>Pictures come late, by %n photograph(s): the latency has to be measured and waited for.</source>
-        <translation>
-            <numerusform>图像晚到 %n 张照片：必须测量延迟并等待。</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>The camera sees %1 and not %2.</source>
-        <translation>相机看到的是 %1，而不是 %2。</translation>
-    </message>
-    <message>
-        <source>The camera does not see %1.</source>
-        <translation>相机没有看到 %1。</translation>
-    </message>
-    <message numerus="yes">
-        <source>A picture is out %n frame(s) after it is sent: %1 are waited for.</source>
-        <translation>
-            <numerusform>图像在发送 %n 帧后显示：等待 %1。</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>White changes by %1 from photograph to photograph: expose whole frames of the projector, multiples of %2, and switch its dynamic brightness off.</source>
-        <translation>各张照片的白场变化 %1：请按投影机的整帧曝光（%2 的倍数），并关闭其动态亮度。</translation>
-    </message>
-    <message>
-        <source>The light changes by %1 between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
-        <translation>整帧曝光之间光线变化 %1：请让灯预热，并关闭动态亮度和室内的灯。</translation>
-    </message>
-    <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
-        <translation>相机无法按不足一帧曝光，或此时看到的太少：无法判断帧内闪烁。</translation>
-    </message>
-    <message>
-        <source>The lamp flickers within a frame, by %1 in %2: expose whole frames, multiples of %3.</source>
-        <translation>灯在一帧内闪烁，%2 内变化 %1：请按整帧曝光（%3 的倍数）。</translation>
-    </message>
-    <message>
-        <source>The colours come one after the other, as through a colour wheel (%1 in %2): expose whole frames, multiples of %3.</source>
-        <translation>颜色依次出现，如经过色轮（%2 内 %1）：请按整帧曝光（%3 的倍数）。</translation>
-    </message>
-    <message>
-        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of %1. Expose whole frames, multiples of %2.</source>
-        <translation>相机逐行曝光（卷帘快门）：短曝光有 %1 的条纹。请按整帧曝光（%2 的倍数）。</translation>
-    </message>
-    <message>
-        <source>The projector mixes greys in time, pixel by pixel (%1): expose several whole frames, and switch its smoothing and 3D modes off.</source>
-        <translation>投影机逐像素按时间混合灰阶（%1）：请按多个整帧曝光，并关闭其平滑和 3D 模式。</translation>
-    </message>
-    <message>
-        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
-        <translation>光线均匀：未见闪烁、色轮、条纹或抖动。</translation>
-    </message>
-</context>
-<context>
-    <name>Core</name>
-    <message>
-        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
-        <translation>相机或投影机移动过：相机 {} 的画面偏移了 {}、{} 像素，旋转了 {} 度</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>校准数据“{}”的一个文件为 {} 字节，应为 {} 字节</translation>
-    </message>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>校准数据“{}”缺少一个文件</translation>
-    </message>
-    <message>
-        <source>a gain of {} is wanted</source>
-        <translation>指定的增益为 {}</translation>
-    </message>
-    <message>
-        <source>a new picture is not fully there after {} frames</source>
-        <translation>新图像在 {} 帧后仍未完全显示</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>无法移动照片（{}）</translation>
-    </message>
-    <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>无法删除照片（{}）</translation>
-    </message>
-    <message>
-        <source>a photograph of {}x{} pixels as {} came with {} of {} bytes</source>
-        <translation>一张 {0} × {1} 像素（{2}）的照片只收到 {3} 字节，应为 {4} 字节</translation>
-    </message>
-    <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>已要求拍摄，但没有收到照片</translation>
-    </message>
-    <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
-        <translation>请将相机对准投影，取下镜头盖，并加长曝光</translation>
-    </message>
-    <message>
-        <source>another program holds the camera</source>
-        <translation>另一个程序正在占用相机</translation>
-    </message>
-    <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
-        <translation>另一个程序正在占用相机，通常是桌面将其当作 U 盘挂载了</translation>
-    </message>
-    <message>
-        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
-        <translation>请指定它支持的尺寸：可用 v4l2-ctl --list-formats-ext 列出</translation>
-    </message>
-    <message>
-        <source>ask for that or less</source>
-        <translation>请指定不大于此的尺寸</translation>
-    </message>
-    <message>
-        <source>ask for the size that it gives</source>
-        <translation>请指定相机所给出的尺寸</translation>
-    </message>
-    <message>
-        <source>cannot create a temporary folder ({})</source>
-        <translation>无法创建临时文件夹（{}）</translation>
-    </message>
-    <message>
-        <source>cannot create the folder ({})</source>
-        <translation>无法创建文件夹（{}）</translation>
-    </message>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>无法查看文件夹内容（{}）</translation>
-    </message>
-    <message>
-        <source>cannot open ({})</source>
-        <translation>无法打开（{}）</translation>
-    </message>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>无法打开文件夹（{}）</translation>
-    </message>
-    <message>
-        <source>cannot read ({})</source>
-        <translation>无法读取（{}）</translation>
-    </message>
-    <message>
-        <source>cannot remove the file ({})</source>
-        <translation>无法删除文件（{}）</translation>
-    </message>
-    <message>
-        <source>cannot write ({})</source>
-        <translation>无法写入（{}）</translation>
-    </message>
-    <message>
-        <source>change or empty the memory card</source>
-        <translation>请更换或清空存储卡</translation>
-    </message>
-    <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
-        <translation>请充电或更换电池（最好使用电源适配器），然后重新打开相机</translation>
-    </message>
-    <message>
-        <source>check its cable and its power</source>
-        <translation>请检查线缆和电源</translation>
-    </message>
-    <message>
-        <source>check its cable, and switch its saving of energy off</source>
-        <translation>请检查线缆，并关闭其节能功能</translation>
-    </message>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>请检查线缆、电源和地址；`relucent-cli devices` 可列出现有设备</translation>
-    </message>
-    <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
-        <translation>请检查线缆，打开相机，并关闭其自动关机功能</translation>
-    </message>
-    <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>请确认相机画面稳定、曝光够短，并关闭投影机的运动平滑</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then go on</source>
-        <translation>请确认该文件夹可写入，然后继续</translation>
-    </message>
-    <message>
-        <source>check that the folder may be written to, then try again</source>
-        <translation>请确认该文件夹可写入，然后重试</translation>
-    </message>
-    <message>
-        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
-        <translation>请确认投影机已打开并显示该输出，将相机对准它，取下镜头盖；或选择其他屏幕</translation>
-    </message>
-    <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
-        <translation>请确认所选屏幕正确、图像没有被遮挡，然后重试</translation>
-    </message>
-    <message>
-        <source>check that you may read it, or choose another name</source>
-        <translation>请确认您有读取权限，或换一个名称</translation>
-    </message>
-    <message>
-        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
-        <translation>请检查相机的线缆和网卡，并确认没有其他程序在使用相机</translation>
-    </message>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>请检查设备，或给该命令更多时间：{}</translation>
-    </message>
-    <message>
-        <source>check the disk and its cable</source>
-        <translation>请检查磁盘及其线缆</translation>
-    </message>
-    <message>
-        <source>check the folder&apos;s permissions</source>
-        <translation>请检查该文件夹的权限</translation>
-    </message>
-    <message>
-        <source>check the path</source>
-        <translation>请检查路径</translation>
-    </message>
-    <message>
-        <source>check the path and that you may read it</source>
-        <translation>请检查路径，并确认您有读取权限</translation>
-    </message>
-    <message>
-        <source>check the path and the disk</source>
-        <translation>请检查路径和磁盘</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, or ask for the permission</source>
-        <translation>请选择您可写入的文件夹，或申请权限</translation>
-    </message>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>请选择您可写入且有可用空间的文件夹</translation>
-    </message>
-    <message>
-        <source>choose another calibration, or copy it again from where it was measured</source>
-        <translation>请选择其他校准数据，或从测量处重新复制</translation>
-    </message>
-    <message>
-        <source>choose another folder with --log</source>
-        <translation>请用 --log 指定其他文件夹</translation>
-    </message>
-    <message>
-        <source>choose {}, or aim the camera at {}</source>
-        <translation>请选择 {}，或将相机对准 {}</translation>
-    </message>
-    <message>
-        <source>close its menus and its playback, and end its live picture</source>
-        <translation>请关闭相机的菜单和回放，并退出实时取景</translation>
-    </message>
-    <message>
-        <source>close its menus, and switch it off and on</source>
-        <translation>请关闭相机的菜单，再关机并重新开机</translation>
-    </message>
-    <message>
-        <source>close other programs and try again</source>
-        <translation>请关闭其他程序，然后重试</translation>
-    </message>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>请连接开始测量时所用的相机</translation>
-    </message>
-    <message>
-        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
-        <translation>请重新复制或重新拍摄；相机若比此 LibRaw 更新，则需使用 DNG 文件</translation>
-    </message>
-    <message>
-        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
-        <translation>请将文件线性转换为 16 位 TIFF，或换用其他相机</translation>
-    </message>
-    <message>
-        <source>every photograph before the light transport is safe</source>
-        <translation>光传输测量之前的照片都是安全的</translation>
-    </message>
-    <message>
-        <source>every photograph up to the check before is safe</source>
-        <translation>上一次检查之前的照片都是安全的</translation>
-    </message>
-    <message>
-        <source>free some space</source>
-        <translation>请腾出一些空间</translation>
-    </message>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>请在该处腾出一些空间或检查磁盘，然后重试</translation>
-    </message>
-    <message>
-        <source>free some space there or choose another disk, then try again</source>
-        <translation>请在该处腾出一些空间或选择其他磁盘，然后重试</translation>
-    </message>
-    <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
-        <translation>请在该处腾出一些空间，或将 TMPDIR 设为您可写入的文件夹</translation>
-    </message>
-    <message>
-        <source>free some space, or record elsewhere</source>
-        <translation>请腾出一些空间，或记录到别处</translation>
-    </message>
-    <message>
-        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
-        <translation>请安装 Aravis（libaravis-dev）并重新编译，或使用其他类型的相机</translation>
-    </message>
-    <message>
-        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
-        <translation>请安装 libgphoto2 和 LibRaw（libgphoto2-dev、libraw-dev）并重新编译，或使用命令</translation>
-    </message>
-    <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
-        <translation>请安装显卡驱动程序，或改用 CPU 处理</translation>
-    </message>
-    <message>
-        <source>it cannot be removed ({})</source>
-        <translation>无法删除（{}）</translation>
-    </message>
-    <message>
-        <source>it has {}</source>
-        <translation>可选值为 {}</translation>
-    </message>
-    <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>相机的格式为 {}；可读取的是 8 至 16 位的非打包 Mono、Bayer 和 RGB</translation>
-    </message>
-    <message>
-        <source>it is empty</source>
-        <translation>文件是空的</translation>
-    </message>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>请让命令将照片写入 {output}：{}</translation>
-    </message>
-    <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>请让命令写入该尺寸，或按相机给出的尺寸重新开始</translation>
-    </message>
-    <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
-        <translation>请用 `gio mount -s gphoto2` 让桌面释放相机（或在文件管理器中弹出），并关闭照片程序</translation>
-    </message>
-    <message>
-        <source>let the processor do the work</source>
-        <translation>请改用 CPU 处理</translation>
-    </message>
-    <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>请登录到 X 桌面（登录时选择“Xorg”），或播放文件</translation>
-    </message>
-    <message>
-        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
-        <translation>请用端口指定其中一台：gphoto2:{} 或 gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>请指定该相机：gphoto2:{}</translation>
-    </message>
-    <message>
-        <source>no GenICam camera &apos;{}&apos; answers</source>
-        <translation>GenICam 相机“{}”没有响应</translation>
-    </message>
-    <message>
-        <source>no camera of this name is plugged in, but {}</source>
-        <translation>没有接上此名称的相机，接上的是 {}</translation>
-    </message>
-    <message>
-        <source>no photograph came within {} s</source>
-        <translation>{} 秒内没有收到照片</translation>
-    </message>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>没有接上这样的视频设备</translation>
-    </message>
-    <message>
-        <source>none of the camera&apos;s pixel formats can be read</source>
-        <translation>相机的像素格式均无法读取</translation>
-    </message>
-    <message>
-        <source>parts of it are missing</source>
-        <translation>文件有部分缺失</translation>
-    </message>
-    <message>
-        <source>parts of the photograph were lost on the way</source>
-        <translation>照片的一部分在传输中丢失</translation>
-    </message>
-    <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>请接上设备，关闭使用它的其他程序，然后重试</translation>
-    </message>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
-        <translation>请半按快门按钮，或关机并重新开机，并关闭其自动关机功能</translation>
-    </message>
-    <message>
-        <source>projector {} does not show the picture that it is given</source>
-        <translation>投影机 {} 没有显示发送给它的图像</translation>
-    </message>
-    <message>
-        <source>put it back to within half a pixel, then retry</source>
-        <translation>请将其复位到相差不超过半个像素，然后重试</translation>
-    </message>
-    <message>
-        <source>remove it by hand, then try again</source>
-        <translation>请手动删除，然后重试</translation>
-    </message>
-    <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>请在终端中运行以查明原因：{}</translation>
-    </message>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>请手动将相机设为 ISO 100</translation>
-    </message>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>请将其曝光模式设为 Timed（手动），或更新其固件</translation>
-    </message>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>请在桌面设置中恢复其分辨率，然后重试</translation>
-    </message>
-    <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>请将各相机的曝光时间设为相互重叠的范围</translation>
-    </message>
-    <message>
-        <source>start the show again</source>
-        <translation>请重新启动节目</translation>
-    </message>
-    <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
-        <translation>请将灯光恢复原状，保持门和窗帘关闭，然后重试</translation>
-    </message>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>请将其关机并重新开机，用厂商的程序载入默认设置，然后重试</translation>
-    </message>
-    <message>
-        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
-        <translation>请用相机厂商的程序将其关闭，或换用其他相机</translation>
-    </message>
-    <message>
-        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
-        <translation>请用 v4l2-ctl 将其关闭（--list-ctrls 可列出其控制项），或换用其他相机</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>请关闭相机的自动曝光和帧率限制</translation>
-    </message>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>请关闭相机的自动曝光；没有手动曝光的相机无法使用</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus</source>
-        <translation>请将镜头切换到手动对焦</translation>
-    </message>
-    <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>请将镜头切换到手动对焦，关闭相机的菜单，并手动拍一张照片，查看相机提示什么问题</translation>
-    </message>
-    <message>
-        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
-        <translation>请手动将相机的画质切换为 RAW；没有 RAW 的相机无法使用</translation>
-    </message>
-    <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
-        <translation>请在桌面设置中关闭节能功能和屏幕保护程序，然后重试</translation>
-    </message>
-    <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
-        <translation>请关闭调光灯和荧光灯以及投影机的节能功能，然后重试</translation>
-    </message>
-    <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
-        <translation>请关闭投影机的自动亮度和节能模式，待其预热后重试</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
-        <translation>请关闭投影机的背投或吊装模式，或允许镜像图像，然后重试</translation>
-    </message>
-    <message>
-        <source>switch the camera off and on, or choose another of its pixel formats</source>
-        <translation>请将相机关机并重新开机，或选择它的其他像素格式</translation>
-    </message>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>请将相机切换为全尺寸 RAW（不要用 sRAW、mRAW 或线性 DNG）</translation>
-    </message>
-    <message>
-        <source>take away what is in the light or in the view, then retry</source>
-        <translation>请移开光路或画面中的遮挡物，然后重试</translation>
-    </message>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>校准数据的清单文件已损坏</translation>
-    </message>
-    <message>
-        <source>the camera can do {} to {}</source>
-        <translation>相机支持的范围为 {} 至 {}</translation>
-    </message>
-    <message>
-        <source>the camera came back with {}x{} pixels instead of {}x{}</source>
-        <translation>重新连接的相机为 {} × {} 像素，应为 {} × {}</translation>
-    </message>
-    <message>
-        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
-        <translation>相机自行选择感光度（自动 ISO）</translation>
-    </message>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>相机报告的曝光范围无效（{} 至 {} 秒）</translation>
-    </message>
-    <message>
-        <source>the camera does not deliver raw files</source>
-        <translation>相机不输出 RAW 文件</translation>
-    </message>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>相机看不到 {} 上显示的内容</translation>
-    </message>
-    <message>
-        <source>the camera found no focus and took no photograph ({})</source>
-        <translation>相机未能对焦，没有拍摄照片（{}）</translation>
-    </message>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>相机已失去连接 {} 秒：{}</translation>
-    </message>
-    <message>
-        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
-        <translation>相机已断开、关机或进入休眠</translation>
-    </message>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>相机丢失了已设定的像素格式</translation>
-    </message>
-    <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>相机没有可读取的像素格式 {}</translation>
-    </message>
-    <message>
-        <source>the camera has no room left for a photograph: its memory card is full</source>
-        <translation>相机没有空间存放照片：存储卡已满</translation>
-    </message>
-    <message>
-        <source>the camera is there but does not answer, it may be asleep</source>
-        <translation>相机已连接但没有响应，可能处于休眠状态</translation>
-    </message>
-    <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
-        <translation>无论指定多长的曝光，相机都保持 {} 秒</translation>
-    </message>
-    <message>
-        <source>the camera no longer answers ({}: {})</source>
-        <translation>相机不再响应（{}：{}）</translation>
-    </message>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>相机拒绝了请求（{}）</translation>
-    </message>
-    <message>
-        <source>the camera refuses ({}: {})</source>
-        <translation>相机拒绝执行（{}：{}）</translation>
-    </message>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>相机看不出白与黑的差别</translation>
-    </message>
-    <message>
-        <source>the camera sees nothing at all</source>
-        <translation>相机什么也看不到</translation>
-    </message>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>相机看到的是 {}，而不是 {}</translation>
-    </message>
-    <message>
-        <source>the camera sends no stream</source>
-        <translation>相机没有发送数据流</translation>
-    </message>
-    <message>
-        <source>the camera sent {} and no raw file</source>
-        <translation>相机发送的是 {}，没有 RAW 文件</translation>
-    </message>
-    <message>
-        <source>the camera stays busy</source>
-        <translation>相机一直处于忙碌状态</translation>
-    </message>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>已要求相机拍摄，但它没有拍摄</translation>
-    </message>
-    <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
-        <translation>要求相机曝光 {} 秒，但它保持 {} 秒</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
-        <translation>相机的电池似乎已耗尽（上次查询时为 {} %）</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
-        <translation>相机的滤色片不是拜耳滤色片</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s exposure time cannot be set</source>
-        <translation>无法设置相机的曝光时间</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
-        <translation>相机的模式转盘处于 {}，此时曝光由相机自行选择</translation>
-    </message>
-    <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>各相机没有共同的曝光时间</translation>
-    </message>
-    <message>
-        <source>the capture device gives no picture</source>
-        <translation>采集设备没有给出图像</translation>
-    </message>
-    <message>
-        <source>the command cannot be started ({})</source>
-        <translation>无法启动命令（{}）</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote nothing, not {}</source>
-        <translation>命令正常结束，但没有写入任何内容，应写入 {}</translation>
-    </message>
-    <message>
-        <source>the command ended well but wrote {}, not {}</source>
-        <translation>命令正常结束，但写入的是 {}，而不是 {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}</source>
-        <translation>命令失败，退出状态为 {}</translation>
-    </message>
-    <message>
-        <source>the command failed with status {}, saying &quot;{}&quot;</source>
-        <translation>命令失败，退出状态为 {}，输出：“{}”</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s</source>
-        <translation>命令耗时超过 {} 秒</translation>
-    </message>
-    <message>
-        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
-        <translation>命令耗时超过 {} 秒，输出：“{}”</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}</source>
-        <translation>命令被信号 {} 终止</translation>
-    </message>
-    <message>
-        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
-        <translation>命令被信号 {} 终止，输出：“{}”</translation>
-    </message>
-    <message>
-        <source>the engine lost its device</source>
-        <translation>引擎失去了它使用的设备</translation>
-    </message>
-    <message>
-        <source>the graphics card cannot be used</source>
-        <translation>无法使用显卡</translation>
-    </message>
-    <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>显卡没有 {} MB 的剩余显存</translation>
-    </message>
-    <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
-        <translation>显卡一次只能访问 {} MB，而需要 {} MB</translation>
-    </message>
-    <message>
-        <source>the graphics card was lost</source>
-        <translation>显卡已失去响应</translation>
-    </message>
-    <message>
-        <source>the light flickers: photographs of one pattern differ by {} %</source>
-        <translation>光线闪烁：同一图案的照片相差 {} %</translation>
-    </message>
-    <message>
-        <source>the light of the room became brighter</source>
-        <translation>环境光变亮了</translation>
-    </message>
-    <message>
-        <source>the light of the room became darker</source>
-        <translation>环境光变暗了</translation>
-    </message>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>屏幕的实时画面需要 X 服务器，但没有响应</translation>
-    </message>
-    <message>
-        <source>the log cannot be written ({})</source>
-        <translation>无法写入日志（{}）</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels as {} where {}x{} as {} were agreed</source>
-        <translation>照片为 {} × {} 像素（{}），与约定的 {} × {}（{}）不符</translation>
-    </message>
-    <message>
-        <source>the photograph has {}x{} pixels where {}x{} were announced</source>
-        <translation>照片为 {} × {} 像素，与事先告知的 {} × {} 不符</translation>
-    </message>
-    <message>
-        <source>the photograph is larger than the camera announced</source>
-        <translation>照片比相机事先告知的更大</translation>
-    </message>
-    <message>
-        <source>the photograph was not finished</source>
-        <translation>照片没有完成</translation>
-    </message>
-    <message>
-        <source>the picture could not be written</source>
-        <translation>无法写入图像</translation>
-    </message>
-    <message>
-        <source>the picture of projector {} appears mirrored</source>
-        <translation>投影机 {} 的图像呈镜像</translation>
-    </message>
-    <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
-        <translation>投影机没有显示，但仍能看到环境光</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s light changed by {} % within a few photographs</source>
-        <translation>投影机的光在几张照片之内变化了 {} %</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen has {}x{} pixels now and {}x{} were calibrated</source>
-        <translation>投影机的屏幕现在为 {} × {} 像素，校准时为 {} × {}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen is asleep and does not wake</source>
-        <translation>投影机的屏幕处于休眠状态，无法唤醒</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
-        <translation>投影机的屏幕一再丢失图像</translation>
-    </message>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>无法读取 RAW 文件（{}）</translation>
-    </message>
-    <message>
-        <source>the raw file does not hold the sensor&apos;s own values</source>
-        <translation>RAW 文件中没有传感器的原始数值</translation>
-    </message>
-    <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>无法写入记录（{}）</translation>
-    </message>
-    <message>
-        <source>the report cannot be written</source>
-        <translation>无法写入报告</translation>
-    </message>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>无法启用服务（{}）</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>无法重新打开视频设备</translation>
-    </message>
-    <message>
-        <source>the video device cannot be opened: another program may be using it</source>
-        <translation>无法打开视频设备：可能有其他程序正在使用它</translation>
-    </message>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>视频设备已断开</translation>
-    </message>
-    <message>
-        <source>the video device has no exposure that can be set</source>
-        <translation>视频设备没有可设置的曝光</translation>
-    </message>
-    <message>
-        <source>the video device sends no pictures</source>
-        <translation>视频设备没有发送图像</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic exposure cannot be switched off</source>
-        <translation>无法关闭视频设备的自动曝光</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic focus cannot be switched off</source>
-        <translation>无法关闭视频设备的自动对焦</translation>
-    </message>
-    <message>
-        <source>the video device&apos;s automatic white balance cannot be switched off</source>
-        <translation>无法关闭视频设备的自动白平衡</translation>
-    </message>
-    <message>
-        <source>there is no OpenGL 4.3 with compute shaders</source>
-        <translation>没有支持计算着色器的 OpenGL 4.3</translation>
-    </message>
-    <message>
-        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
-        <translation>没有支持 OpenGL 4.3 和计算着色器的显卡</translation>
-    </message>
-    <message>
-        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
-        <translation>缺少 libEGL 或 libOpenGL，没有显示器时需要用它们打开显卡</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>此构建的 Relucent 不支持单反和无反相机</translation>
-    </message>
-    <message>
-        <source>this build of Relucent does not know GenICam cameras</source>
-        <translation>此构建的 Relucent 不支持 GenICam 相机</translation>
-    </message>
-    <message>
-        <source>this is no calibration of Relucent</source>
-        <translation>这不是 Relucent 的校准数据</translation>
-    </message>
-    <message>
-        <source>turn it to M</source>
-        <translation>请将转盘转到 M</translation>
-    </message>
-    <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
-        <translation>请将相机的模式转盘转到 M；没有 M 的相机无法使用</translation>
-    </message>
-    <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
-        <translation>请移开镜头上的遮挡，确认投影机已打开，然后重试</translation>
-    </message>
-    <message>
-        <source>use a camera with manual exposure</source>
-        <translation>请使用有手动曝光的相机</translation>
-    </message>
-    <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
-        <translation>请唤醒投影机，关闭投影机和屏幕的节能功能，然后重试</translation>
-    </message>
-    <message>
-        <source>ISO {} is wanted and the camera does not have it</source>
-        <translation>指定了 ISO {}，但相机没有该值</translation>
-    </message>
-    <message>
-        <source>{} % of the view of camera {} look different than before</source>
-        <translation>相机 {1} 的画面有 {0} % 与之前不同</translation>
-    </message>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>尝试拍摄 {} 次均失败：{}</translation>
-    </message>
-    <message>
-        <source>{} by resuming the calibration; {}</source>
-        <translation>{}（通过继续校准来重试）；{}</translation>
-    </message>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>接上了 {} 台此型号的相机</translation>
-    </message>
-    <message>
-        <source>{} cannot be switched off</source>
-        <translation>无法关闭 {}</translation>
-    </message>
-    <message>
-        <source>{}, then go on: every photograph so far is kept</source>
-        <translation>{}，然后继续：目前为止的照片都已保留</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera gives {}x{}</source>
-        <translation>指定了 {} × {} 像素，但相机给出的是 {} × {}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the camera has {}x{}</source>
-        <translation>指定了 {} × {} 像素，但相机有 {} × {}</translation>
-    </message>
-    <message>
-        <source>{}x{} pixels are wanted and the video device gives {}x{}</source>
-        <translation>指定了 {} × {} 像素，但视频设备给出的是 {} × {}</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}：{}</translation>
-    </message>
-    <message>
-        <source>{}; {}</source>
-        <translation>{}。{}</translation>
-    </message>
-    <message>
-        <source>{} ({})</source>
-        <translation>{}（{}）</translation>
-    </message>
-    <message>
-        <source>{}.</source>
-        <translation>{}。</translation>
-    </message>
-    <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
-        <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
-    </message>
-    <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
-        <translation>声称曝光可长至 {} s，实际只到 {} s</translation>
-    </message>
-    <message>
-        <source>delivers 8 bits: dark places stay uncertain</source>
-        <translation>输出 8 位：暗处仍不确定</translation>
-    </message>
-    <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>不说明图像何时拍摄：每次拍照前会丢弃几张</translation>
-    </message>
-    <message>
-        <source>focuses by itself: switch its lens to manual focus</source>
-        <translation>自动对焦：请把镜头切换到手动对焦</translation>
-    </message>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>没有软件触发：每张照片可能多等一次曝光</translation>
-    </message>
-    <message>
-        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
-        <translation>电池剩余 {} %：测量需要充满的电池或电源适配器</translation>
-    </message>
-    <message>
-        <source>may fire its flash: close it</source>
-        <translation>可能触发闪光灯：请将其收起</translation>
-    </message>
-    <message>
-        <source>may take a dark frame after long exposures, which doubles their time</source>
-        <translation>长曝光后可能再拍一张暗场，时间会加倍</translation>
-    </message>
-    <message>
-        <source>may take several photographs at once: switch it to single shots</source>
-        <translation>可能一次拍多张：请切换到单张拍摄</translation>
-    </message>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>看不到颜色：可以补偿亮度，不能补偿颜色</translation>
-    </message>
-    <message>
-        <source>switches itself off after a while: switch that off</source>
-        <translation>一段时间后会自动关机：请关闭该功能</translation>
-    </message>
-    <message>
-        <source>video device</source>
-        <translation>视频设备</translation>
-    </message>
-    <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
-        <translation>要求 ISO {}，却保持 ISO {}</translation>
-    </message>
-    <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
-        <translation>要求增益 {}，却保持 {}</translation>
-    </message>
-    <message>
-        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
-        <translation>单反和无反相机：此版本缺少 libgphoto2 或 LibRaw；请安装 libgphoto2-dev 和 libraw-dev 后重新构建</translation>
-    </message>
-    <message>
-        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
-        <translation>GigE Vision 和 USB3 Vision 相机：此版本缺少 Aravis；请安装 libaravis-dev 后重新构建</translation>
-    </message>
-    <message>
-        <source>close the aperture or add a grey filter if they matter</source>
-        <translation>如果它们重要，请收小光圈或加装灰镜</translation>
-    </message>
-    <message>
-        <source>close the aperture, lower the gain or add a grey filter</source>
-        <translation>请收小光圈、降低增益或加装灰镜</translation>
-    </message>
-    <message>
-        <source>develop them linearly, as TIFF or EXR, to measure more exactly</source>
-        <translation>请以线性方式冲洗为 TIFF 或 EXR，以便更精确地测量</translation>
-    </message>
-    <message>
-        <source>open the aperture or raise the gain</source>
-        <translation>请开大光圈或提高增益</translation>
-    </message>
-    <message>
-        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
-        <translation>图案和照片均为灰度：不区分颜色，T 的各块为中性</translation>
-    </message>
-    <message>
-        <source>put up with before pattern {}: {}</source>
-        <translation>在图案 {} 之前接受：{}</translation>
-    </message>
-    <message>
-        <source>some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated</source>
-        <translation>即使用最短曝光 {} s，部分高光仍然过曝，将不予补偿</translation>
-    </message>
-    <message>
-        <source>switch off power saving, colour management and dynamic picture modes</source>
-        <translation>请关闭节能、色彩管理和动态图像模式</translation>
-    </message>
-    <message>
-        <source>switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
-        <translation>请关闭动态光圈、动态对比度以及任何随内容变化的图像模式</translation>
-    </message>
-    <message>
-        <source>switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
-        <translation>请关闭投影机的动态灯光模式和附近的其他灯，并选择为市电周期整数倍的曝光时间</translation>
-    </message>
-    <message>
-        <source>switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
-        <translation>请关闭白色段（常称为“极致色彩”或“明亮模式”），并选择视频或 sRGB 图像模式</translation>
-    </message>
-    <message>
-        <source>that was followed, but let the projector warm up before the next time</source>
-        <translation>已作修正，但下次请先让投影机预热</translation>
-    </message>
-    <message>
-        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
-        <translation>相机按线性处理，一张照片按一秒曝光计</translation>
-    </message>
-    <message>
-        <source>The light changed by {} % between the first and the last photograph</source>
-        <translation>从第一张到最后一张照片，光线变化了 {} %</translation>
-    </message>
-    <message>
-        <source>the light changes by {} % from one photograph to the next</source>
-        <translation>光线在相邻照片之间变化 {} %</translation>
-    </message>
-    <message>
-        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
-        <translation>图案为灰度：未测量颜色如何混合，T 的各块为对角块</translation>
-    </message>
-    <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
-        <translation>图案只含黑白：投影机响应按 2.2 次幂处理</translation>
-    </message>
-    <message>
-        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
-        <translation>照片为灰度：投影机各颜色的贡献只知其亮度</translation>
-    </message>
-    <message>
-        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly</source>
-        <translation>照片为 JPEG：已按 sRGB 曲线线性化，而相机只是大致遵循该曲线</translation>
-    </message>
-    <message>
-        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
-        <translation>照片按拍摄顺序（{} 至 {}）与图案配对，该顺序与文件名顺序不同</translation>
-    </message>
-    <message>
-        <source>the projection is overexposed even at {} s, the shortest exposure</source>
-        <translation>即使用最短曝光 {} s，投影仍然过曝</translation>
-    </message>
-    <message>
-        <source>the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure</source>
-        <translation>用最长曝光 {1} s，投影也只达到相机量程的 {0} %</translation>
-    </message>
-    <message>
-        <source>The projector lights {} % of the camera&apos;s pixels</source>
-        <translation>投影机照亮了 {} % 的相机像素</translation>
-    </message>
-    <message>
-        <source>these pixels are left out of the compensation</source>
-        <translation>这些像素不参与补偿</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % brighter than the whole</source>
-        <translation>一幅图像的两半之和比整幅亮 {} %</translation>
-    </message>
-    <message>
-        <source>two halves of a picture are {} % darker than the whole</source>
-        <translation>一幅图像的两半之和比整幅暗 {} %</translation>
-    </message>
-    <message>
-        <source>white is {} % brighter than red, green and blue together</source>
-        <translation>白色比红、绿、蓝之和亮 {} %</translation>
-    </message>
-    <message>
-        <source>white is {} % darker than red, green and blue together</source>
-        <translation>白色比红、绿、蓝之和暗 {} %</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{} % 的相机像素即使用最短曝光也过曝：请收小相机光圈或允许更短的曝光，然后重新测量</translation>
-    </message>
-    <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered</source>
-        <translation>{} % 的相机像素在测试图案中看到的与预测不符：请检查是否有东西移动或闪烁</translation>
-    </message>
-    <message>
-        <source>a camera of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>不可能有 {}x{} 像素的相机：每边为 {} 至 {}</translation>
-    </message>
-    <message>
-        <source>a projector of {}x{} pixels is impossible: each side is {} to {}</source>
-        <translation>不可能有 {}x{} 像素的投影机：每边为 {} 至 {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command does not say {}</source>
-        <translation>相机的命令中缺少 {}</translation>
-    </message>
-    <message>
-        <source>the camera&apos;s command is empty</source>
-        <translation>相机的命令为空</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command does not say {}</source>
-        <translation>投影机的命令中缺少 {}</translation>
-    </message>
-    <message>
-        <source>the projector&apos;s command is empty</source>
-        <translation>投影机的命令为空</translation>
-    </message>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>最短曝光必须大于零且不长于最长曝光</translation>
-    </message>
-</context>
-<context>
     <name>Duration</name>
     <message>
         <source>%1 s</source>
@@ -1298,261 +184,6 @@
     </message>
 </context>
 <context>
-    <name>Stage</name>
-    <message>
-        <source>Algorithm 1</source>
-        <translation>算法 1</translation>
-    </message>
-    <message>
-        <source>Assembling the light transport</source>
-        <translation>正在组装光传输</translation>
-    </message>
-    <message>
-        <source>Calibrating</source>
-        <translation>正在校准</translation>
-    </message>
-    <message>
-        <source>Checking that the colours of {} add up</source>
-        <translation>正在检查三色之和：{}</translation>
-    </message>
-    <message>
-        <source>Clustering the light transport</source>
-        <translation>正在对光传输聚类</translation>
-    </message>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>限定大小的簇</translation>
-    </message>
-    <message>
-        <source>Comparing the inverses of clusters in {}</source>
-        <translation>正在比较簇的逆矩阵：{}</translation>
-    </message>
-    <message>
-        <source>Comparing the methods</source>
-        <translation>正在比较各方法</translation>
-    </message>
-    <message>
-        <source>Comparing the methods in {}</source>
-        <translation>正在比较各方法：{}</translation>
-    </message>
-    <message>
-        <source>Compensating</source>
-        <translation>正在补偿</translation>
-    </message>
-    <message>
-        <source>Decoding</source>
-        <translation>正在解码</translation>
-    </message>
-    <message>
-        <source>Estimating response and colours</source>
-        <translation>正在估计响应和颜色</translation>
-    </message>
-    <message>
-        <source>Estimating the light transport</source>
-        <translation>正在估计光传输</translation>
-    </message>
-    <message>
-        <source>Evaluating</source>
-        <translation>正在评估</translation>
-    </message>
-    <message>
-        <source>Finding the defocus</source>
-        <translation>正在测定离焦</translation>
-    </message>
-    <message>
-        <source>Finding the exposure</source>
-        <translation>正在确定曝光</translation>
-    </message>
-    <message>
-        <source>Fitting the spread of light</source>
-        <translation>正在拟合光的扩散</translation>
-    </message>
-    <message>
-        <source>Forming patches</source>
-        <translation>正在划分图块</translation>
-    </message>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>正在限制簇的大小</translation>
-    </message>
-    <message>
-        <source>Inverting the clusters</source>
-        <translation>正在对各簇求逆</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>正在对光传输求逆</translation>
-    </message>
-    <message>
-        <source>Inverting {}</source>
-        <translation>正在求逆：{}</translation>
-    </message>
-    <message>
-        <source>Joining clusters</source>
-        <translation>正在合并簇</translation>
-    </message>
-    <message>
-        <source>Linearizing</source>
-        <translation>正在线性化</translation>
-    </message>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>正在查找阴影</translation>
-    </message>
-    <message>
-        <source>Looking for what cannot be corrected</source>
-        <translation>正在查找无法补偿之处</translation>
-    </message>
-    <message>
-        <source>Measuring the brightness curves of {}</source>
-        <translation>正在测量亮度曲线：{}</translation>
-    </message>
-    <message>
-        <source>Measuring the camera</source>
-        <translation>正在测量相机</translation>
-    </message>
-    <message>
-        <source>Judging the light</source>
-        <translation>正在评估光线</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>正在查找投影机的画面</translation>
-    </message>
-    <message>
-        <source>Measuring the latency</source>
-        <translation>正在测量延迟</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>正在测量光传输</translation>
-    </message>
-    <message>
-        <source>Measuring {}</source>
-        <translation>正在测量：{}</translation>
-    </message>
-    <message>
-        <source>Photographing test patterns</source>
-        <translation>正在拍摄测试图案</translation>
-    </message>
-    <message>
-        <source>Photographing the projections</source>
-        <translation>正在拍摄投影</translation>
-    </message>
-    <message>
-        <source>Predicting held-out patterns</source>
-        <translation>正在预测预留图案</translation>
-    </message>
-    <message>
-        <source>Preparing the benchmarks</source>
-        <translation>正在准备基准测试</translation>
-    </message>
-    <message>
-        <source>Preparing the devices</source>
-        <translation>正在准备设备</translation>
-    </message>
-    <message>
-        <source>Preparing the engine</source>
-        <translation>正在准备引擎</translation>
-    </message>
-    <message>
-        <source>Preparing the venue</source>
-        <translation>正在准备场地</translation>
-    </message>
-    <message>
-        <source>Reading the calibration</source>
-        <translation>正在读取校准数据</translation>
-    </message>
-    <message>
-        <source>Reading the patterns</source>
-        <translation>正在读取图案</translation>
-    </message>
-    <message>
-        <source>Reading the photographs</source>
-        <translation>正在读取照片</translation>
-    </message>
-    <message>
-        <source>Reading the pictures</source>
-        <translation>正在读取图片</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>正在读取：{}</translation>
-    </message>
-    <message>
-        <source>Scaling to the flood image</source>
-        <translation>正在按全亮图像缩放</translation>
-    </message>
-    <message>
-        <source>Separating direct and indirect light</source>
-        <translation>正在分离直接光与间接光</translation>
-    </message>
-    <message>
-        <source>Sharpening</source>
-        <translation>正在锐化</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>正在求解</translation>
-    </message>
-    <message>
-        <source>Timing the engine</source>
-        <translation>正在测试引擎耗时</translation>
-    </message>
-    <message>
-        <source>Windows</source>
-        <translation>窗口</translation>
-    </message>
-    <message>
-        <source>Writing</source>
-        <translation>正在写入</translation>
-    </message>
-    <message>
-        <source>Writing out the light transport</source>
-        <translation>正在展开光传输</translation>
-    </message>
-    <message>
-        <source>Writing the results</source>
-        <translation>正在写入结果</translation>
-    </message>
-    <message>
-        <source>black and full light</source>
-        <translation>黑场和全亮</translation>
-    </message>
-    <message>
-        <source>light transport</source>
-        <translation>光传输</translation>
-    </message>
-    <message>
-        <source>projector {}</source>
-        <translation>投影机 {}</translation>
-    </message>
-    <message>
-        <source>test patterns</source>
-        <translation>测试图案</translation>
-    </message>
-    <message>
-        <source>the projector</source>
-        <translation>投影机</translation>
-    </message>
-    <message>
-        <source>tracing the simulated venue</source>
-        <translation>正在追踪模拟场地的光线</translation>
-    </message>
-    <message numerus="yes">
-        <source>level {} of {}: %n pattern(s)</source>
-        <translation>
-            <numerusform>第 {} 层，共 {} 层：%n 个图案</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>measuring %n flagged pixel(s) again</source>
-        <translation>
-            <numerusform>正在重新测量 %n 个存疑像素</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -1600,6 +231,1741 @@
     <message>
         <source>A venue is being measured</source>
         <translation>正在测量一个场地</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.alarm-skipped</name>
+    <message>
+        <source>put up with before pattern {}: {}</source>
+        <translation>在图案 {} 之前接受：{}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.light-drifted</name>
+    <message>
+        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <translation>从第一张到最后一张照片，光线变化了 {} %。已作修正，但下次请先让投影机预热</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.overexposed</name>
+    <message>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
+        <translation>{} % 的相机像素即使用最短曝光也过曝：请收小相机光圈或允许更短的曝光，然后重新测量</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.pixels-flagged</name>
+    <message>
+        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <translation>{} % 的相机像素在测试图案中看到的与预测不符：请检查是否有东西移动或闪烁。这些像素不参与补偿</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.by-resuming</name>
+    <message>
+        <source>{} by resuming the calibration; {}</source>
+        <translation>{}（通过继续校准来重试）；{}</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.camera-sees-nothing</name>
+    <message>
+        <source>the camera sees nothing at all</source>
+        <translation>相机什么也看不到</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.check-screen</name>
+    <message>
+        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <translation>请确认所选屏幕正确、图像没有被遮挡，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.clear-the-view</name>
+    <message>
+        <source>take away what is in the light or in the view, then retry</source>
+        <translation>请移开光路或画面中的遮挡物，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.lamp-changed</name>
+    <message>
+        <source>the projector&apos;s light changed by {} % within a few photographs</source>
+        <translation>投影机的光在几张照片之内变化了 {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.light-flickers</name>
+    <message>
+        <source>the light flickers: photographs of one pattern differ by {} %</source>
+        <translation>光线闪烁：同一图案的照片相差 {} %</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.moved</name>
+    <message>
+        <source>a camera or projector has moved: the view of camera {} is shifted by {}, {} pixels and turned by {} degrees</source>
+        <translation>相机或投影机移动过：相机 {} 的画面偏移了 {}、{} 像素，旋转了 {} 度</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.picture-mirrored</name>
+    <message>
+        <source>the picture of projector {} appears mirrored</source>
+        <translation>投影机 {} 的图像呈镜像</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.projector-shows-nothing</name>
+    <message>
+        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <translation>投影机没有显示，但仍能看到环境光</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.put-it-back</name>
+    <message>
+        <source>put it back to within half a pixel, then retry</source>
+        <translation>请将其复位到相差不超过半个像素，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.restore-room-light</name>
+    <message>
+        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <translation>请将灯光恢复原状，保持门和窗帘关闭，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-brighter</name>
+    <message>
+        <source>the light of the room became brighter</source>
+        <translation>环境光变亮了</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.room-darker</name>
+    <message>
+        <source>the light of the room became darker</source>
+        <translation>环境光变暗了</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-check</name>
+    <message>
+        <source>every photograph up to the check before is safe</source>
+        <translation>上一次检查之前的照片都是安全的</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.safe-before-light-transport</name>
+    <message>
+        <source>every photograph before the light transport is safe</source>
+        <translation>光传输测量之前的照片都是安全的</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-dimmed-lamps</name>
+    <message>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <translation>请关闭调光灯和荧光灯以及投影机的节能功能，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-eco-modes</name>
+    <message>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <translation>请关闭投影机的自动亮度和节能模式，待其预热后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.switch-off-rear-projection</name>
+    <message>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <translation>请关闭投影机的背投或吊装模式，或允许镜像图像，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.uncover-lens</name>
+    <message>
+        <source>uncover the lens, check that the projector is on, then retry</source>
+        <translation>请移开镜头上的遮挡，确认投影机已打开，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.view-changed</name>
+    <message>
+        <source>{} % of the view of camera {} look different than before</source>
+        <translation>相机 {1} 的画面有 {0} % 与之前不同</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wake-projector</name>
+    <message>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <translation>请唤醒投影机，关闭投影机和屏幕的节能功能，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.wrong-picture</name>
+    <message>
+        <source>projector {} does not show the picture that it is given</source>
+        <translation>投影机 {} 没有显示发送给它的图像</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.calibration-manifest-damaged</name>
+    <message>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>校准数据的清单文件已损坏</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-look-into-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>无法查看文件夹内容（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>无法打开文件夹（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-go</name>
+    <message>
+        <source>check that the folder may be written to, then go on</source>
+        <translation>请确认该文件夹可写入，然后继续</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-folder-may-written-try</name>
+    <message>
+        <source>check that the folder may be written to, then try again</source>
+        <translation>请确认该文件夹可写入，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-path-you-may-read</name>
+    <message>
+        <source>check the path and that you may read it</source>
+        <translation>请检查路径，并确认您有读取权限</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.check-you-may-read-choose</name>
+    <message>
+        <source>check that you may read it, or choose another name</source>
+        <translation>请确认您有读取权限，或换一个名称</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.choose-another-calibration-copy-again</name>
+    <message>
+        <source>choose another calibration, or copy it again from where it was measured</source>
+        <translation>请选择其他校准数据，或从测量处重新复制</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-bytes-instead</name>
+    <message>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>校准数据“{}”的一个文件为 {} 字节，应为 {} 字节</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.file-calibration-missing</name>
+    <message>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>校准数据“{}”缺少一个文件</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.free-some-space-there-check</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>请在该处腾出一些空间或检查磁盘，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.no-calibration-relucent</name>
+    <message>
+        <source>this is no calibration of Relucent</source>
+        <translation>这不是 Relucent 的校准数据</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-moved</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>无法移动照片（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.photograph-cannot-removed</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>无法删除照片（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>check.colour-wheel</name>
+    <message>
+        <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
+        <translation>颜色依次出现，如经过色轮（{1} ms 内 {0} %）：请按整帧曝光（{2} ms 的倍数）。</translation>
+    </message>
+</context>
+<context>
+    <name>check.dithering</name>
+    <message>
+        <source>The projector mixes greys in time, pixel by pixel ({} %): expose several whole frames, and switch its smoothing and 3D modes off.</source>
+        <translation>投影机逐像素按时间混合灰阶（{} %）：请按多个整帧曝光，并关闭其平滑和 3D 模式。</translation>
+    </message>
+</context>
+<context>
+    <name>check.lamp-flickers</name>
+    <message>
+        <source>The lamp flickers within a frame, by {} % in {} ms: expose whole frames, multiples of {} ms.</source>
+        <translation>灯在一帧内闪烁，{1} ms 内变化 {0} %：请按整帧曝光（{2} ms 的倍数）。</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-even</name>
+    <message>
+        <source>The light is even: no flicker, colour wheel, bands or dithering is seen.</source>
+        <translation>光线均匀：未见闪烁、色轮、条纹或抖动。</translation>
+    </message>
+</context>
+<context>
+    <name>check.light-unsteady</name>
+    <message>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <translation>整帧曝光之间光线变化 {} %：请让灯预热，并关闭动态亮度和室内的灯。</translation>
+    </message>
+</context>
+<context>
+    <name>check.no-brief-exposure</name>
+    <message>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <translation>相机无法按不足一帧曝光，或此时看到的太少：无法判断帧内闪烁。</translation>
+    </message>
+</context>
+<context>
+    <name>check.other-screen-seen</name>
+    <message>
+        <source>The camera sees {} and not {}.</source>
+        <translation>相机看到的是 {}，而不是 {}。</translation>
+    </message>
+</context>
+<context>
+    <name>check.picture-out</name>
+    <message numerus="yes">
+        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <translation>
+            <numerusform>图像在发送 {} 帧后显示：等待 {} ms。</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.pictures-late</name>
+    <message numerus="yes">
+        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
+        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <translation>
+            <numerusform>图像晚到 {} 张照片：必须测量延迟并等待。</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>check.rolling-shutter</name>
+    <message>
+        <source>The camera exposes its rows one after the other (rolling shutter): brief exposures have bands of {} %. Expose whole frames, multiples of {} ms.</source>
+        <translation>相机逐行曝光（卷帘快门）：短曝光有 {} % 的条纹。请按整帧曝光（{} ms 的倍数）。</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-mirrored</name>
+    <message>
+        <source>The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in the projector&apos;s menu.</source>
+        <translation>图像呈镜像。如非有意（背投、镜子），请在投影机菜单中关闭镜像。</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-not-seen</name>
+    <message>
+        <source>The camera does not see {}.</source>
+        <translation>相机没有看到 {}。</translation>
+    </message>
+</context>
+<context>
+    <name>check.screen-seen</name>
+    <message>
+        <source>The camera sees {}: {} % of its view follow the test pattern.</source>
+        <translation>相机看到了 {}：画面的 {} % 跟随测试图案。</translation>
+    </message>
+</context>
+<context>
+    <name>check.white-changes</name>
+    <message>
+        <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
+        <translation>各张照片的白场变化 {} %：请按投影机的整帧曝光（{} ms 的倍数），并关闭其动态亮度。</translation>
+    </message>
+</context>
+<context>
+    <name>content.capture-device-gives-no-picture</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>采集设备没有给出图像</translation>
+    </message>
+</context>
+<context>
+    <name>content.live-picture-screen-needs-x</name>
+    <message>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>屏幕的实时画面需要 X 服务器，但没有响应</translation>
+    </message>
+</context>
+<context>
+    <name>content.log-desktop-x-xorg-log</name>
+    <message>
+        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
+        <translation>请登录到 X 桌面（登录时选择“Xorg”），或播放文件</translation>
+    </message>
+</context>
+<context>
+    <name>content.plug-close-other-programs-use</name>
+    <message>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>请接上设备，关闭使用它的其他程序，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>device.aim-projection-take-cap-off</name>
+    <message>
+        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <translation>请将相机对准投影，取下镜头盖，并加长曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.another-program-holds-camera</name>
+    <message>
+        <source>another program holds the camera</source>
+        <translation>另一个程序正在占用相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-less</name>
+    <message>
+        <source>ask for that or less</source>
+        <translation>请指定不大于此的尺寸</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-gives</name>
+    <message>
+        <source>ask for the size that it gives</source>
+        <translation>请指定相机所给出的尺寸</translation>
+    </message>
+</context>
+<context>
+    <name>device.ask-size-v4l2-ctl-list</name>
+    <message>
+        <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
+        <translation>请指定它支持的尺寸：可用 v4l2-ctl --list-formats-ext 列出</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-gain-keeps</name>
+    <message>
+        <source>was asked for a gain of {} and keeps to {}</source>
+        <translation>要求增益 {}，却保持 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.asked-iso-keeps-iso</name>
+    <message>
+        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <translation>要求 ISO {}，却保持 ISO {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.attempts-photograph-failed</name>
+    <message>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>尝试拍摄 {} 次均失败：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-exposure-stays</name>
+    <message>
+        <source>the video device&apos;s automatic exposure cannot be switched off</source>
+        <translation>无法关闭视频设备的自动曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-focus-stays</name>
+    <message>
+        <source>the video device&apos;s automatic focus cannot be switched off</source>
+        <translation>无法关闭视频设备的自动对焦</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-iso</name>
+    <message>
+        <source>the camera chooses its sensitivity itself (automatic ISO)</source>
+        <translation>相机自行选择感光度（自动 ISO）</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-white-balance-stays</name>
+    <message>
+        <source>the video device&apos;s automatic white balance cannot be switched off</source>
+        <translation>无法关闭视频设备的自动白平衡</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-empty</name>
+    <message>
+        <source>the camera&apos;s battery seems to be empty ({} % when it was last asked)</source>
+        <translation>相机的电池似乎已耗尽（上次查询时为 {} %）</translation>
+    </message>
+</context>
+<context>
+    <name>device.battery-low</name>
+    <message>
+        <source>has {} % left in its battery: a measurement needs a full one or a mains adapter</source>
+        <translation>电池剩余 {} %：测量需要充满的电池或电源适配器</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-dslr</name>
+    <message>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>此构建的 Relucent 不支持单反和无反相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.build-relucent-not-know-genicam</name>
+    <message>
+        <source>this build of Relucent does not know GenICam cameras</source>
+        <translation>此构建的 Relucent 不支持 GenICam 相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-expose-s-keeps</name>
+    <message>
+        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <translation>要求相机曝光 {} 秒，但它保持 {} 秒</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asked-photograph-took-none</name>
+    <message>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>已要求相机拍摄，但它没有拍摄</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-asleep</name>
+    <message>
+        <source>the camera is there but does not answer, it may be asleep</source>
+        <translation>相机已连接但没有响应，可能处于休眠状态</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-been-gone-s</name>
+    <message>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>相机已失去连接 {} 秒：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-came-back-pixels-instead</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>重新连接的相机为 {} 像素，应为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-can</name>
+    <message>
+        <source>the camera can do {} to {}</source>
+        <translation>相机支持的范围为 {} 至 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-claims-exposures-s</name>
+    <message>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>相机报告的曝光范围无效（{} 至 {} 秒）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-colour-filter-no-bayer</name>
+    <message>
+        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <translation>相机的滤色片不是拜耳滤色片</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-empty</name>
+    <message>
+        <source>the camera&apos;s command is empty</source>
+        <translation>相机的命令为空</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-command-lacks</name>
+    <message>
+        <source>the camera&apos;s command does not say {}</source>
+        <translation>相机的命令中缺少 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-forgotten-pixel-format-set</name>
+    <message>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>相机丢失了已设定的像素格式</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-found-no-focus-took</name>
+    <message>
+        <source>the camera found no focus and took no photograph ({})</source>
+        <translation>相机未能对焦，没有拍摄照片（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-gone</name>
+    <message>
+        <source>the camera has been unplugged or switched off, or has fallen asleep</source>
+        <translation>相机已断开、关机或进入休眠</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-keeps-s-whatever-exposure</name>
+    <message>
+        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <translation>无论指定多长的曝光，相机都保持 {} 秒</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-longer-answers</name>
+    <message>
+        <source>the camera no longer answers ({}: {})</source>
+        <translation>相机不再响应（{}：{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-no-pixel-format-can</name>
+    <message>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>相机没有可读取的像素格式 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-not-see-what-shown</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>相机看不到 {} 上显示的内容</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refused-what-asked</name>
+    <message>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>相机拒绝了请求（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-refuses</name>
+    <message>
+        <source>the camera refuses ({}: {})</source>
+        <translation>相机拒绝执行（{}：{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-no-difference-between</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>相机看不出白与黑的差别</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sees-not</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>相机看到的是 {}，而不是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-sends-no-stream</name>
+    <message>
+        <source>the camera sends no stream</source>
+        <translation>相机没有发送数据流</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-stays-busy</name>
+    <message>
+        <source>the camera stays busy</source>
+        <translation>相机一直处于忙碌状态</translation>
+    </message>
+</context>
+<context>
+    <name>device.cameras-model-plugged</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>接上了 {} 台此型号的相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-create-temporary-folder</name>
+    <message>
+        <source>cannot create a temporary folder ({})</source>
+        <translation>无法创建临时文件夹（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-remove-file</name>
+    <message>
+        <source>cannot remove the file ({})</source>
+        <translation>无法删除文件（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-switched-off</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>无法关闭 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.card-full</name>
+    <message>
+        <source>the camera has no room left for a photograph: its memory card is full</source>
+        <translation>相机没有空间存放照片：存储卡已满</translation>
+    </message>
+</context>
+<context>
+    <name>device.change-empty-memory-card</name>
+    <message>
+        <source>change or empty the memory card</source>
+        <translation>请更换或清空存储卡</translation>
+    </message>
+</context>
+<context>
+    <name>device.charge-change-battery-best-use</name>
+    <message>
+        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <translation>请充电或更换电池（最好使用电源适配器），然后重新打开相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power</name>
+    <message>
+        <source>check its cable and its power</source>
+        <translation>请检查线缆和电源</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-power-address-relucent</name>
+    <message>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>请检查线缆、电源和地址；`relucent-cli devices` 可列出现有设备</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-saving-energy</name>
+    <message>
+        <source>check its cable, and switch its saving of energy off</source>
+        <translation>请检查线缆，并关闭其节能功能</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-cable-switch-switch-automatic</name>
+    <message>
+        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <translation>请检查线缆，打开相机，并关闭其自动关机功能</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-cable-network-card</name>
+    <message>
+        <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
+        <translation>请检查相机的线缆和网卡，并确认没有其他程序在使用相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-camera-view-steady-exposure</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>请确认相机画面稳定、曝光够短，并关闭投影机的运动平滑</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-device-allow-command-more</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>请检查设备，或给该命令更多时间：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-shows-output-aim</name>
+    <message>
+        <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
+        <translation>请确认投影机已打开并显示该输出，将相机对准它，取下镜头盖；或选择其他屏幕</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-aim-camera</name>
+    <message>
+        <source>choose {}, or aim the camera at {}</source>
+        <translation>请选择 {}，或将相机对准 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-s-but-keeps</name>
+    <message>
+        <source>claims exposures from {} s but keeps to {} s</source>
+        <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.claims-exposures-up-s-but</name>
+    <message>
+        <source>claims exposures up to {} s but keeps to {} s</source>
+        <translation>声称曝光可长至 {} s，实际只到 {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-playback-end-live</name>
+    <message>
+        <source>close its menus and its playback, and end its live picture</source>
+        <translation>请关闭相机的菜单和回放，并退出实时取景</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-menus-switch-off</name>
+    <message>
+        <source>close its menus, and switch it off and on</source>
+        <translation>请关闭相机的菜单，再关机并重新开机</translation>
+    </message>
+</context>
+<context>
+    <name>device.close-other-programs-try-again</name>
+    <message>
+        <source>close other programs and try again</source>
+        <translation>请关闭其他程序，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-cannot-started</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>无法启动命令（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed</name>
+    <message>
+        <source>the command failed with status {}</source>
+        <translation>命令失败，退出状态为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-failed-saying</name>
+    <message>
+        <source>the command failed with status {}, saying &quot;{}&quot;</source>
+        <translation>命令失败，退出状态为 {}，输出：“{}”</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed</name>
+    <message>
+        <source>the command was killed by signal {}</source>
+        <translation>命令被信号 {} 终止</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-killed-saying</name>
+    <message>
+        <source>the command was killed by signal {}, saying &quot;{}&quot;</source>
+        <translation>命令被信号 {} 终止，输出：“{}”</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long</name>
+    <message>
+        <source>the command took longer than {} s</source>
+        <translation>命令耗时超过 {} 秒</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-too-long-saying</name>
+    <message>
+        <source>the command took longer than {} s, saying &quot;{}&quot;</source>
+        <translation>命令耗时超过 {} 秒，输出：“{}”</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-nothing</name>
+    <message>
+        <source>the command ended well but wrote nothing, not {}</source>
+        <translation>命令正常结束，但没有写入任何内容，应写入 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.command-wrote-something-else</name>
+    <message>
+        <source>the command ended well but wrote {}, not {}</source>
+        <translation>命令正常结束，但写入的是 {}，而不是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.connect-camera-measurement-begun</name>
+    <message>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>请连接开始测量时所用的相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.copy-again-take-photograph-again</name>
+    <message>
+        <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
+        <translation>请重新复制或重新拍摄；相机若比此 LibRaw 更新，则需使用 DNG 文件</translation>
+    </message>
+</context>
+<context>
+    <name>device.delivers-8-bits-dark-places</name>
+    <message>
+        <source>delivers 8 bits: dark places stay uncertain</source>
+        <translation>输出 8 位：暗处仍不确定</translation>
+    </message>
+</context>
+<context>
+    <name>device.develop-files-linearly-16-bit</name>
+    <message>
+        <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
+        <translation>请将文件线性转换为 16 位 TIFF，或换用其他相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-cannot-be-set</name>
+    <message>
+        <source>the camera&apos;s exposure time cannot be set</source>
+        <translation>无法设置相机的曝光时间</translation>
+    </message>
+</context>
+<context>
+    <name>device.focuses-by-itself</name>
+    <message>
+        <source>focuses by itself: switch its lens to manual focus</source>
+        <translation>自动对焦：请把镜头切换到手动对焦</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-record-elsewhere</name>
+    <message>
+        <source>free some space, or record elsewhere</source>
+        <translation>请腾出一些空间，或记录到别处</translation>
+    </message>
+</context>
+<context>
+    <name>device.free-some-space-there-let</name>
+    <message>
+        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <translation>请在该处腾出一些空间，或将 TMPDIR 设为您可写入的文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>device.gain-wanted</name>
+    <message>
+        <source>a gain of {} is wanted</source>
+        <translation>指定的增益为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.genicam-missing</name>
+    <message>
+        <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
+        <translation>GigE Vision 和 USB3 Vision 相机：此版本缺少 Aravis；请安装 libaravis-dev 后重新构建</translation>
+    </message>
+</context>
+<context>
+    <name>device.gphoto-missing</name>
+    <message>
+        <source>DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev and libraw-dev and build again</source>
+        <translation>单反和无反相机：此版本缺少 libgphoto2 或 LibRaw；请安装 libgphoto2-dev 和 libraw-dev 后重新构建</translation>
+    </message>
+</context>
+<context>
+    <name>device.held-by-desktop</name>
+    <message>
+        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <translation>另一个程序正在占用相机，通常是桌面将其当作 U 盘挂载了</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-camera</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>不可能有 {} 像素的相机：每边为 {} 至 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.impossible-projector</name>
+    <message>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>不可能有 {} 像素的投影机：每边为 {} 至 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-aravis-libaravis-dev-build</name>
+    <message>
+        <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
+        <translation>请安装 Aravis（libaravis-dev）并重新编译，或使用其他类型的相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <message>
+        <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
+        <translation>请安装 libgphoto2 和 LibRaw（libgphoto2-dev、libraw-dev）并重新编译，或使用命令</translation>
+    </message>
+</context>
+<context>
+    <name>device.iso-wanted-not-there</name>
+    <message>
+        <source>ISO {} is wanted and the camera does not have it</source>
+        <translation>指定了 ISO {}，但相机没有该值</translation>
+    </message>
+</context>
+<context>
+    <name>device.it-has</name>
+    <message>
+        <source>it has {}</source>
+        <translation>可选值为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-command-write-size-begin</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>请让命令写入该尺寸，或按相机给出的尺寸重新开始</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-desktop-go-gio-mount</name>
+    <message>
+        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <translation>请用 `gio mount -s gphoto2` 让桌面释放相机（或在文件管理器中弹出），并关闭照片程序</translation>
+    </message>
+</context>
+<context>
+    <name>device.let-write-photograph-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>请让命令将照片写入 {output}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-fire-flash</name>
+    <message>
+        <source>may fire its flash: close it</source>
+        <translation>可能触发闪光灯：请将其收起</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-dark-frame</name>
+    <message>
+        <source>may take a dark frame after long exposures, which doubles their time</source>
+        <translation>长曝光后可能再拍一张暗场，时间会加倍</translation>
+    </message>
+</context>
+<context>
+    <name>device.may-take-several-photographs</name>
+    <message>
+        <source>may take several photographs at once: switch it to single shots</source>
+        <translation>可能一次拍多张：请切换到单张拍摄</translation>
+    </message>
+</context>
+<context>
+    <name>device.mode-dial-not-manual</name>
+    <message>
+        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <translation>相机的模式转盘处于 {}，此时曝光由相机自行选择</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-gphoto2</name>
+    <message>
+        <source>name that one: gphoto2:{}</source>
+        <translation>请指定该相机：gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <message>
+        <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
+        <translation>请用端口指定其中一台：gphoto2:{} 或 gphoto2:{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.new-picture-not-fully-there</name>
+    <message>
+        <source>a new picture is not fully there after {} frames</source>
+        <translation>新图像在 {} 帧后仍未完全显示</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-camera-name-plugged-but</name>
+    <message>
+        <source>no camera of this name is plugged in, but {}</source>
+        <translation>没有接上此名称的相机，接上的是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-genicam-camera-answers</name>
+    <message>
+        <source>no GenICam camera &apos;{}&apos; answers</source>
+        <translation>GenICam 相机“{}”没有响应</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-photograph-came-within</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>{} 秒内没有收到照片</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-file-sent</name>
+    <message>
+        <source>the camera sent {} and no raw file</source>
+        <translation>相机发送的是 {}，没有 RAW 文件</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-raw-files</name>
+    <message>
+        <source>the camera does not deliver raw files</source>
+        <translation>相机不输出 RAW 文件</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-software-trigger-each-photograph</name>
+    <message>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>没有软件触发：每张照片可能多等一次曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-such-video-device-plugged</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>没有接上这样的视频设备</translation>
+    </message>
+</context>
+<context>
+    <name>device.none-camera-pixel-formats-can</name>
+    <message>
+        <source>none of the camera&apos;s pixel formats can be read</source>
+        <translation>相机的像素格式均无法读取</translation>
+    </message>
+</context>
+<context>
+    <name>device.not-say-when-pictures-captured</name>
+    <message>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>不说明图像何时拍摄：每次拍照前会丢弃几张</translation>
+    </message>
+</context>
+<context>
+    <name>device.parts-lost-on-the-way</name>
+    <message>
+        <source>parts of the photograph were lost on the way</source>
+        <translation>照片的一部分在传输中丢失</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-asked-none-came</name>
+    <message>
+        <source>a photograph was asked for and none came</source>
+        <translation>已要求拍摄，但没有收到照片</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-larger-than-announced</name>
+    <message>
+        <source>the photograph is larger than the camera announced</source>
+        <translation>照片比相机事先告知的更大</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-not-finished</name>
+    <message>
+        <source>the photograph was not finished</source>
+        <translation>照片没有完成</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-agreed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>照片为 {} 像素（{}），与约定的 {}（{}）不符</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-announced</name>
+    <message>
+        <source>the photograph has {} pixels where {} were announced</source>
+        <translation>照片为 {} 像素，与事先告知的 {} 不符</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-pixels-came-bytes</name>
+    <message>
+        <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
+        <translation>一张 {} 像素（{}）的照片只收到 {} 字节，应为 {} 字节</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>指定了 {} 像素，但相机有 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-camera-gives</name>
+    <message>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>指定了 {} 像素，但相机给出的是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.pixels-wanted-video-device-gives</name>
+    <message>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>指定了 {} 像素，但视频设备给出的是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.press-shutter-button-half-way</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <translation>请半按快门按钮，或关机并重新开机，并关闭其自动关机功能</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-empty</name>
+    <message>
+        <source>the projector&apos;s command is empty</source>
+        <translation>投影机的命令为空</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-command-lacks</name>
+    <message>
+        <source>the projector&apos;s command does not say {}</source>
+        <translation>投影机的命令中缺少 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.projector-screen-loses-picture-again</name>
+    <message>
+        <source>the projector&apos;s screen loses its picture again and again</source>
+        <translation>投影机的屏幕一再丢失图像</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-cannot-read</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>无法读取 RAW 文件（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-empty</name>
+    <message>
+        <source>it is empty</source>
+        <translation>文件是空的</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-incomplete</name>
+    <message>
+        <source>parts of it are missing</source>
+        <translation>文件有部分缺失</translation>
+    </message>
+</context>
+<context>
+    <name>device.raw-file-not-hold-sensor</name>
+    <message>
+        <source>the raw file does not hold the sensor&apos;s own values</source>
+        <translation>RAW 文件中没有传感器的原始数值</translation>
+    </message>
+</context>
+<context>
+    <name>device.recording-cannot-written</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>无法写入记录（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.remove-hand-try-again</name>
+    <message>
+        <source>remove it by hand, then try again</source>
+        <translation>请手动删除，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>device.run-terminal-find-out-why</name>
+    <message>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>请在终端中运行以查明原因：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours-brightness-can</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>看不到颜色：可以补偿亮度，不能补偿颜色</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-exposure-mode-timed-manual</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>请将其曝光模式设为 Timed（手动），或更新其固件</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>请手动将相机设为 ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-must-above-zero</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>最短曝光必须大于零且不长于最长曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-frame-rate</name>
+    <message>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>请关闭相机的自动曝光和帧率限制</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-automatic-exposure-off-camera</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>请关闭相机的自动曝光；没有手动曝光的相机无法使用</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>请将相机切换为全尺寸 RAW（不要用 sRAW、mRAW 或线性 DNG）</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-camera-off-choose-another</name>
+    <message>
+        <source>switch the camera off and on, or choose another of its pixel formats</source>
+        <translation>请将相机关机并重新开机，或选择它的其他像素格式</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>请将镜头切换到手动对焦</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-lens-manual-focus-close</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>请将镜头切换到手动对焦，关闭相机的菜单，并手动拍一张照片，查看相机提示什么问题</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-camera-maker-program</name>
+    <message>
+        <source>switch it off with the camera maker&apos;s program, or use another camera</source>
+        <translation>请用相机厂商的程序将其关闭，或换用其他相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-load-default-settings</name>
+    <message>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>请将其关机并重新开机，用厂商的程序载入默认设置，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-v4l2-ctl-list</name>
+    <message>
+        <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
+        <translation>请用 v4l2-ctl 将其关闭（--list-ctrls 可列出其控制项），或换用其他相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-quality-to-raw</name>
+    <message>
+        <source>switch its picture quality to RAW by hand; a camera without RAW cannot be used</source>
+        <translation>请手动将相机的画质切换为 RAW；没有 RAW 的相机无法使用</translation>
+    </message>
+</context>
+<context>
+    <name>device.switches-itself-off</name>
+    <message>
+        <source>switches itself off after a while: switch that off</source>
+        <translation>一段时间后会自动关机：请关闭该功能</translation>
+    </message>
+</context>
+<context>
+    <name>device.then-go-on</name>
+    <message>
+        <source>{}, then go on: every photograph so far is kept</source>
+        <translation>{}，然后继续：目前为止的照片都已保留</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m</name>
+    <message>
+        <source>turn it to M</source>
+        <translation>请将转盘转到 M</translation>
+    </message>
+</context>
+<context>
+    <name>device.turn-dial-to-m-or-another-camera</name>
+    <message>
+        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <translation>请将相机的模式转盘转到 M；没有 M 的相机无法使用</translation>
+    </message>
+</context>
+<context>
+    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <message>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>相机的格式为 {}；可读取的是 8 至 16 位的非打包 Mono、Bayer 和 RGB</translation>
+    </message>
+</context>
+<context>
+    <name>device.use-camera-manual-exposure</name>
+    <message>
+        <source>use a camera with manual exposure</source>
+        <translation>请使用有手动曝光的相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device</name>
+    <message>
+        <source>video device</source>
+        <translation>视频设备</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-been-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>视频设备已断开</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-again</name>
+    <message>
+        <source>the video device cannot be opened again</source>
+        <translation>无法重新打开视频设备</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-cannot-opened-another</name>
+    <message>
+        <source>the video device cannot be opened: another program may be using it</source>
+        <translation>无法打开视频设备：可能有其他程序正在使用它</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-no-exposure-can</name>
+    <message>
+        <source>the video device has no exposure that can be set</source>
+        <translation>视频设备没有可设置的曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-sends-no-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>视频设备没有发送图像</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-create-folder</name>
+    <message>
+        <source>cannot create the folder ({})</source>
+        <translation>无法创建文件夹（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-open</name>
+    <message>
+        <source>cannot open ({})</source>
+        <translation>无法打开（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-read</name>
+    <message>
+        <source>cannot read ({})</source>
+        <translation>无法读取（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.cannot-write</name>
+    <message>
+        <source>cannot write ({})</source>
+        <translation>无法写入（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-disk-and-cable</name>
+    <message>
+        <source>check the disk and its cable</source>
+        <translation>请检查磁盘及其线缆</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path</name>
+    <message>
+        <source>check the path</source>
+        <translation>请检查路径</translation>
+    </message>
+</context>
+<context>
+    <name>disk.check-path-and-disk</name>
+    <message>
+        <source>check the path and the disk</source>
+        <translation>请检查路径和磁盘</translation>
+    </message>
+</context>
+<context>
+    <name>disk.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, or ask for the permission</source>
+        <translation>请选择您可写入的文件夹，或申请权限</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-space-or-choose-another</name>
+    <message>
+        <source>free some space there or choose another disk, then try again</source>
+        <translation>请在该处腾出一些空间或选择其他磁盘，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-cannot-used</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>无法使用显卡</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>显卡已失去响应</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-no-mb-memory</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>显卡没有 {} MB 的剩余显存</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-reaches-mb-once</name>
+    <message>
+        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <translation>显卡一次只能访问 {} MB，而需要 {} MB</translation>
+    </message>
+</context>
+<context>
+    <name>engine.install-driver</name>
+    <message>
+        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <translation>请安装显卡驱动程序，或改用 CPU 处理</translation>
+    </message>
+</context>
+<context>
+    <name>engine.let-processor-do-work</name>
+    <message>
+        <source>let the processor do the work</source>
+        <translation>请改用 CPU 处理</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-graphics-card-opengl</name>
+    <message>
+        <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
+        <translation>没有支持 OpenGL 4.3 和计算着色器的显卡</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-libegl-no-libopengl</name>
+    <message>
+        <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
+        <translation>缺少 libEGL 或 libOpenGL，没有显示器时需要用它们打开显卡</translation>
+    </message>
+</context>
+<context>
+    <name>engine.there-no-opengl-4-3</name>
+    <message>
+        <source>there is no OpenGL 4.3 with compute shaders</source>
+        <translation>没有支持计算着色器的 OpenGL 4.3</translation>
+    </message>
+</context>
+<context>
+    <name>import.camera-taken-as-linear</name>
+    <message>
+        <source>The camera is taken to be linear, and one photograph counts as one second of exposure</source>
+        <translation>相机按线性处理，一张照片按一秒曝光计</translation>
+    </message>
+</context>
+<context>
+    <name>import.lit-share</name>
+    <message>
+        <source>The projector lights {} % of the camera&apos;s pixels</source>
+        <translation>投影机照亮了 {} % 的相机像素</translation>
+    </message>
+</context>
+<context>
+    <name>import.paired-by-time</name>
+    <message>
+        <source>The photographs were paired with the patterns in the order in which they were taken, from {} to {}, which is not that of their names</source>
+        <translation>照片按拍摄顺序（{} 至 {}）与图案配对，该顺序与文件名顺序不同</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-and-photographs-grey</name>
+    <message>
+        <source>Patterns and photographs are grey: colours are not told apart, and T&apos;s blocks are neutral</source>
+        <translation>图案和照片均为灰度：不区分颜色，T 的各块为中性</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-black-and-white</name>
+    <message>
+        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <translation>图案只含黑白：投影机响应按 2.2 次幂处理</translation>
+    </message>
+</context>
+<context>
+    <name>import.patterns-grey</name>
+    <message>
+        <source>The patterns are grey: how colours mix was not measured, and T&apos;s blocks are diagonal</source>
+        <translation>图案为灰度：未测量颜色如何混合，T 的各块为对角块</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-are-jpeg</name>
+    <message>
+        <source>The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only roughly; develop them linearly, as TIFF or EXR, to measure more exactly</source>
+        <translation>照片为 JPEG：已按 sRGB 曲线线性化，而相机只是大致遵循该曲线。请以线性方式冲洗为 TIFF 或 EXR，以便更精确地测量</translation>
+    </message>
+</context>
+<context>
+    <name>import.photographs-grey</name>
+    <message>
+        <source>The photographs are grey: what each of the projector&apos;s colours contributes is known in brightness only</source>
+        <translation>照片为灰度：投影机各颜色的贡献只知其亮度</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.cameras-no-exposure-time-common</name>
+    <message>
+        <source>the cameras have no exposure time in common</source>
+        <translation>各相机没有共同的曝光时间</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-brighter-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % brighter than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}：一幅图像的两半之和比整幅亮 {} %。请关闭动态光圈、动态对比度以及任何随内容变化的图像模式</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.halves-darker-than-whole</name>
+    <message>
+        <source>{}: two halves of a picture are {} % darker than the whole; switch off the dynamic iris, dynamic contrast and any picture mode that adapts to the content</source>
+        <translation>{}：一幅图像的两半之和比整幅暗 {} %。请关闭动态光圈、动态对比度以及任何随内容变化的图像模式</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.highlights-overexposed</name>
+    <message>
+        <source>{}: some highlights are overexposed even at {} s, the shortest exposure, and will not be compensated; close the aperture or add a grey filter if they matter</source>
+        <translation>{}：即使用最短曝光 {} s，部分高光仍然过曝，将不予补偿。如果它们重要，请收小光圈或加装灰镜</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.light-flickers</name>
+    <message>
+        <source>{}: the light changes by {} % from one photograph to the next; switch off the projector&apos;s dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of the mains period</source>
+        <translation>{}：光线在相邻照片之间变化 {} %。请关闭投影机的动态灯光模式和附近的其他灯，并选择为市电周期整数倍的曝光时间</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.overexposed</name>
+    <message>
+        <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
+        <translation>{}：即使用最短曝光 {} s，投影仍然过曝。请收小光圈、降低增益或加装灰镜</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.set-them-ranges-exposure-times</name>
+    <message>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>请将各相机的曝光时间设为相互重叠的范围</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.underexposed</name>
+    <message>
+        <source>{}: the projection reaches only {} % of the camera&apos;s range at {} s, the longest exposure; open the aperture or raise the gain</source>
+        <translation>{0}：用最长曝光 {2} s，投影也只达到相机量程的 {1} %。请开大光圈或提高增益</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-brighter-than-colours</name>
+    <message>
+        <source>{}: white is {} % brighter than red, green and blue together; switch off the white segment (often called brilliant colour or bright mode) and choose a picture mode for video or sRGB</source>
+        <translation>{}：白色比红、绿、蓝之和亮 {} %。请关闭白色段（常称为“极致色彩”或“明亮模式”），并选择视频或 sRGB 图像模式</translation>
+    </message>
+</context>
+<context>
+    <name>linearization.white-darker-than-colours</name>
+    <message>
+        <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
+        <translation>{}：白色比红、绿、蓝之和暗 {} %。请关闭节能、色彩管理和动态图像模式</translation>
     </message>
 </context>
 <context>
@@ -1717,18 +2083,6 @@
     <message>
         <source>Colours</source>
         <translation>颜色</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>正在打开设备</translation>
-    </message>
-    <message>
-        <source>Reading the response</source>
-        <translation>正在读取响应</translation>
-    </message>
-    <message>
-        <source>Measuring the light transport</source>
-        <translation>正在测量光传输</translation>
     </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
@@ -2264,18 +2618,6 @@
     <message>
         <source>Focus area</source>
         <translation>对焦区域</translation>
-    </message>
-    <message>
-        <source>Checking projector and camera</source>
-        <translation>正在检查投影机和相机</translation>
-    </message>
-    <message>
-        <source>Finding the exposures</source>
-        <translation>正在确定曝光</translation>
-    </message>
-    <message>
-        <source>Looking through the camera</source>
-        <translation>正在查看相机画面</translation>
     </message>
     <message>
         <source>Nothing is measured at this step, so nothing is lost.</source>
@@ -2838,14 +3180,6 @@
     <message>
         <source>Nothing was changed.</source>
         <translation>没有任何更改。</translation>
-    </message>
-    <message>
-        <source>Opening the devices</source>
-        <translation>正在打开设备</translation>
-    </message>
-    <message>
-        <source>Measuring the response</source>
-        <translation>正在测量响应</translation>
     </message>
     <message>
         <source>Try again</source>
@@ -3505,10 +3839,6 @@ projector %2</source>
 <context>
     <name>relucent::OutputProjection</name>
     <message>
-        <source>Preparing the engine</source>
-        <translation>正在准备引擎</translation>
-    </message>
-    <message>
         <source>Open the output again.</source>
         <translation>请重新打开输出。</translation>
     </message>
@@ -3519,25 +3849,6 @@ projector %2</source>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1，不用 OpenGL 显示</translation>
-    </message>
-</context>
-<context>
-    <name>relucent::OutputProof</name>
-    <message>
-        <source>Opening the devices</source>
-        <translation>正在打开设备</translation>
-    </message>
-    <message>
-        <source>Taking the verification photograph</source>
-        <translation>正在拍摄验证照片</translation>
-    </message>
-    <message>
-        <source>Checking for drift</source>
-        <translation>正在检查漂移</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>正在写入报告</translation>
     </message>
 </context>
 <context>
@@ -3660,14 +3971,6 @@ projector %2</source>
     <message>
         <source>The picture of before stays.</source>
         <translation>保留之前的图片。</translation>
-    </message>
-    <message>
-        <source>Reading the light transport</source>
-        <translation>正在读取光传输</translation>
-    </message>
-    <message>
-        <source>Inverting the light transport</source>
-        <translation>正在对光传输求逆</translation>
     </message>
     <message>
         <source>Preparing the preview</source>
@@ -4693,6 +4996,642 @@ projector %2</source>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>要使用此视图，请安装显卡驱动并重新启动 Relucent。</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>请腾出一些空间</translation>
+    </message>
+</context>
+<context>
+    <name>report.report-cannot-written</name>
+    <message>
+        <source>the report cannot be written</source>
+        <translation>无法写入报告</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.ended</name>
+    <message>
+        <source>{}.</source>
+        <translation>{}。</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.explained</name>
+    <message>
+        <source>{} ({})</source>
+        <translation>{}（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.of-place</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>sentence.with-advice</name>
+    <message>
+        <source>{}; {}</source>
+        <translation>{}。{}</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-removed</name>
+    <message>
+        <source>it cannot be removed ({})</source>
+        <translation>无法删除（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.check-folder-permissions</name>
+    <message>
+        <source>check the folder&apos;s permissions</source>
+        <translation>请检查该文件夹的权限</translation>
+    </message>
+</context>
+<context>
+    <name>show.choose-another-folder-log</name>
+    <message>
+        <source>choose another folder with --log</source>
+        <translation>请用 --log 指定其他文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>show.engine-lost-device</name>
+    <message>
+        <source>the engine lost its device</source>
+        <translation>引擎失去了它使用的设备</translation>
+    </message>
+</context>
+<context>
+    <name>show.log-cannot-written</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>无法写入日志（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-asleep-not-wake</name>
+    <message>
+        <source>the projector&apos;s screen is asleep and does not wake</source>
+        <translation>投影机的屏幕处于休眠状态，无法唤醒</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-screen-pixels-now-calibrated</name>
+    <message>
+        <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
+        <translation>投影机的屏幕现在为 {} 像素，校准时为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>show.service-cannot-switched</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>无法启用服务（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.set-resolution-back-desktop-settings</name>
+    <message>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>请在桌面设置中恢复其分辨率，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>show.start-show-again</name>
+    <message>
+        <source>start the show again</source>
+        <translation>请重新启动节目</translation>
+    </message>
+</context>
+<context>
+    <name>show.switch-saving-energy-screen-saver</name>
+    <message>
+        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <translation>请在桌面设置中关闭节能功能和屏幕保护程序，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>stage.algorithm-1</name>
+    <message>
+        <source>Algorithm 1</source>
+        <translation>算法 1</translation>
+    </message>
+</context>
+<context>
+    <name>stage.assembling-light-transport</name>
+    <message>
+        <source>Assembling the light transport</source>
+        <translation>正在组装光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.black-full-light</name>
+    <message>
+        <source>black and full light</source>
+        <translation>黑场和全亮</translation>
+    </message>
+</context>
+<context>
+    <name>stage.calibrating</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>正在校准</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-additivity</name>
+    <message>
+        <source>Checking that the colours of {} add up</source>
+        <translation>正在检查三色之和：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-drift</name>
+    <message>
+        <source>Checking for drift</source>
+        <translation>正在检查漂移</translation>
+    </message>
+</context>
+<context>
+    <name>stage.checking-projector-camera</name>
+    <message>
+        <source>Checking projector and camera</source>
+        <translation>正在检查投影机和相机</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clustering-light-transport</name>
+    <message>
+        <source>Clustering the light transport</source>
+        <translation>正在对光传输聚类</translation>
+    </message>
+</context>
+<context>
+    <name>stage.clusters-held-size</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>限定大小的簇</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-cluster-inverses-in-venue</name>
+    <message>
+        <source>Comparing the inverses of clusters in {}</source>
+        <translation>正在比较簇的逆矩阵：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods</name>
+    <message>
+        <source>Comparing the methods</source>
+        <translation>正在比较各方法</translation>
+    </message>
+</context>
+<context>
+    <name>stage.comparing-methods-in-venue</name>
+    <message>
+        <source>Comparing the methods in {}</source>
+        <translation>正在比较各方法：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.compensating</name>
+    <message>
+        <source>Compensating</source>
+        <translation>正在补偿</translation>
+    </message>
+</context>
+<context>
+    <name>stage.decoding</name>
+    <message>
+        <source>Decoding</source>
+        <translation>正在解码</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-light-transport</name>
+    <message>
+        <source>Estimating the light transport</source>
+        <translation>正在估计光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.estimating-response-colours</name>
+    <message>
+        <source>Estimating response and colours</source>
+        <translation>正在估计响应和颜色</translation>
+    </message>
+</context>
+<context>
+    <name>stage.evaluating</name>
+    <message>
+        <source>Evaluating</source>
+        <translation>正在评估</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-defocus</name>
+    <message>
+        <source>Finding the defocus</source>
+        <translation>正在测定离焦</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposure</name>
+    <message>
+        <source>Finding the exposure</source>
+        <translation>正在确定曝光</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-exposures</name>
+    <message>
+        <source>Finding the exposures</source>
+        <translation>正在确定曝光</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-uncorrectable-pixels</name>
+    <message>
+        <source>Looking for what cannot be corrected</source>
+        <translation>正在查找无法补偿之处</translation>
+    </message>
+</context>
+<context>
+    <name>stage.fitting-spread-light</name>
+    <message>
+        <source>Fitting the spread of light</source>
+        <translation>正在拟合光的扩散</translation>
+    </message>
+</context>
+<context>
+    <name>stage.forming-patches</name>
+    <message>
+        <source>Forming patches</source>
+        <translation>正在划分图块</translation>
+    </message>
+</context>
+<context>
+    <name>stage.holding-clusters-size</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>正在限制簇的大小</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-clusters</name>
+    <message>
+        <source>Inverting the clusters</source>
+        <translation>正在对各簇求逆</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-light-transport</name>
+    <message>
+        <source>Inverting the light transport</source>
+        <translation>正在对光传输求逆</translation>
+    </message>
+</context>
+<context>
+    <name>stage.inverting-venue</name>
+    <message>
+        <source>Inverting {}</source>
+        <translation>正在求逆：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.joining-clusters</name>
+    <message>
+        <source>Joining clusters</source>
+        <translation>正在合并簇</translation>
+    </message>
+</context>
+<context>
+    <name>stage.judging-light</name>
+    <message>
+        <source>Judging the light</source>
+        <translation>正在评估光线</translation>
+    </message>
+</context>
+<context>
+    <name>stage.level-of-tree</name>
+    <message numerus="yes">
+        <source>level {} of {}: {} patterns</source>
+        <comment>level {} of {}: {} pattern</comment>
+        <translation>
+            <numerusform>第 {} 层，共 {} 层：{} 个图案</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.light-transport</name>
+    <message>
+        <source>light transport</source>
+        <translation>光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.linearizing</name>
+    <message>
+        <source>Linearizing</source>
+        <translation>正在线性化</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>正在查找投影机的画面</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>正在查找阴影</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-through-camera</name>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>正在查看相机画面</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-brightness-curves</name>
+    <message>
+        <source>Measuring the brightness curves of {}</source>
+        <translation>正在测量亮度曲线：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-camera</name>
+    <message>
+        <source>Measuring the camera</source>
+        <translation>正在测量相机</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-flagged-pixels-again</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>正在重新测量 {} 个存疑像素</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-latency</name>
+    <message>
+        <source>Measuring the latency</source>
+        <translation>正在测量延迟</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-light-transport</name>
+    <message>
+        <source>Measuring the light transport</source>
+        <translation>正在测量光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-response</name>
+    <message>
+        <source>Measuring the response</source>
+        <translation>正在测量响应</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-venue</name>
+    <message>
+        <source>Measuring {}</source>
+        <translation>正在测量：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.opening-devices</name>
+    <message>
+        <source>Opening the devices</source>
+        <translation>正在打开设备</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-projections</name>
+    <message>
+        <source>Photographing the projections</source>
+        <translation>正在拍摄投影</translation>
+    </message>
+</context>
+<context>
+    <name>stage.photographing-test-patterns</name>
+    <message>
+        <source>Photographing test patterns</source>
+        <translation>正在拍摄测试图案</translation>
+    </message>
+</context>
+<context>
+    <name>stage.predicting-held-out-patterns</name>
+    <message>
+        <source>Predicting held-out patterns</source>
+        <translation>正在预测预留图案</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-benchmarks</name>
+    <message>
+        <source>Preparing the benchmarks</source>
+        <translation>正在准备基准测试</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-devices</name>
+    <message>
+        <source>Preparing the devices</source>
+        <translation>正在准备设备</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-engine</name>
+    <message>
+        <source>Preparing the engine</source>
+        <translation>正在准备引擎</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-preview</name>
+    <message>
+        <source>Preparing the preview</source>
+        <translation>正在准备预览</translation>
+    </message>
+</context>
+<context>
+    <name>stage.preparing-venue</name>
+    <message>
+        <source>Preparing the venue</source>
+        <translation>正在准备场地</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-calibration</name>
+    <message>
+        <source>Reading the calibration</source>
+        <translation>正在读取校准数据</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-light-transport</name>
+    <message>
+        <source>Reading the light transport</source>
+        <translation>正在读取光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-patterns</name>
+    <message>
+        <source>Reading the patterns</source>
+        <translation>正在读取图案</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-photographs</name>
+    <message>
+        <source>Reading the photographs</source>
+        <translation>正在读取照片</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-pictures</name>
+    <message>
+        <source>Reading the pictures</source>
+        <translation>正在读取图片</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-response</name>
+    <message>
+        <source>Reading the response</source>
+        <translation>正在读取响应</translation>
+    </message>
+</context>
+<context>
+    <name>stage.reading-venue</name>
+    <message>
+        <source>Reading {}</source>
+        <translation>正在读取：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.scaling-to-flood-image</name>
+    <message>
+        <source>Scaling to the flood image</source>
+        <translation>正在按全亮图像缩放</translation>
+    </message>
+</context>
+<context>
+    <name>stage.separating-direct-indirect-light</name>
+    <message>
+        <source>Separating direct and indirect light</source>
+        <translation>正在分离直接光与间接光</translation>
+    </message>
+</context>
+<context>
+    <name>stage.sharpening</name>
+    <message>
+        <source>Sharpening</source>
+        <translation>正在锐化</translation>
+    </message>
+</context>
+<context>
+    <name>stage.solving</name>
+    <message>
+        <source>Solving</source>
+        <translation>正在求解</translation>
+    </message>
+</context>
+<context>
+    <name>stage.taking-verification-photograph</name>
+    <message>
+        <source>Taking the verification photograph</source>
+        <translation>正在拍摄验证照片</translation>
+    </message>
+</context>
+<context>
+    <name>stage.test-patterns</name>
+    <message>
+        <source>test patterns</source>
+        <translation>测试图案</translation>
+    </message>
+</context>
+<context>
+    <name>stage.timing-engine</name>
+    <message>
+        <source>Timing the engine</source>
+        <translation>正在测试引擎耗时</translation>
+    </message>
+</context>
+<context>
+    <name>stage.tracing-simulated-venue</name>
+    <message>
+        <source>tracing the simulated venue</source>
+        <translation>正在追踪模拟场地的光线</translation>
+    </message>
+</context>
+<context>
+    <name>stage.windows</name>
+    <message>
+        <source>Windows</source>
+        <translation>窗口</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing</name>
+    <message>
+        <source>Writing</source>
+        <translation>正在写入</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-out-light-transport</name>
+    <message>
+        <source>Writing out the light transport</source>
+        <translation>正在展开光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-report</name>
+    <message>
+        <source>Writing the report</source>
+        <translation>正在写入报告</translation>
+    </message>
+</context>
+<context>
+    <name>stage.writing-results</name>
+    <message>
+        <source>Writing the results</source>
+        <translation>正在写入结果</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-folder-you-may-write</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>请选择您可写入且有可用空间的文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>view.picture-could-not-written</name>
+    <message>
+        <source>the picture could not be written</source>
+        <translation>无法写入图像</translation>
     </message>
 </context>
 </TS>

@@ -48,27 +48,31 @@ double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
 }
 
 /// What the user should know of a measurement.
-std::vector<std::string> findingsOf(double drift, double unusable, double flagged,
-                                    const Supervision& supervision) {
-  std::vector<std::string> findings;
+std::vector<Message> findingsOf(double drift, double unusable, double flagged,
+                                const Supervision& supervision) {
+  std::vector<Message> findings;
   if (std::abs(drift) > driftLimit)
     findings.push_back(
-        fmt::format("The light changed by {:.1f} % between the first and the last photograph; that was "
-                    "followed, but let the "
-                    "projector warm up before the next time",
-                    100.0 * drift));
+        RELUCENT_MESSAGE("acquisition.light-drifted",
+                         "The light changed by {} % between the first and the last photograph; that was "
+                         "followed, but let the projector warm up before the next time")
+            .with(as::share(drift, as::decimals(1))));
   if (unusable > unusableLimit)
     findings.push_back(
-        fmt::format("{:.1f} % of the camera pixels are overexposed even at the shortest exposure: close the "
-                    "camera's aperture or allow shorter exposures, then measure again",
-                    100.0 * unusable));
+        RELUCENT_MESSAGE("acquisition.overexposed",
+                         "{} % of the camera pixels are overexposed even at the shortest exposure: close the "
+                         "camera's aperture or allow shorter exposures, then measure again")
+            .with(as::share(unusable, as::decimals(1))));
   if (flagged > flaggedLimit)
-    findings.push_back(fmt::format(
-        "{:.1f} % of the camera pixels see something else than predicted in the test patterns: check "
-        "that nothing moved or flickered; these pixels are left out of the compensation",
-        100.0 * flagged));
+    findings.push_back(
+        RELUCENT_MESSAGE(
+            "acquisition.pixels-flagged",
+            "{} % of the camera pixels see something else than predicted in the test patterns: check that "
+            "nothing moved or flickered; these pixels are left out of the compensation")
+            .with(as::share(flagged, as::decimals(1))));
   for (const auto& [shot, what] : supervision.accepted)
-    findings.push_back(fmt::format("put up with before pattern {}: {}", shot + 1, what));
+    findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "put up with before pattern {}: {}")
+                           .with(as::label(shot + 1), what));
   return findings;
 }
 
@@ -105,7 +109,8 @@ class Measurement {
   /// Returns: no other interruption than beginAgain.
   Interruptible<Acquisition> measure(Progress& progress) {
     expect(progress, {});
-    Progress referencePart = progress.part(referenceShare, "black and full light");
+    Progress referencePart =
+        progress.part(referenceShare, RELUCENT_MESSAGE("stage.black-full-light", "black and full light"));
     const References references =
         measureReferences(photographer_, run_.settings.references, run_.settings.dimShare, referencePart);
     const Scheme scheme = schemeOf(run_.settings, references);
@@ -114,7 +119,8 @@ class Measurement {
     std::optional<Interruption> interrupted = watch.begin(referencePart);
     if (interrupted == Interruption::beginAgain) return *interrupted;
 
-    Progress treePart = progress.part(treeShare, "light transport");
+    Progress treePart =
+        progress.part(treeShare, RELUCENT_MESSAGE("stage.light-transport", "light transport"));
     TreeObserver observer(supervision_.observer,
                           [&](const std::vector<int>& levels) { expect(progress, levels); });
     const TreeContext context{watch, scheme, observer};
@@ -122,7 +128,8 @@ class Measurement {
     std::optional<Interruption> dropped = growTree(tree, context, interrupted.has_value(), treePart);
     if (dropped == Interruption::beginAgain) return *dropped;
 
-    Progress verificationPart = progress.part(verificationShare, "test patterns");
+    Progress verificationPart =
+        progress.part(verificationShare, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
     VerifiedTransport verified = unverified(tree, references);
     if (!interrupted && !dropped) {
       interrupted = verify(verified, context, verificationPart);
@@ -194,7 +201,7 @@ class Measurement {
 }  // namespace
 
 Acquisition acquire(const AcquisitionRun& run, Progress& progress) {
-  std::vector<std::string> wrong = problems(run.settings);
+  std::vector<Message> wrong = problems(run.settings);
   require(wrong.empty(), "{}", fmt::join(wrong, "; "));
   Linearization used = run.linearization;
   if (run.settings.singleExposure) used.exposures = {used.exposures.back()};

@@ -7,6 +7,7 @@
 
 #include "acquisition/forecast.h"
 #include "acquisition/refinement.h"
+#include "base/message.h"
 
 namespace relucent {
 namespace {
@@ -78,8 +79,10 @@ std::optional<Interruption> growTree(Tree& tree, const TreeContext& context, boo
       context.observer.grew(plan.patterns, 0);
       double share =
           shares.next(levelPatterns(tree.layout.projectors(), lights, plan.patterns), plan.patterns.size());
-      Progress part = progress.part(
-          share, fmt::format("level {} of {}: {} patterns", last - level + 1, last, plan.patterns.back()));
+      Progress part =
+          progress.part(share, RELUCENT_PLURAL_MESSAGE("stage.level-of-tree", "level {} of {}: {} patterns",
+                                                       "level {} of {}: {} pattern")
+                                   .with(as::label(last - level + 1), as::label(last), plan.patterns.back()));
       interrupted = divided(tree, plan, context, part);
       if (!interrupted) continue;
       if (interrupted == Interruption::beginAgain) return interrupted;

@@ -7,6 +7,7 @@
 
 #include "acquisition/growth.h"
 #include "acquisition/verification.h"
+#include "base/message.h"
 
 namespace relucent {
 namespace {
@@ -54,7 +55,10 @@ class Repair {
       std::size_t ill = countOf(verified_.flagged);
       if (ill == 0) break;
       verified_.remeasured += round == 1 ? static_cast<int>(ill) : 0;
-      Progress part = progress.part(0.25, fmt::format("measuring {} flagged pixels again", ill));
+      Progress part = progress.part(0.25, RELUCENT_PLURAL_MESSAGE("stage.measuring-flagged-pixels-again",
+                                                                  "measuring {} flagged pixels again",
+                                                                  "measuring {} flagged pixel again")
+                                              .with(ill));
       if (auto interrupted = repair(round, part)) return interrupted;
       if (2 * countOf(verified_.flagged) > ill) break;
     }
@@ -120,7 +124,7 @@ std::optional<Interruption> verifyOnly(VerifiedTransport& verified, const TreeCo
 
 std::optional<Interruption> verifyAndRepair(VerifiedTransport& verified, const TreeContext& context,
                                             const AcquisitionSettings& settings, Progress& progress) {
-  Progress firstPart = progress.part(0.5, "test patterns");
+  Progress firstPart = progress.part(0.5, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
   Interruptible<Verification> found =
       verify(verified.transport, context, {settings, context.references().usable}, firstPart);
   if (!found) return found.interruption();

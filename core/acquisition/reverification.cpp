@@ -124,47 +124,67 @@ std::string_view toString(Verdict verdict) {
   return "";
 }
 
+namespace {
+
+Message roomChange(double ambient) {
+  const Argument share = as::share(std::abs(ambient), as::decimals(1));
+  return ambient > 0.0
+             ? RELUCENT_ENGLISH_MESSAGE(
+                   "verify.room-brighter",
+                   "Re-measure: the room is brighter by {} % of the projector's full light than it was; "
+                   "restore the light and verify once more, or measure the light transport again.")
+                   .with(share)
+             : RELUCENT_ENGLISH_MESSAGE(
+                   "verify.room-darker",
+                   "Re-measure: the room is darker by {} % of the projector's full light than it was; "
+                   "restore the light and verify once more, or measure the light transport again.")
+                   .with(share);
+}
+
+}  // namespace
+
 Judgement judge(const Reverification& found, double errorThen) {
-  double changed = 100.0 * found.changedShare;
   if (!(found.lamp > leastLight))
-    return {
-        Verdict::startAgain,
-        "Start again: next to nothing of the projector's light is seen; look whether the lens is covered, "
-        "the projector off or another screen chosen, and verify once more before you measure everything "
-        "again."};
+    return {Verdict::startAgain,
+            RELUCENT_ENGLISH_MESSAGE("verify.no-light",
+                                     "Start again: next to nothing of the projector's light is seen; look "
+                                     "whether the lens is covered, the projector off or another screen "
+                                     "chosen, and verify once more before you measure everything again.")};
   if (found.changedShare > mostlyChanged)
     return {Verdict::startAgain,
-            fmt::format("Start again: {:.0f} % of the camera's pixels see something else than predicted, as "
-                        "when the camera, the projector or its zoom has moved; put them back and verify once "
-                        "more, or measure everything again.",
-                        changed)};
-  if (std::abs(found.ambient) > ambientLimit)
-    return {Verdict::remeasure,
-            fmt::format("Re-measure: the room is {} by {:.1f} % of the projector's full light than it was; "
-                        "restore the light and verify once more, or measure the light transport again.",
-                        found.ambient > 0.0 ? "brighter" : "darker", 100.0 * std::abs(found.ambient))};
+            RELUCENT_ENGLISH_MESSAGE("verify.moved",
+                                     "Start again: {} % of the camera's pixels see something else than "
+                                     "predicted, as when the camera, the projector or its zoom has moved; "
+                                     "put them back and verify once more, or measure everything again.")
+                .with(as::share(found.changedShare, as::decimals(0)))};
+  if (std::abs(found.ambient) > ambientLimit) return {Verdict::remeasure, roomChange(found.ambient)};
   if (found.changedShare > changedLimit)
     return {Verdict::remeasure,
-            fmt::format("Re-measure: {:.1f} % of the camera's pixels see something else than predicted; the "
-                        "map of changes shows where something was moved. Put it back and verify once more, "
-                        "or measure the light transport again.",
-                        changed)};
+            RELUCENT_ENGLISH_MESSAGE("verify.view-changed",
+                                     "Re-measure: {} % of the camera's pixels see something else than "
+                                     "predicted; the map of changes shows where something was moved. Put it "
+                                     "back and verify once more, or measure the light transport again.")
+                .with(as::share(found.changedShare, as::decimals(1)))};
   if (std::abs(found.lamp - 1.0) > lampLimit)
     return {Verdict::remeasure,
-            fmt::format("Re-measure: the projector gives {:.0f} % of the light that it gave; let it warm up, "
-                        "restore its settings and verify once more, or measure the light transport again.",
-                        100.0 * found.lamp)};
+            RELUCENT_ENGLISH_MESSAGE(
+                "verify.lamp-changed",
+                "Re-measure: the projector gives {} % of the light that it gave; let it warm up, restore its "
+                "settings and verify once more, or measure the light transport again.")
+                .with(as::share(found.lamp, as::decimals(0)))};
   if (found.adapted > errorLimit * errorThen + errorFloor)
     return {Verdict::remeasure,
-            fmt::format("Re-measure: T predicts photographs to {:.1f} % where it was {:.1f} %, though no "
-                        "place stands out; the focus or the picture settings may have changed. Measure the "
-                        "light transport again.",
-                        100.0 * found.adapted, 100.0 * errorThen)};
-  return {
-      Verdict::stillGood,
-      fmt::format("Still good: T predicts photographs that it was not made from to {:.1f} %, {:.1f} % when "
-                  "it was measured; {:.1f} % of the camera's pixels changed.",
-                  100.0 * found.error, 100.0 * errorThen, changed)};
+            RELUCENT_ENGLISH_MESSAGE(
+                "verify.prediction-worse",
+                "Re-measure: T predicts photographs to {} % where it was {} %, though no place stands out; "
+                "the focus or the picture settings may have changed. Measure the light transport again.")
+                .with(as::share(found.adapted, as::decimals(1)), as::share(errorThen, as::decimals(1)))};
+  return {Verdict::stillGood,
+          RELUCENT_ENGLISH_MESSAGE("verify.still-good",
+                                   "Still good: T predicts photographs that it was not made from to {} %, {} "
+                                   "% when it was measured; {} % of the camera's pixels changed.")
+              .with(as::share(found.error, as::decimals(1)), as::share(errorThen, as::decimals(1)),
+                    as::share(found.changedShare, as::decimals(1)))};
 }
 
 }  // namespace relucent

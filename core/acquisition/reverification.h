@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "acquisition/acquisition.h"
+#include "base/message.h"
 
 namespace relucent {
 
@@ -45,7 +46,7 @@ std::string_view toString(Verdict verdict);
 
 struct Judgement {
   Verdict verdict = Verdict::stillGood;
-  std::string sentence;
+  Message sentence;
 };
 /// `errorThen`: of the same patterns when T was measured.
 Judgement judge(const Reverification& found, double errorThen);

@@ -7,30 +7,41 @@
 
 namespace relucent {
 
-std::vector<std::string> problems(const AcquisitionSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const AcquisitionSettings& settings) {
+  std::vector<Message> found;
   if (!(settings.relativeThreshold > 0.0 && settings.relativeThreshold < 1.0))
-    found.push_back(fmt::format("the relative threshold must lie between 0 and 1, not at {}",
-                                settings.relativeThreshold));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.relative-threshold-must-lie-between",
+                                             "the relative threshold must lie between 0 and 1, not at {}")
+                        .with(settings.relativeThreshold));
   if (!(settings.absoluteThreshold >= 0.0))
-    found.push_back(
-        fmt::format("the absolute threshold cannot be below 0, as {} is", settings.absoluteThreshold));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.absolute-threshold-cannot-below-0",
+                                             "the absolute threshold cannot be below 0, as {} is")
+                        .with(settings.absoluteThreshold));
   if (!(settings.noiseSigmas > 0.0))
     found.push_back(
-        fmt::format("the noise threshold must be above 0 standard deviations, not {}", settings.noiseSigmas));
+        RELUCENT_ENGLISH_MESSAGE("acquisition.noise-threshold-must-above-0",
+                                 "the noise threshold must be above 0 standard deviations, not {}")
+            .with(settings.noiseSigmas));
   if (!(settings.dimShare >= 0.0 && settings.dimShare <= 1.0))
-    found.push_back(
-        fmt::format("the share for dim pixels must lie between 0 and 1, not at {}", settings.dimShare));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.share-dim-pixels-must-lie",
+                                             "the share for dim pixels must lie between 0 and 1, not at {}")
+                        .with(settings.dimShare));
   if (settings.references < 1)
-    found.push_back(fmt::format("at least one reference shot is needed, not {}", settings.references));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.least-one-reference-shot-needed",
+                                             "at least one reference shot is needed, not {}")
+                        .with(settings.references));
   if (settings.checkInterval < 1)
-    found.push_back(fmt::format("checks cannot be {} shots apart", settings.checkInterval));
-  if (settings.verificationPatterns < 0)
     found.push_back(
-        fmt::format("the number of verification patterns cannot be {}", settings.verificationPatterns));
+        RELUCENT_ENGLISH_MESSAGE("acquisition.checks-cannot-shots-apart", "checks cannot be {} shots apart")
+            .with(settings.checkInterval));
+  if (settings.verificationPatterns < 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.number-verification-patterns-cannot",
+                                             "the number of verification patterns cannot be {}")
+                        .with(settings.verificationPatterns));
   if (!(settings.flagRelative > 0.0 && settings.flagSigmas > 0.0))
-    found.push_back(fmt::format("the limits for flagging must be above 0, not {} and {}",
-                                settings.flagRelative, settings.flagSigmas));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.limits-flagging-must-above-0",
+                                             "the limits for flagging must be above 0, not {} and {}")
+                        .with(settings.flagRelative, settings.flagSigmas));
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/enum_names.h"
+#include "base/message.h"
 
 namespace relucent {
 
@@ -45,7 +46,7 @@ struct AcquisitionSettings {
   std::uint64_t seed = 1;        // of the verification patterns
 };
 /// Sentences about what is wrong with settings; empty: nothing.
-std::vector<std::string> problems(const AcquisitionSettings& settings);
+std::vector<Message> problems(const AcquisitionSettings& settings);
 
 /// Settings that go together. Fast is adaptive, white, one exposure, a looser threshold, fewer references.
 enum class AcquisitionMode { adaptive, sen, fast };

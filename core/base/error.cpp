@@ -23,11 +23,15 @@ std::string_view toString(ErrorKind kind) {
   return "unknown";
 }
 
-Error::Error(ErrorKind kind, std::string what, std::string advice, std::string context)
+Error::Error(ErrorKind kind, Message what, Message advice, std::string context)
     : kind_(kind), what_(std::move(what)), advice_(std::move(advice)), context_(std::move(context)) {
-  line_ = context_.empty() ? what_ : context_ + ": " + what_;
-  if (!advice_.empty()) line_ += "; " + advice_;
-  line_ += ".";
+  line_ = english(sentence()) + ".";
+}
+
+Message Error::sentence() const {
+  const Message whole =
+      advice_.empty() ? what_ : RELUCENT_MESSAGE("sentence.with-advice", "{}; {}").with(what_, advice_);
+  return context_.empty() ? whole : RELUCENT_MESSAGE("sentence.of-place", "{}: {}").with(context_, whole);
 }
 
 Error Error::within(std::string_view context) const {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/message.h"
+
 namespace relucent {
 
 /// What kind of failure of the world an Error reports; decides icon and exit status, never control flow.
@@ -18,18 +20,20 @@ std::string_view toString(ErrorKind kind);
 
 /// A failure of the world outside the program: a file, a device, a setting, data that cannot be used.
 /// `what` is one sentence without a full stop that says what is wrong, `advice` one that says what to do,
-/// `context` where it happened (a file, a device, a stage), possibly empty.
-/// A breach of a function's contract is no Error: see require().
+/// possibly none, `context` where it happened (a file, a device, a stage), possibly empty. A breach of a
+/// function's contract is no Error: see require().
 class Error : public std::exception {
  public:
-  Error(ErrorKind kind, std::string what, std::string advice, std::string context = {});
+  Error(ErrorKind kind, Message what, Message advice, std::string context = {});
 
   ErrorKind kind() const { return kind_; }
-  const std::string& summary() const { return what_; }
-  const std::string& advice() const { return advice_; }
+  const Message& summary() const { return what_; }
+  const Message& advice() const { return advice_; }
   const std::string& context() const { return context_; }
 
-  /// One line for people: "context: what; advice."
+  /// All of it in one sentence: "context: what; advice".
+  Message sentence() const;
+  /// The same in English, with a full stop.
   const char* what() const noexcept override { return line_.c_str(); }
 
   /// The same failure seen from one level further out; an existing context is kept behind the new one.
@@ -37,8 +41,8 @@ class Error : public std::exception {
 
  private:
   ErrorKind kind_;
-  std::string what_;
-  std::string advice_;
+  Message what_;
+  Message advice_;
   std::string context_;
   std::string line_;
 };

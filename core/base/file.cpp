@@ -15,52 +15,70 @@ namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
-std::string adviceFor(const std::error_code& code) {
-  if (isDiskFull(code)) return "free some space there or choose another disk, then try again";
+Message adviceFor(const std::error_code& code) {
+  if (isDiskFull(code))
+    return RELUCENT_MESSAGE("disk.free-space-or-choose-another",
+                            "free some space there or choose another disk, then try again");
   switch (code.value()) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return "choose a folder that you may write to, or ask for the permission";
+      return RELUCENT_MESSAGE("disk.choose-writable-folder",
+                              "choose a folder that you may write to, or ask for the permission");
     case ENOENT:
-      return "check the path";
+      return RELUCENT_MESSAGE("disk.check-path", "check the path");
     case EIO:
-      return "check the disk and its cable";
+      return RELUCENT_MESSAGE("disk.check-disk-and-cable", "check the disk and its cable");
     default:
-      return "check the path and the disk";
+      return RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk");
   }
 }
 
-[[noreturn]] void failDisk(const std::string& action, const fs::path& path, const std::error_code& code) {
-  throw Error(ErrorKind::disk, fmt::format("cannot {} ({})", action, code.message()), adviceFor(code),
-              path.string());
+enum class Action { open, read, write, createFolder };
+
+Message failureOf(Action action, const std::string& reason) {
+  switch (action) {
+    case Action::open:
+      return RELUCENT_MESSAGE("disk.cannot-open", "cannot open ({})").with(reason);
+    case Action::read:
+      return RELUCENT_MESSAGE("disk.cannot-read", "cannot read ({})").with(reason);
+    case Action::write:
+      return RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(reason);
+    case Action::createFolder:
+      return RELUCENT_MESSAGE("disk.cannot-create-folder", "cannot create the folder ({})").with(reason);
+  }
+  return {};
 }
 
-[[noreturn]] void failDisk(const std::string& action, const fs::path& path, int code) {
+[[noreturn]] void failDisk(Action action, const fs::path& path, const std::error_code& code) {
+  throw Error(ErrorKind::disk, failureOf(action, code.message()), adviceFor(code), path.string());
+}
+
+[[noreturn]] void failDisk(Action action, const fs::path& path, int code) {
   failDisk(action, path, std::error_code(code, std::generic_category()));
 }
 
 void checkSynced(const FileOutcome& outcome, const fs::path& path) {
-  if (outcome.code) failDisk(outcome.opened ? "write" : "open", path, outcome.code);
+  if (outcome.code) failDisk(outcome.opened ? Action::write : Action::open, path, outcome.code);
 }
 
 }  // namespace
 
 std::string readFile(const fs::path& path) {
   std::error_code code;
-  if (fs::is_directory(path, code)) failDisk("read", path, EISDIR);
+  if (fs::is_directory(path, code)) failDisk(Action::read, path, EISDIR);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) failDisk("read", path, errno != 0 ? errno : ENOENT);
+  if (!stream) failDisk(Action::read, path, errno != 0 ? errno : ENOENT);
   std::ostringstream content;
   content << stream.rdbuf();
-  if (stream.bad()) failDisk("read", path, EIO);
+  if (stream.bad()) failDisk(Action::read, path, EIO);
   return std::move(content).str();
 }
 
 void writeFileAtomically(const fs::path& path, std::string_view content) {
   writeFileAtomically(path, [&](const fs::path& temporary) {
     if (const FileOutcome outcome = writeContent(temporary, content); outcome.code)
-      failDisk("write", path, outcome.code);
+      failDisk(Action::write, path, outcome.code);
   });
 }
 
@@ -72,7 +90,7 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     checkSynced(syncFile(temporary), temporary);
     std::error_code code;
     fs::rename(temporary, path, code);
-    if (code) failDisk("write", path, code);
+    if (code) failDisk(Action::write, path, code);
     fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     checkSynced(syncFolder(folder), folder);
   } catch (...) {
@@ -85,8 +103,8 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
 void createFolder(const fs::path& path) {
   std::error_code code;
   fs::create_directories(path, code);
-  if (code) failDisk("create the folder", path, code);
-  if (!fs::is_directory(path)) failDisk("create the folder", path, ENOTDIR);
+  if (code) failDisk(Action::createFolder, path, code);
+  if (!fs::is_directory(path)) failDisk(Action::createFolder, path, ENOTDIR);
 }
 
 }  // namespace relucent

@@ -19,14 +19,14 @@ Progress::Progress() = default;
 
 Progress::Progress(ProgressSink& sink, StopRequest& stop) : sink_(&sink), stop_(&stop) {}
 
-Progress::Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, std::string stage)
+Progress::Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, Message stage)
     : sink_(sink), stop_(stop), begin_(begin), end_(end), stage_(std::move(stage)) {}
 
 double Progress::place() const {
   return std::lerp(begin_, end_, done_);
 }
 
-Progress Progress::part(double share, std::string stage) {
+Progress Progress::part(double share, Message stage) {
   require(share >= 0.0 && share <= 1.0, "a part is between 0 and 1 of its whole, not {}", share);
   const double begin = place();
   done_ = std::min(done_ + share, 1.0);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
 #include "base/raster.h"
 
 namespace relucent {
@@ -54,7 +55,7 @@ class ProgressSink {
  public:
   virtual ~ProgressSink() = default;
   /// `fraction` of the whole, 0 to 1, never going back; `stage` names the innermost part under way.
-  virtual void progressed(double fraction, std::string_view stage) = 0;
+  virtual void progressed(double fraction, const Message& stage) = 0;
   virtual void previewed(const Preview&) {}
   /// Better and better known while a measurement goes on.
   virtual void expected(const WorkLeft&) {}
@@ -69,7 +70,7 @@ class Progress {
 
   /// The next `share` (0 to 1) of this progress, as a progress of its own named `stage`. Its reports
   /// move this one from where it stands; when the part ends, this one stands `share` further.
-  Progress part(double share, std::string stage);
+  Progress part(double share, Message stage);
 
   /// Says how far this part is, 0 to 1; smaller values than before are ignored. Then checkpoint().
   void report(double fraction);
@@ -82,20 +83,20 @@ class Progress {
 
   void preview(Preview preview) const;
   void expect(const WorkLeft& work) const;
-  const std::string& stage() const { return stage_; }
+  const Message& stage() const { return stage_; }
 
  private:
   /// Where `done_` stands in the whole. Exact at both ends, so that a part ends on the bit where the next
   /// begins.
   double place() const;
-  Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, std::string stage);
+  Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, Message stage);
 
   ProgressSink* sink_ = nullptr;
   StopRequest* stop_ = nullptr;
   double begin_ = 0.0;
   double end_ = 1.0;
   double done_ = 0.0;
-  std::string stage_;
+  Message stage_;
 };
 
 }  // namespace relucent

@@ -46,8 +46,12 @@ bool holdsAnything(const fs::path& folder) {
   std::error_code code;
   fs::directory_iterator entries(folder, code);
   if (code)
-    throw Error(ErrorKind::disk, fmt::format("cannot look into the folder ({})", code.message()),
-                "check that you may read it, or choose another name", folder.string());
+    throw Error(ErrorKind::disk,
+                RELUCENT_MESSAGE("calibration.cannot-look-into-folder", "cannot look into the folder ({})")
+                    .with(code.message()),
+                RELUCENT_MESSAGE("calibration.check-you-may-read-choose",
+                                 "check that you may read it, or choose another name"),
+                folder.string());
   return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
     return !isManifestLeftover(entry.path().filename().string());
   });
@@ -59,35 +63,56 @@ FolderLock locked(const fs::path& folder, CalibrationFolder::Access access) try 
   return {folder, access};
 } catch (const std::system_error& failure) {
   if (failure.code() == std::errc::operation_would_block)
-    throw Error(ErrorKind::input, "another program is working on this calibration",
-                "wait until it has finished, or close it, then try again", folder.string());
-  throw Error(ErrorKind::disk, fmt::format("cannot open the folder ({})", failure.code().message()),
-              "check the path and that you may read it", folder.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.another-program-working-calibration",
+                                         "another program is working on this calibration"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.wait-until-finished-close-try",
+                                         "wait until it has finished, or close it, then try again"),
+                folder.string());
+  throw Error(
+      ErrorKind::disk,
+      RELUCENT_MESSAGE("calibration.cannot-open-folder", "cannot open the folder ({})")
+          .with(failure.code().message()),
+      RELUCENT_MESSAGE("calibration.check-path-you-may-read", "check the path and that you may read it"),
+      folder.string());
 }
 
 void checkSynced(const FileOutcome& outcome, const fs::path& path) {
   if (outcome.code)
-    throw Error(ErrorKind::disk, fmt::format("cannot write ({})", outcome.code.message()),
-                "free some space there or check the disk, then try again", path.string());
+    throw Error(ErrorKind::disk,
+                RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(outcome.code.message()),
+                RELUCENT_MESSAGE("calibration.free-some-space-there-check",
+                                 "free some space there or check the disk, then try again"),
+                path.string());
 }
 
-Error damaged(const fs::path& manifest, const std::string& what) {
+Error damaged(const fs::path& manifest, const Message& what) {
   return Error(ErrorKind::format, what,
-               "choose another calibration, or copy it again from where it was measured", manifest.string());
+               RELUCENT_MESSAGE("calibration.choose-another-calibration-copy-again",
+                                "choose another calibration, or copy it again from where it was measured"),
+               manifest.string());
 }
 
 /// The manifest, with everything that this class later takes for granted.
 Json readManifest(const fs::path& file) {
   Json manifest = Json::parse(readFile(file), nullptr, false);
   if (manifest.is_discarded() || !manifest.is_object())
-    throw damaged(file, "the calibration's manifest is damaged");
+    throw damaged(file, RELUCENT_MESSAGE("calibration.calibration-manifest-damaged",
+                                         "the calibration's manifest is damaged"));
   if (manifest.value("format", Json()) != formatName)
-    throw damaged(file, "this is no calibration of Relucent");
+    throw damaged(
+        file, RELUCENT_MESSAGE("calibration.no-calibration-relucent", "this is no calibration of Relucent"));
   Json written = manifest.value("version", Json());
-  if (!written.is_number_integer()) throw damaged(file, "the calibration's manifest is damaged");
+  if (!written.is_number_integer())
+    throw damaged(file, RELUCENT_MESSAGE("calibration.calibration-manifest-damaged",
+                                         "the calibration's manifest is damaged"));
   if (written.get<int>() > CalibrationFolder::version)
-    throw Error(ErrorKind::format, "the calibration was made by a newer Relucent",
-                "open it with that version, or update this one", file.string());
+    throw Error(ErrorKind::format,
+                RELUCENT_ENGLISH_MESSAGE("calibration.calibration-made-newer-relucent",
+                                         "the calibration was made by a newer Relucent"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.open-version-update-one",
+                                         "open it with that version, or update this one"),
+                file.string());
 
   auto isText = [](const Json& value) { return value.is_string(); };
   auto isResult = [&](const Json& entry) {
@@ -103,7 +128,9 @@ Json readManifest(const fs::path& file) {
                std::all_of(results.begin(), results.end(), [&](const Json& entries) {
                  return entries.is_array() && std::all_of(entries.begin(), entries.end(), isResult);
                });
-  if (!whole) throw damaged(file, "the calibration's manifest is damaged");
+  if (!whole)
+    throw damaged(file, RELUCENT_MESSAGE("calibration.calibration-manifest-damaged",
+                                         "the calibration's manifest is damaged"));
   return manifest;
 }
 
@@ -134,16 +161,27 @@ std::string CalibrationFolder::created() const {
 CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json settings) {
   std::error_code code;
   if (fs::exists(path, code) && !fs::is_directory(path, code))
-    throw Error(ErrorKind::input, "there is a file of this name", "choose another name for the calibration",
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.there-file-name", "there is a file of this name"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.choose-another-name-calibration",
+                                         "choose another name for the calibration"),
                 path.string());
   createFolder(path);
   FolderLock lock = locked(path, Access::write);
   if (fs::exists(path / manifestName, code))
-    throw Error(ErrorKind::input, "there is a calibration already",
-                "go on with it by `resume`, or choose another name", path.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.there-calibration-already", "there is a calibration already"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.go-resume-choose-another-name",
+                                 "go on with it by `resume`, or choose another name"),
+        path.string());
   if (holdsAnything(path))
-    throw Error(ErrorKind::input, "the folder holds other files",
-                "choose a new or an empty folder for the calibration", path.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.folder-holds-other-files", "the folder holds other files"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.choose-new-empty-folder-calibration",
+                                 "choose a new or an empty folder for the calibration"),
+        path.string());
 
   Json manifest = {
       {"format", formatName},     {"version", version},    {"software", "Relucent " RELUCENT_VERSION},
@@ -159,11 +197,20 @@ CalibrationFolder CalibrationFolder::open(const fs::path& given, Access access) 
   if (path.empty()) path = ".";
   std::error_code code;
   if (!fs::is_directory(path, code))
-    throw Error(ErrorKind::input, "there is no such calibration",
-                "check the name, or make one by `calibrate`", path.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.there-no-such-calibration", "there is no such calibration"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.check-name-make-one-calibrate",
+                                 "check the name, or make one by `calibrate`"),
+        path.string());
   if (!fs::exists(path / manifestName, code))
-    throw Error(ErrorKind::input, fmt::format("this folder is no calibration: it holds no {}", manifestName),
-                "check the name, or make one by `calibrate`", path.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.folder-no-calibration-holds-no",
+                                         "this folder is no calibration: it holds no {}")
+                    .with(manifestName),
+                RELUCENT_ENGLISH_MESSAGE("calibration.check-name-make-one-calibrate",
+                                         "check the name, or make one by `calibrate`"),
+                path.string());
 
   FolderLock lock = locked(path, access);
   Json manifest = readManifest(path / manifestName);
@@ -222,8 +269,11 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
       checkSynced(syncFolder(results), results);
     } catch (const fs::filesystem_error& error) {
       removeLeftovers(results, isResultLeftover);
-      throw Error(ErrorKind::disk, fmt::format("cannot write ({})", error.code().message()),
-                  "free some space there or check the disk, then try again", results.string());
+      throw Error(ErrorKind::disk,
+                  RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(error.code().message()),
+                  RELUCENT_MESSAGE("calibration.free-some-space-there-check",
+                                   "free some space there or check the disk, then try again"),
+                  results.string());
     } catch (...) {
       removeLeftovers(results, isResultLeftover);
       throw;
@@ -281,10 +331,13 @@ fs::path fileOf(const StageResult& result, const std::string& name) {
   std::error_code code;
   std::uint64_t bytes = fs::file_size(path, code);
   if (file == result.files.end() || code)
-    throw damaged(path, fmt::format("a file of the calibration's {} is missing", nameOf(result.stage)));
+    throw damaged(path, RELUCENT_MESSAGE("calibration.file-calibration-missing",
+                                         "a file of the calibration's {} is missing")
+                            .with(nameOf(result.stage)));
   if (bytes != file->bytes)
-    throw damaged(path, fmt::format("a file of the calibration's {} has {} bytes instead of {}",
-                                    nameOf(result.stage), bytes, file->bytes));
+    throw damaged(path, RELUCENT_MESSAGE("calibration.file-calibration-bytes-instead",
+                                         "a file of the calibration's {} has {} bytes instead of {}")
+                            .with(nameOf(result.stage), as::bytes(bytes), file->bytes));
   return path;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "calibration/message_json.h"
 #include "calibration/results_json.h"
 #include "image/exr.h"
 #include "image/stack_files.h"
@@ -163,7 +164,7 @@ Linearization loadLinearization(const StageResult& result) {
     for (const Json& camera : listIn(values, "cameras")) linearization.cameras.push_back(cameraFrom(camera));
     linearization.exposures = values.at("exposures").get<std::vector<double>>();
     linearization.additivityError = values.at("additivity_error").get<std::vector<double>>();
-    linearization.findings = values.at("findings").get<std::vector<std::string>>();
+    linearization.findings = values.at("findings").get<std::vector<Message>>();
     linearization.times = timesFrom(values.value("times", Json::object()));
     return linearization;
   });
@@ -203,8 +204,11 @@ Acquisition loadAcquisition(const StageResult& result) {
     fs::path transport = fileOf(result, "transport.npz");
     acquisition.transport = loadTransport(transport);
     if (acquisition.transport.cameras() != cameras || acquisition.transport.projectors() != projectors)
-      throw Error(ErrorKind::format, "the light transport belongs to other devices than the manifest says",
-                  damagedAdvice, transport.string());
+      throw Error(
+          ErrorKind::format,
+          RELUCENT_ENGLISH_MESSAGE("calibration.light-transport-belongs-other-devices",
+                                   "the light transport belongs to other devices than the manifest says"),
+          damagedAdvice, transport.string());
     acquisition.black = readMaps(result, "black", cameras);
     acquisition.blackVariance = readMaps(result, "black-variance", cameras);
     acquisition.flood = readMaps(result, "flood", cameras);
@@ -219,7 +223,7 @@ Acquisition loadAcquisition(const StageResult& result) {
     acquisition.verificationError = values.at("verification_error");
     acquisition.patterns = values.at("patterns");
     acquisition.exposures = values.at("exposures");
-    acquisition.findings = values.at("findings").get<std::vector<std::string>>();
+    acquisition.findings = values.at("findings").get<std::vector<Message>>();
     return acquisition;
   });
 }

@@ -10,7 +10,8 @@
 /// What the files of this folder that turn results into JSON and back have in common.
 namespace relucent {
 
-inline constexpr const char* damagedAdvice = "restore the calibration from a copy, or calibrate again";
+inline constexpr auto damagedAdvice = RELUCENT_ENGLISH_MESSAGE(
+    "calibration.restore-or-calibrate-again", "restore the calibration from a copy, or calibrate again");
 
 /// Runs `read` on a result's values, turning what the JSON library throws into one sentence.
 /// Throws: Error{format}.
@@ -19,10 +20,11 @@ auto readingJson(const StageResult& result, const Read& read) {
   try {
     return read(*result.values);
   } catch (const Json::exception& cause) {
-    throw Error(
-        ErrorKind::format,
-        fmt::format("the result of the stage \"{}\" cannot be read ({})", nameOf(result.stage), cause.what()),
-        damagedAdvice, result.folder.string());
+    throw Error(ErrorKind::format,
+                RELUCENT_ENGLISH_MESSAGE("calibration.result-stage-cannot-read",
+                                         "the result of the stage \"{}\" cannot be read ({})")
+                    .with(nameOf(result.stage), cause.what()),
+                damagedAdvice, result.folder.string());
   }
 }
 

@@ -229,8 +229,13 @@ void ShotJournal::forget(const ShotId& id, const std::string& fingerprint) {
   std::error_code code;
   fs::remove(path, code);
   if (code)
-    throw Error(ErrorKind::disk, fmt::format("a photograph cannot be removed ({})", code.message()),
-                "check that the folder may be written to, then go on", path.string());
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("calibration.photograph-cannot-removed", "a photograph cannot be removed ({})")
+            .with(code.message()),
+        RELUCENT_MESSAGE("calibration.check-folder-may-written-go",
+                         "check that the folder may be written to, then go on"),
+        path.string());
 }
 
 }  // namespace relucent

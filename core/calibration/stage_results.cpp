@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "calibration/message_json.h"
 #include "calibration/results.h"
 #include "calibration/results_json.h"
 #include "calibration/stage_fingerprint.h"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "base/raster.h"
 
 /// What the results of the stages say, one struct a stage: what the manifest keeps of them for people and for
@@ -33,7 +34,7 @@ struct StageCost {
 struct CameraCheckResult {
   std::vector<double> exposures;         // seconds
   std::optional<double> latencySeconds;  // of the projector; none: was not measured
-  std::vector<std::string> verdicts;     // sentences on projector and camera
+  std::vector<Message> verdicts;         // sentences on projector and camera
 };
 
 /// Curves and camera models: loadLinearization().
@@ -48,7 +49,7 @@ struct AcquisitionResult {
   std::vector<Size> projectors;
   std::vector<Size> cameras;
   std::optional<double> verificationError;  // on held-out patterns, relative
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   std::optional<StageCost> cost;
 };
 

@@ -19,10 +19,13 @@ namespace {
 enum ExitStatus { done = 0, failed = 1, wrongUsage = 2, remeasure = 3, startAgain = 4, interrupted = 130 };
 
 /// Throws: Error{input} if there are any, naming all of them.
-void refuse(const std::vector<std::string>& problems) {
-  std::string all;
-  for (const std::string& problem : problems) all += (all.empty() ? "" : ", and ") + problem;
-  if (!all.empty()) throw Error(ErrorKind::input, all, "choose other values");
+void refuse(const std::vector<Message>& problems) {
+  Message all;
+  for (const Message& problem : problems)
+    all = all.empty() ? problem : RELUCENT_ENGLISH_MESSAGE("command.and", "{}, and {}").with(all, problem);
+  if (!all.empty())
+    throw Error(ErrorKind::input, all,
+                RELUCENT_ENGLISH_MESSAGE("command.choose-other-values", "choose other values"));
 }
 
 int statusOf(Verdict verdict) {
@@ -179,8 +182,11 @@ void print(const Outcome& outcome, bool json) {
     std::cout << outcome.text;
   std::cout.flush();
   if (!std::cout)
-    throw Error(ErrorKind::disk, "cannot write the results to standard output",
-                "check where it leads and that there is space");
+    throw Error(ErrorKind::disk,
+                RELUCENT_ENGLISH_MESSAGE("command.cannot-write-results-standard-output",
+                                         "cannot write the results to standard output"),
+                RELUCENT_ENGLISH_MESSAGE("command.check-leads-there-space",
+                                         "check where it leads and that there is space"));
 }
 
 }  // namespace

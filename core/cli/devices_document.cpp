@@ -3,16 +3,21 @@
 
 #include <fmt/format.h>
 
+#include "base/message.h"
+
 namespace relucent {
 
 Json toJson(const CameraList& devices) {
   Json support = Json::array();
   for (const CameraSupport& kind : devices.support)
-    support.push_back({{"kind", kind.kind}, {"available", kind.available}, {"sentence", kind.sentence}});
+    support.push_back(
+        {{"kind", kind.kind}, {"available", kind.available}, {"sentence", english(kind.sentence)}});
   Json cameras = Json::array();
   for (const ListedCamera& camera : devices.cameras) {
-    Json entry = {{"address", camera.address}, {"model", camera.model}, {"usable", camera.usable}};
+    Json entry = {{"address", camera.address}, {"model", english(camera.model)}, {"usable", camera.usable}};
     const CameraTraits& traits = camera.traits;
+    Json remarks = Json::array();
+    for (const Message& remark : traits.remarks) remarks.push_back(english(remark));
     if (camera.usable)
       entry.update({{"size", {traits.size.width, traits.size.height}},
                     {"format", nameOf(traits.format)},
@@ -20,9 +25,9 @@ Json toJson(const CameraList& devices) {
                     {"exposures", {traits.exposures.shortest, traits.exposures.longest}},
                     {"gain", traits.gain},
                     {"software_trigger", traits.triggered},
-                    {"remarks", traits.remarks}});
+                    {"remarks", std::move(remarks)}});
     else
-      entry["problem"] = camera.problem;
+      entry["problem"] = english(camera.problem);
     cameras.push_back(std::move(entry));
   }
   return {{"support", std::move(support)}, {"cameras", std::move(cameras)}};
@@ -40,7 +45,7 @@ std::string textOf(const CameraList& devices) {
     text += fmt::format("  {}x{} pixels of {} bits ({}), exposures {:.3g} s to {:.3g} s\n", traits.size.width,
                         traits.size.height, traits.format.bits, nameOf(traits.format),
                         traits.exposures.shortest, traits.exposures.longest);
-    for (const std::string& remark : traits.remarks) text += fmt::format("  {}\n", remark);
+    for (const Message& remark : traits.remarks) text += fmt::format("  {}\n", remark);
   }
   if (devices.cameras.empty()) text += "No cameras answer.\n";
   text += "\nKinds of cameras:\n";
@@ -51,7 +56,7 @@ std::string textOf(const CameraList& devices) {
 
 Json toJson(const RigCheck& check) {
   Json verdicts = Json::array();
-  for (const CheckVerdict& verdict : verdictsOf(check)) verdicts.push_back(sentence(verdict));
+  for (const CheckVerdict& verdict : verdictsOf(check)) verdicts.push_back(english(messageOf(verdict)));
   return {{"latency_frames", check.latency.frames},
           {"latency_seconds", check.latency.seconds},
           {"step", check.latency.step},
@@ -73,7 +78,7 @@ Json toJson(const RigCheck& check) {
 
 std::string textOf(const RigCheck& check) {
   std::string text;
-  for (const CheckVerdict& verdict : verdictsOf(check)) text += sentence(verdict) + "\n";
+  for (const CheckVerdict& verdict : verdictsOf(check)) text += english(messageOf(verdict)) + "\n";
   return text + fmt::format("Calibrate with --latency {:.3g}\n", check.latency.seconds);
 }
 

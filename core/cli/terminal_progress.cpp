@@ -113,11 +113,11 @@ TerminalProgress::~TerminalProgress() {
   finish();
 }
 
-void TerminalProgress::progressed(double fraction, std::string_view stage) {
+void TerminalProgress::progressed(double fraction, const Message& stage) {
   constexpr Seconds betweenDrawings{0.1};
   Seconds now = terminal_.now();
   fraction_ = fraction;
-  stage_ = stage;
+  stage_ = english(stage);
   timeLeft_.add(now, fraction);
 
   int width = terminal_.width();

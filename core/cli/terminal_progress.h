@@ -51,7 +51,7 @@ class TerminalProgress : public ProgressSink {
   explicit TerminalProgress(Terminal terminal);
   ~TerminalProgress() override;
 
-  void progressed(double fraction, std::string_view stage) override;
+  void progressed(double fraction, const Message& stage) override;
   /// Says so in a line of its own the first time; after that the time left follows it.
   void expected(const WorkLeft& work) override;
   /// Takes the bar away, so that a sentence can be printed in its place. Called by the destructor too.

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <map>
 
+#include "base/message.h"
+
 namespace relucent {
 namespace {
 
-std::string lines(const std::vector<std::string>& sentences) {
+std::string lines(const std::vector<Message>& sentences) {
   std::string text;
-  for (const std::string& sentence : sentences) text += sentence + "\n";
+  for (const Message& sentence : sentences) text += englishSentence(sentence) + "\n";
   return text;
 }
 
@@ -32,7 +34,7 @@ std::string textOf(const CalibrateResult& result) {
 std::string textOf(const WrittenFiles& result) {
   std::string text;
   for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
-  for (const std::string& note : result.notes) text += "Note: " + note + ".\n";
+  for (const Message& note : result.notes) text += fmt::format("Note: {}.\n", note);
   return text;
 }
 
@@ -130,7 +132,7 @@ std::string textOf(const BenchResult& result) {
       text += fmt::format(", {:.1f} times {}", ratio.times, ratio.reference);
     text += "\n";
   }
-  for (const std::string& note : result.notes) text += note + "\n";
+  for (const Message& note : result.notes) text += fmt::format("{}\n", note);
   return text;
 }
 

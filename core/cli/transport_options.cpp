@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "base/message.h"
 #include "cli/options.h"
 
 namespace relucent {
@@ -39,8 +40,8 @@ std::function<Command()> addExportOptions(CLI::App* sub) {
   sub->add_option("--maps", command->settings.maps, "Black level, flood image and masks as OpenEXR")
       ->type_name("DIR");
   return [command] {
-    for (const std::string& problem : problems(command->settings))
-      throw WrongUsage(problem + ": give --transport, --leaves, --inverse or --maps");
+    for (const Message& problem : problems(command->settings))
+      throw WrongUsage(english(problem) + ": give --transport, --leaves, --inverse or --maps");
     return Command(*command);
   };
 }

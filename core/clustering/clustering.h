@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/enum_names.h"
+#include "base/message.h"
 #include "clustering/connection_graph.h"
 
 namespace relucent {
@@ -43,7 +44,7 @@ struct ClusteringSettings {
   SizeCap cap = SizeCap::whenPercolated;
   int mostUnknowns = 256;  // projector pixels of a capped cluster
 };
-std::vector<std::string> problems(const ClusteringSettings& settings);
+std::vector<Message> problems(const ClusteringSettings& settings);
 
 /// Instead of a cluster: a pixel without connections.
 constexpr std::uint32_t noCluster = std::numeric_limits<std::uint32_t>::max();
@@ -75,7 +76,7 @@ struct ClusteringStatistics {
   double cutByCap = 0.0;
   double farLight = 0.0;                     // in leaves that carry no connections
   double errorMedian = 0.0, errorP95 = 0.0;  // of the relative RMS error of the lit camera pixels
-  std::string finding;                       // one sentence about percolation, empty if there is none
+  Message finding;                           // one sentence about percolation, empty if there is none
 };
 
 /// A partition of T's near field into independent clusters. Immutable.

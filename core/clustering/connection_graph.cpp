@@ -130,11 +130,15 @@ void keepBrightestOfEachPixel(std::vector<Connection>& row) {
 
 }  // namespace
 
-std::vector<std::string> problems(const ConnectionGraphSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const ConnectionGraphSettings& settings) {
+  std::vector<Message> found;
   if (!(settings.leastShare >= 0.0 && settings.leastShare <= 1.0))
-    found.push_back("the share of a row's brightest connection must lie between 0 and 1");
-  if (settings.coarsestLevel < 0) found.push_back("the coarsest level must not be negative");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("clusters.share-row-brightest-connection-must",
+                                 "the share of a row's brightest connection must lie between 0 and 1"));
+  if (settings.coarsestLevel < 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.coarsest-level-must-not-negative",
+                                             "the coarsest level must not be negative"));
   return found;
 }
 
@@ -142,7 +146,8 @@ ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::ve
                                  const ConnectionGraphSettings& settings, Progress& progress)
     : transport_(&transport), nodes_(transport.layout()) {
   if (auto found = problems(settings); !found.empty())
-    throw Error(ErrorKind::usage, found.front(), "correct the setting", "clustering");
+    throw Error(ErrorKind::usage, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("clusters.correct-setting", "correct the setting"), "clustering");
   const BlockSparse& leaves = transport.leaves();
   require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
           leaves.rows());

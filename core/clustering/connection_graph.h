@@ -22,7 +22,7 @@ struct ConnectionGraphSettings {
   double leastShare = 0.01;  // of the row's brightest projector pixel: dimmer leaves become no connection
   int coarsestLevel = 3;     // wider leaves become none: their light is uniform over more than a patch
 };
-std::vector<std::string> problems(const ConnectionGraphSettings& settings);
+std::vector<Message> problems(const ConnectionGraphSettings& settings);
 
 /// The near field of T pixel by pixel, every row from its brightest connection down: prepared once, after
 /// which clustering with other thresholds is fast. A leaf of several pixels is a connection to each of them

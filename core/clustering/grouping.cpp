@@ -22,19 +22,22 @@ constexpr std::uint32_t harmlessUnknowns = 256;
 
 constexpr std::size_t parts = 64;
 
-std::string percolationFinding(const ClusteringStatistics& statistics, const ClusteringSettings& settings) {
-  double share = 100.0 * statistics.largestBeforeCap / static_cast<double>(statistics.litProjectorPixels);
-  std::string said = fmt::format(
-      "one cluster joins {:.0f} % of all lit projector pixels, because neighbouring footprints overlap by "
-      "more "
-      "than a cut of {:.0f} % takes away",
-      share, 100.0 * settings.patchCut);
+Message percolationFinding(const ClusteringStatistics& statistics, const ClusteringSettings& settings) {
+  const Argument joined = as::share(
+      statistics.largestBeforeCap / static_cast<double>(statistics.litProjectorPixels), as::decimals(0));
+  const Argument cut = as::share(settings.patchCut, as::decimals(0));
   if (statistics.capped)
-    return said + fmt::format(
-                      "; clusters were held to {} projector pixels, which cut another {:.1f} % of the "
-                      "light",
-                      settings.mostUnknowns, 100.0 * statistics.cutByCap);
-  return said + "; allow a cap on the size of clusters, or cut more of each patch";
+    return RELUCENT_ENGLISH_MESSAGE(
+               "clusters.percolated-and-capped",
+               "one cluster joins {} % of all lit projector pixels, because neighbouring footprints overlap "
+               "by more than a cut of {} % takes away; clusters were held to {} projector pixels, which cut "
+               "another {} % of the light")
+        .with(joined, cut, settings.mostUnknowns, as::share(statistics.cutByCap, as::decimals(1)));
+  return RELUCENT_ENGLISH_MESSAGE("clusters.percolated",
+                                  "one cluster joins {} % of all lit projector pixels, because neighbouring "
+                                  "footprints overlap by more than a cut of {} % takes away; allow a cap on "
+                                  "the size of clusters, or cut more of each patch")
+      .with(joined, cut);
 }
 
 }  // namespace
@@ -46,18 +49,20 @@ class Grouper::Work {
 
   const Grouping& group(const ClusteringSettings& settings, Progress& progress) {
     if (auto found = problems(settings); !found.empty())
-      throw Error(ErrorKind::usage, found.front(), "correct the setting", "clustering");
-    Progress cutting = progress.part(0.5, "Forming patches");
+      throw Error(ErrorKind::usage, found.front(),
+                  RELUCENT_ENGLISH_MESSAGE("clusters.correct-setting", "correct the setting"), "clustering");
+    Progress cutting = progress.part(0.5, RELUCENT_MESSAGE("stage.forming-patches", "Forming patches"));
     patches_.cut(settings, cutting);
 
-    Progress joining = progress.part(0.5, "Joining clusters");
+    Progress joining = progress.part(0.5, RELUCENT_MESSAGE("stage.joining-clusters", "Joining clusters"));
     measureComponents();
     ClusteringStatistics& statistics = result_.statistics;
     statistics.capped =
         settings.cap == SizeCap::always || (settings.cap == SizeCap::whenPercolated && statistics.percolated);
     double cutByCap = 0.0;
     if (statistics.capped) {
-      Progress capping = joining.part(0.7, "Holding clusters to a size");
+      Progress capping =
+          joining.part(0.7, RELUCENT_MESSAGE("stage.holding-clusters-size", "Holding clusters to a size"));
       bound_.join({graph_, patches_.kept(), patches_.brightest()},
                   static_cast<std::uint32_t>(settings.mostUnknowns), capping);
       number(bound_);

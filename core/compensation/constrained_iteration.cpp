@@ -33,9 +33,11 @@ double Iteration::objective(const Stack& lit) const {
     return 0.5 * static_cast<double>(problem_.weight[i / 3]) * r * r;
   });
   if (!std::isfinite(f))
-    throw Error(ErrorKind::numerics,
-                "the light transport or the wanted image holds values that are not finite",
-                "measure the venue again");
+    throw Error(
+        ErrorKind::numerics,
+        RELUCENT_ENGLISH_MESSAGE("compensation.light-transport-wanted-image-holds",
+                                 "the light transport or the wanted image holds values that are not finite"),
+        RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
   return f;
 }
 

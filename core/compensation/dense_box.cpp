@@ -123,8 +123,10 @@ class ActiveSet {
     part.diagonal().array() += ridge * largest_;
     Eigen::LLT<Eigen::MatrixXd> factor(part);
     if (factor.info() != Eigen::Success)
-      throw Error(ErrorKind::numerics, "a dense least-squares problem cannot be factored",
-                  "choose another solver");
+      throw Error(ErrorKind::numerics,
+                  RELUCENT_ENGLISH_MESSAGE("compensation.dense-least-squares-problem-cannot",
+                                           "a dense least-squares problem cannot be factored"),
+                  RELUCENT_ENGLISH_MESSAGE("compensation.choose-another-solver", "choose another solver"));
     constexpr int mostCorrections = 10;
     for (int i = 0; i < mostCorrections; ++i) {
       VectorXd residual = a_.transpose() * (b_ - a_ * x);
@@ -148,11 +150,17 @@ class ActiveSet {
 
 }  // namespace
 
-std::vector<std::string> problems(const DenseBoxSettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.lower < settings.upper)) found.push_back("the lower bound must lie below the upper");
-  if (!(settings.tolerance > 0.0)) found.push_back("the dense solver's tolerance must be above 0");
-  if (settings.mostIterations < 0) found.push_back("the dense solver's iterations cannot be fewer than none");
+std::vector<Message> problems(const DenseBoxSettings& settings) {
+  std::vector<Message> found;
+  if (!(settings.lower < settings.upper))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.lower-bound-must-lie-below",
+                                             "the lower bound must lie below the upper"));
+  if (!(settings.tolerance > 0.0))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-solver-tolerance-must-above",
+                                             "the dense solver's tolerance must be above 0"));
+  if (settings.mostIterations < 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-solver-iterations-cannot-fewer",
+                                             "the dense solver's iterations cannot be fewer than none"));
   return found;
 }
 
@@ -162,8 +170,10 @@ DenseBoxResult solveDenseBox(const Eigen::MatrixXd& a, const VectorXd& b, const 
   require(wrong.empty(), "dense solver settings: {}", fmt::join(wrong, "; "));
   require(a.rows() == b.size(), "a matrix of {} rows and {} values", a.rows(), b.size());
   if (!a.allFinite() || !b.allFinite())
-    throw Error(ErrorKind::numerics, "a least-squares problem holds values that are not finite",
-                "measure the venue again");
+    throw Error(ErrorKind::numerics,
+                RELUCENT_ENGLISH_MESSAGE("compensation.least-squares-problem-holds-values",
+                                         "a least-squares problem holds values that are not finite"),
+                RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 
   DenseBoxResult result;
   ActiveSet set(a, b, settings);

@@ -15,7 +15,7 @@ struct DenseBoxSettings {
   double tolerance = 1e-9;  // of the optimality, see DenseBoxResult
   int mostIterations = 0;   // 0: ten times the number of unknowns
 };
-std::vector<std::string> problems(const DenseBoxSettings& settings);
+std::vector<Message> problems(const DenseBoxSettings& settings);
 
 struct DenseBoxResult {
   Eigen::VectorXd x;

@@ -34,9 +34,12 @@ SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, co
   std::vector<std::size_t> columns = freeValues(problem), rows = weightedValues(problem);
   if (columns.size() > mostUnknowns || columns.size() * rows.size() > mostValues)
     throw Error(ErrorKind::input,
-                fmt::format("{} unknowns from {} values are too many for the dense solver, which takes {}",
-                            columns.size(), rows.size(), mostUnknowns),
-                "choose another solver, or place the content on fewer pixels");
+                RELUCENT_ENGLISH_MESSAGE(
+                    "compensation.unknowns-values-too-many-dense",
+                    "{} unknowns from {} values are too many for the dense solver, which takes {}")
+                    .with(columns.size(), rows.size(), mostUnknowns),
+                RELUCENT_ENGLISH_MESSAGE("compensation.choose-another-solver-place-content",
+                                         "choose another solver, or place the content on fewer pixels"));
 
   // sqrt(W) T, a column for every free value.
   Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
@@ -44,7 +47,8 @@ SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, co
   auto root = [&](std::size_t i) { return std::sqrt(static_cast<double>(problem.weight[rows[i] / 3])); };
   for (std::size_t i = 0; i < rows.size(); ++i)
     b[static_cast<Eigen::Index>(i)] = root(i) * static_cast<double>(problem.wantedLessBlack[rows[i]]);
-  Progress assembling = progress.part(0.2, "Writing out the light transport");
+  Progress assembling = progress.part(
+      0.2, RELUCENT_MESSAGE("stage.writing-out-light-transport", "Writing out the light transport"));
   Stack one(start.size(), 0.0f);
   for (std::size_t j = 0; j < columns.size(); ++j) {
     assembling.report(static_cast<double>(j) / static_cast<double>(columns.size()));
@@ -64,7 +68,7 @@ SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, co
   }
   DenseBoxSettings dense;
   dense.mostIterations = settings.mostIterations;
-  Progress solving = progress.part(0.8, "Solving");
+  Progress solving = progress.part(0.8, RELUCENT_MESSAGE("stage.solving", "Solving"));
   DenseBoxResult solved = solveDenseBox(a, b, dense, solving);
   for (std::size_t j = 0; j < columns.size(); ++j)
     result.x[columns[j]] = static_cast<float>(solved.x[static_cast<Eigen::Index>(j)]);

@@ -23,9 +23,11 @@ void eachRow(std::size_t rows, Progress& progress, const Body& body) {
 
 }  // namespace
 
-std::vector<std::string> problems(const DirectLightSettings& settings) {
+std::vector<Message> problems(const DirectLightSettings& settings) {
   if (settings.reach > 0.0 && settings.reach <= 1.0) return {};
-  return {"the reach of direct light must lie between 0 and 1 of the projector's side"};
+  return {
+      RELUCENT_ENGLISH_MESSAGE("compensation.reach-of-direct-light",
+                               "the reach of direct light must lie between 0 and 1 of the projector's side")};
 }
 
 DirectLeaves::DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings)

@@ -18,7 +18,7 @@ struct DirectLightSettings {
   /// enough for defocus, narrow compared with the smooth patterns of diffuse interreflection.
   double reach = 1.0 / 32.0;
 };
-std::vector<std::string> problems(const DirectLightSettings& settings);
+std::vector<Message> problems(const DirectLightSettings& settings);
 
 /// Where a camera pixel looks to.
 struct DirectLook {

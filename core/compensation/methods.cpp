@@ -36,17 +36,20 @@ double finish(Stack& p, const std::vector<std::uint8_t>& free) {
 
 }  // namespace
 
-std::vector<std::string> problems(const CompensatorSettings& settings) {
-  std::vector<std::string> found = problems(settings.optimum);
-  for (const std::string& problem : problems(settings.sharpening)) found.push_back(problem);
-  for (const std::string& problem : problems(settings.direct)) found.push_back(problem);
-  for (const std::string& problem : problems(settings.clustering)) found.push_back(problem);
-  for (const std::string& problem : problems(settings.clusterInverse)) found.push_back(problem);
+std::vector<Message> problems(const CompensatorSettings& settings) {
+  std::vector<Message> found = problems(settings.optimum);
+  for (const Message& problem : problems(settings.sharpening)) found.push_back(problem);
+  for (const Message& problem : problems(settings.direct)) found.push_back(problem);
+  for (const Message& problem : problems(settings.clustering)) found.push_back(problem);
+  for (const Message& problem : problems(settings.clusterInverse)) found.push_back(problem);
   if (!(settings.correctionByInverse >= 0.0f && settings.correctionByInverse <= 2.0f) ||
       !(settings.correctionByAdjoint >= 0.0f && settings.correctionByAdjoint <= 2.0f))
-    found.push_back("the correction of the windows must lie between 0 and 2");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.correction-windows-must-lie-between",
+                                             "the correction of the windows must lie between 0 and 2"));
   for (float step : settings.steps)
-    if (!(step > 0.0f)) found.push_back("the steps of the refined method must be above 0");
+    if (!(step > 0.0f))
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.steps-refined-method-must-above",
+                                               "the steps of the refined method must be above 0"));
   return found;
 }
 
@@ -107,11 +110,11 @@ float Compensator::bestBrightness(const Target& target) const {
 
 Compensation Compensator::sharpened(const Target& target, Compensation mixed,
                                     const std::vector<std::uint8_t>& free, Progress& progress) const {
-  Progress separating = progress.part(0.3, "Finding the defocus");
+  Progress separating = progress.part(0.3, RELUCENT_MESSAGE("stage.finding-defocus", "Finding the defocus"));
   TransportMatrix defocus = defocusOnly(venue_.transport, settings_.direct, separating);
   Stack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{defocus, wantedLessBlack, target.weight, free};
-  Progress solving = progress.part(0.7, "Sharpening");
+  Progress solving = progress.part(0.7, RELUCENT_MESSAGE("stage.sharpening", "Sharpening"));
   SolveResult solved = solveConstrained(problem, mixed.projector, settings_.sharpening, solving);
   mixed.projector = std::move(solved.x);
   mixed.iterations = solved.iterations;
@@ -120,10 +123,12 @@ Compensation Compensator::sharpened(const Target& target, Compensation mixed,
 
 const ClusterInverse& Compensator::clusters(Progress& progress) const {
   std::call_once(clustersMade_, [&] {
-    Progress clustering = progress.part(0.3, "Clustering the light transport");
+    Progress clustering = progress.part(
+        0.3, RELUCENT_MESSAGE("stage.clustering-light-transport", "Clustering the light transport"));
     ConnectionGraph graph(venue_.transport, venue_.usable, {}, clustering);
     Clustering clustered = relucent::clustered(graph, settings_.clustering, clustering);
-    Progress inverting = progress.part(0.6, "Inverting the clusters");
+    Progress inverting =
+        progress.part(0.6, RELUCENT_MESSAGE("stage.inverting-clusters", "Inverting the clusters"));
     clusters_ = computeClusterInverse(clustered, venue_.usable, settings_.clusterInverse, inverting);
   });
   return clusters_;

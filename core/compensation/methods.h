@@ -33,7 +33,7 @@ struct CompensatorSettings {
   SolverSettings sharpening{SolverSettings::Algorithm::steepestDescent, 20};
   DirectLightSettings direct;  // reach of the defocus in `sharpen`
 };
-std::vector<std::string> problems(const CompensatorSettings& settings);
+std::vector<Message> problems(const CompensatorSettings& settings);
 
 /// What to project.
 struct Compensation {

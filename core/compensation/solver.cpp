@@ -38,10 +38,14 @@ SolveResult solveBy(Algorithm algorithm, const detail::Iteration& at, const Cons
 
 }  // namespace
 
-std::vector<std::string> problems(const SolverSettings& settings) {
-  std::vector<std::string> found;
-  if (settings.mostIterations < 1) found.push_back("the solver needs at least one iteration");
-  if (!(settings.tolerance > 0.0)) found.push_back("the solver's tolerance must be above 0");
+std::vector<Message> problems(const SolverSettings& settings) {
+  std::vector<Message> found;
+  if (settings.mostIterations < 1)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.solver-needs-least-one-iteration",
+                                             "the solver needs at least one iteration"));
+  if (!(settings.tolerance > 0.0))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.solver-tolerance-must-above-0",
+                                             "the solver's tolerance must be above 0"));
   return found;
 }
 

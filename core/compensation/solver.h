@@ -31,7 +31,7 @@ struct SolverSettings {
   int mostIterations = 200;
   double tolerance = 2e-4;  // of the projected gradient, see SolveResult
 };
-std::vector<std::string> problems(const SolverSettings& settings);
+std::vector<Message> problems(const SolverSettings& settings);
 
 inline constexpr EnumName<SolverSettings::Algorithm> algorithmNames[]{
     {SolverSettings::Algorithm::fista, "fista", "accelerated projected gradient"},

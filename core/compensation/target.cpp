@@ -30,8 +30,12 @@ Corners chosenCorners(const Image& content, const MeasuredVenue& venue) {
   double aspect = static_cast<double>(content.width()) / content.height();
   std::optional<Corners> found = largestUpright(placeable(venue), view, aspect);
   if (!found)
-    throw Error(ErrorKind::input, "no part of the camera's view is lit well enough to hold a picture",
-                "aim the camera at the projection or set the corners of the content by hand");
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("compensation.no-part-camera-view-lit",
+                                         "no part of the camera's view is lit well enough to hold a picture"),
+                RELUCENT_ENGLISH_MESSAGE(
+                    "compensation.aim-camera-projection-set-corners",
+                    "aim the camera at the projection or set the corners of the content by hand"));
   return *found;
 }
 
@@ -46,10 +50,11 @@ void checkInView(const Corners& corners, Size view) {
       continue;
     throw Error(
         ErrorKind::input,
-        fmt::format("the {} corner of the content at ({:g}, {:g}) lies outside the camera's view of {}x{} "
-                    "pixels",
-                    names[i], x, y, view.width, view.height),
-        "move the corners into the view");
+        RELUCENT_ENGLISH_MESSAGE(
+            "compensation.corner-content-lies-outside-camera",
+            "the {} corner of the content at ({}, {}) lies outside the camera's view of {} pixels")
+            .with(names[i], as::number(x, as::digits(6)), as::number(y, as::digits(6)), as::size(view)),
+        RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-view", "move the corners into the view"));
   }
 }
 
@@ -61,14 +66,19 @@ Placement placementOf(const Image& content, const MeasuredVenue& venue, const Ta
 }
 
 /// What is wrong with the corners, empty if nothing is.
-std::string cornerProblem(const Corners& corners) {
+Message cornerProblem(const Corners& corners) {
   for (const auto& corner : corners)
     if (!std::isfinite(corner[0]) || !std::isfinite(corner[1]))
-      return "the corners of the content must be finite numbers";
+      return RELUCENT_ENGLISH_MESSAGE("compensation.corners-not-finite",
+                                      "the corners of the content must be finite numbers");
   if (isConvex(corners)) return {};
   if (isConvex({corners[0], corners[3], corners[2], corners[1]}))
-    return "the corners of the content go counter-clockwise: they must go clockwise from top left";
-  return "the corners of the content span no convex quadrilateral: they must go clockwise from top left";
+    return RELUCENT_ENGLISH_MESSAGE(
+        "compensation.corners-counter-clockwise",
+        "the corners of the content go counter-clockwise: they must go clockwise from top left");
+  return RELUCENT_ENGLISH_MESSAGE(
+      "compensation.corners-not-convex",
+      "the corners of the content span no convex quadrilateral: they must go clockwise from top left");
 }
 
 /// The brightest white that all but `percentile` percent of the usable pixels inside can show.
@@ -82,29 +92,41 @@ float whiteLevel(const MeasuredVenue& venue, const std::vector<std::uint8_t>& in
     brightest.push_back(least);
   }
   if (brightest.empty())
-    throw Error(ErrorKind::input, "the corners of the content enclose no pixel that the projector lights",
-                "move the corners into the lit part of the camera's view");
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("compensation.corners-content-enclose-no-pixel",
+                                 "the corners of the content enclose no pixel that the projector lights"),
+        RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
+                                 "move the corners into the lit part of the camera's view"));
   auto rank = static_cast<std::size_t>(percentile / 100.0 * static_cast<double>(brightest.size() - 1));
   auto chosen = brightest.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(brightest.begin(), chosen, brightest.end());
   if (!(*chosen > 0.0f))
-    throw Error(ErrorKind::input, "some colour of the projector hardly reaches the camera within the content",
-                "move the corners into the lit part of the camera's view");
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("compensation.some-colour-projector-hardly-reaches",
+                                 "some colour of the projector hardly reaches the camera within the content"),
+        RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
+                                 "move the corners into the lit part of the camera's view"));
   return *chosen;
 }
 
 }  // namespace
 
-std::vector<std::string> problems(const TargetSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const TargetSettings& settings) {
+  std::vector<Message> found;
   if (settings.corners)
-    if (std::string problem = cornerProblem(*settings.corners); !problem.empty()) found.push_back(problem);
+    if (Message problem = cornerProblem(*settings.corners); !problem.empty()) found.push_back(problem);
   if (!(settings.reachablePercentile >= 0.0 && settings.reachablePercentile <= 100.0))
-    found.push_back("the share of pixels too dark for white must lie between 0 and 100 percent");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "compensation.share-pixels-too-dark-white",
+        "the share of pixels too dark for white must lie between 0 and 100 percent"));
   if (!(settings.blackLift >= 0.0 && settings.blackLift < 1.0))
-    found.push_back("the black lift must lie between 0 and 1");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-must-lie-between",
+                                             "the black lift must lie between 0 and 1"));
   if (!(settings.unreachableWeight >= 0.0 && settings.unreachableWeight <= 1.0))
-    found.push_back("the weight of unreachable pixels must lie between 0 and 1");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.weight-unreachable-pixels-must-lie",
+                                             "the weight of unreachable pixels must lie between 0 and 1"));
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "compensation/placement.h"
 #include "image/image.h"
 #include "transport/transport_matrix.h"
@@ -36,7 +37,7 @@ struct TargetSettings {
   double blackLift = 0.0;             // share of white added to black
   double unreachableWeight = 0.1;     // weight of unreachable pixels
 };
-std::vector<std::string> problems(const TargetSettings& settings);
+std::vector<Message> problems(const TargetSettings& settings);
 
 /// The target image at the cameras.
 struct Target {

@@ -62,14 +62,20 @@ Uncorrectable byBrightness(const MeasuredVenue& venue, const Target& target, std
 
 }  // namespace
 
-std::vector<std::string> problems(const UncorrectableSettings& settings) {
-  std::vector<std::string> found = problems(settings.direct);
-  auto share = [&](double value, const char* sentence) {
-    if (!(value >= 0.0 && value <= 1.0)) found.emplace_back(sentence);
+std::vector<Message> problems(const UncorrectableSettings& settings) {
+  std::vector<Message> found = problems(settings.direct);
+  auto share = [&](double value, const Message& sentence) {
+    if (!(value >= 0.0 && value <= 1.0)) found.push_back(sentence);
   };
-  share(settings.leastDirectShare, "the least share of direct light must lie between 0 and 1");
-  share(settings.apart, "the distance of two views must lie between 0 and 1 of the camera's side");
-  share(settings.comparable, "the share of light that is comparable must lie between 0 and 1");
+  share(settings.leastDirectShare,
+        RELUCENT_ENGLISH_MESSAGE("compensation.least-direct-share",
+                                 "the least share of direct light must lie between 0 and 1"));
+  share(settings.apart,
+        RELUCENT_ENGLISH_MESSAGE("compensation.distance-of-views",
+                                 "the distance of two views must lie between 0 and 1 of the camera's side"));
+  share(settings.comparable,
+        RELUCENT_ENGLISH_MESSAGE("compensation.comparable-share",
+                                 "the share of light that is comparable must lie between 0 and 1"));
   return found;
 }
 
@@ -82,7 +88,7 @@ std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Ta
           "a target of {} pixels and {} flags for {} camera pixels", target.inside.size(),
           venue.usable.size(), pixels);
 
-  Progress looking = progress.part(0.6, "Looking for shadows");
+  Progress looking = progress.part(0.6, RELUCENT_MESSAGE("stage.looking-shadows", "Looking for shadows"));
   std::vector<DirectLook> looks = directLooks(venue.transport, settings.direct, looking);
   std::vector<std::uint8_t> lit = directlyLit(looks, settings.leastDirectShare), twice(pixels, 0);
   for (std::size_t i = 0; i < pixels; ++i) lit[i] = lit[i] && venue.usable[i];

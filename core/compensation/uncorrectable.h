@@ -46,7 +46,7 @@ struct UncorrectableSettings {
   /// given priority.
   double comparable = 0.5;
 };
-std::vector<std::string> problems(const UncorrectableSettings& settings);
+std::vector<Message> problems(const UncorrectableSettings& settings);
 
 /// Per camera pixel, of all cameras, whether it can show what is wanted, and why not.
 /// Seen twice: let j be the projector pixel that lights camera pixel i most, and i' the pixel of the same

@@ -45,10 +45,16 @@ class AravisFailure {
   void check(const std::string& deed) const {
     if (error_ == nullptr) return;
     if (isLoss())
-      throw CameraLost(fmt::format("the camera no longer answers ({}: {})", deed, error_->message));
-    throw Error(ErrorKind::device, fmt::format("the camera refuses ({}: {})", deed, error_->message),
-                "switch it off and on, load its default settings with its maker's program, and try again",
-                camera_);
+      throw CameraLost(
+          RELUCENT_MESSAGE("device.camera-no-longer-answers", "the camera no longer answers ({}: {})")
+              .with(deed, error_->message));
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("device.camera-refuses", "the camera refuses ({}: {})").with(deed, error_->message),
+        RELUCENT_MESSAGE(
+            "device.switch-off-load-default-settings",
+            "switch it off and on, load its default settings with its maker's program, and try again"),
+        camera_);
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/message.h"
 #include "devices/aravis.h"
 
 namespace relucent {
@@ -35,18 +36,19 @@ std::string identityOf(const std::string& wanted) {
   return {};
 }
 
-std::string reasonOf(ArvBufferStatus status) {
+Message reasonOf(ArvBufferStatus status) {
   switch (status) {
     case ARV_BUFFER_STATUS_SUCCESS:
       return {};
     case ARV_BUFFER_STATUS_TIMEOUT:
     case ARV_BUFFER_STATUS_MISSING_PACKETS:
     case ARV_BUFFER_STATUS_WRONG_PACKET_ID:
-      return "parts of the photograph were lost on the way";
+      return RELUCENT_MESSAGE("device.parts-lost-on-the-way", "parts of the photograph were lost on the way");
     case ARV_BUFFER_STATUS_SIZE_MISMATCH:
-      return "the photograph is larger than the camera announced";
+      return RELUCENT_MESSAGE("device.photograph-larger-than-announced",
+                              "the photograph is larger than the camera announced");
     default:
-      return "the photograph was not finished";
+      return RELUCENT_MESSAGE("device.photograph-not-finished", "the photograph was not finished");
   }
 }
 
@@ -95,7 +97,9 @@ class AravisDriver : public CameraDriver {
     const bool foreign =
         frame.damage.empty() && arv_buffer_get_image_pixel_format(buffer) != setup_.pixelFormat;
     arv_stream_push_buffer(stream_.get(), buffer);
-    if (foreign) throw CameraLost("the camera has forgotten the pixel format that it was set to");
+    if (foreign)
+      throw CameraLost(RELUCENT_MESSAGE("device.camera-forgotten-pixel-format-set",
+                                        "the camera has forgotten the pixel format that it was set to"));
     return frame;
   }
 
@@ -110,15 +114,20 @@ class AravisDriver : public CameraDriver {
  private:
   void open() {
     const std::string identity = identityOf(settings_.camera);
-    if (identity.empty()) throw CameraLost(fmt::format("no GenICam camera '{}' answers", settings_.camera));
+    if (identity.empty())
+      throw CameraLost(RELUCENT_MESSAGE("device.no-genicam-camera-answers", "no GenICam camera '{}' answers")
+                           .with(settings_.camera));
     AravisFailure failure(name());
     camera_.reset(arv_camera_new(identity.c_str(), failure));
     failure.check("connecting");
-    if (!camera_) throw CameraLost(fmt::format("no GenICam camera '{}' answers", settings_.camera));
+    if (!camera_)
+      throw CameraLost(RELUCENT_MESSAGE("device.no-genicam-camera-answers", "no GenICam camera '{}' answers")
+                           .with(settings_.camera));
     ArvDevice* device = arv_camera_get_device(camera_.get());
     if (arv_camera_is_gv_device(camera_.get()) != FALSE &&
         !arv_gv_device_is_controller(ARV_GV_DEVICE(device)))
-      throw CameraLost("another program holds the camera");
+      throw CameraLost(
+          RELUCENT_MESSAGE("device.another-program-holds-camera", "another program holds the camera"));
   }
 
   /// A stream of its own for every listening: what was sent to the one before never comes out of this one.
@@ -136,7 +145,8 @@ class AravisDriver : public CameraDriver {
     }
     stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, failure));
     failure.check("stream");
-    if (!stream_) throw CameraLost("the camera sends no stream");
+    if (!stream_)
+      throw CameraLost(RELUCENT_MESSAGE("device.camera-sends-no-stream", "the camera sends no stream"));
     const guint payload = arv_camera_get_payload(camera_.get(), failure);
     failure.check("size of a photograph");
     // The library's own choice, one photograph, loses packets of small ones. The system grants what it can.
@@ -153,8 +163,9 @@ class AravisDriver : public CameraDriver {
     if (ARV_IS_GV_STREAM(stream_.get()) && setup_.triggered) takeOneForTheSocket();
   }
 
-  /// The library gives a stream its room only after the first packet, too late for what the network has of the
-  /// rest of that photograph: as each repetition begins a stream of its own, all of them would lose parts.
+  /// The library gives a stream its room only after the first packet, too late for what the network has of
+  /// the rest of that photograph: as each repetition begins a stream of its own, all of them would lose
+  /// parts.
   void takeOneForTheSocket() {
     constexpr microseconds patience(1'000'000);
     AravisFailure failure(name());

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/message.h"
 #include "devices/aravis.h"
 
 namespace relucent {
@@ -46,10 +47,14 @@ class Setup {
         any || std::find(available.begin(), available.end(), settings_.format) != available.end();
     if (!format || !offered)
       throw Error(ErrorKind::device,
-                  any ? std::string("none of the camera's pixel formats can be read")
-                      : fmt::format("the camera has no pixel format {} that can be read", settings_.format),
-                  fmt::format("it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read",
-                              fmt::join(available, ", ")),
+                  any ? RELUCENT_MESSAGE("device.none-camera-pixel-formats-can",
+                                         "none of the camera's pixel formats can be read")
+                      : RELUCENT_MESSAGE("device.camera-no-pixel-format-can",
+                                         "the camera has no pixel format {} that can be read")
+                            .with(settings_.format),
+                  RELUCENT_MESSAGE("device.unpacked-mono-bayer-rgb-8",
+                                   "it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read")
+                      .with(fmt::to_string(fmt::join(available, ", "))),
                   name_);
     arv_camera_set_pixel_format_from_string(camera_, nameOf(*format).c_str(), failure);
     failure.check("pixel format " + nameOf(*format));
@@ -57,7 +62,9 @@ class Setup {
     setup_.pixelFormat = arv_camera_get_pixel_format(camera_, failure);
     failure.check("pixel format");
     if (format->layout == SensorLayout::mono)
-      traits.remarks.push_back("sees no colours: brightness can be compensated, colours cannot");
+      traits.remarks.push_back(
+          RELUCENT_MESSAGE("device.sees-no-colours-brightness-can",
+                           "sees no colours: brightness can be compensated, colours cannot"));
   }
 
   void chooseRegion(CameraTraits& traits) {
@@ -68,11 +75,11 @@ class Setup {
     const Size sensor{sensorWidth, sensorHeight};
     const Size wanted = settings_.photograph ? sensorSize(*settings_.photograph, setup_.format) : sensor;
     if (wanted.width > sensor.width || wanted.height > sensor.height)
-      throw Error(ErrorKind::device,
-                  fmt::format("{}x{} pixels are wanted and the camera has {}x{}", settings_.photograph->width,
-                              settings_.photograph->height, photographSize(sensor, setup_.format).width,
-                              photographSize(sensor, setup_.format).height),
-                  "ask for that or less", name_);
+      throw Error(
+          ErrorKind::device,
+          RELUCENT_MESSAGE("device.pixels-wanted-camera", "{} pixels are wanted and the camera has {}")
+              .with(as::size(*settings_.photograph), as::size(photographSize(sensor, setup_.format))),
+          RELUCENT_MESSAGE("device.ask-less", "ask for that or less"), name_);
     // An even corner keeps the colour filter's order.
     arv_camera_set_region(camera_, (sensor.width - wanted.width) / 4 * 2,
                           (sensor.height - wanted.height) / 4 * 2, wanted.width, wanted.height, failure);
@@ -82,11 +89,11 @@ class Setup {
     failure.check("part of the sensor");
     traits.size = photographSize({width, height}, setup_.format);
     if (settings_.photograph && traits.size != *settings_.photograph)
-      throw Error(
-          ErrorKind::device,
-          fmt::format("{}x{} pixels are wanted and the camera gives {}x{}", settings_.photograph->width,
-                      settings_.photograph->height, traits.size.width, traits.size.height),
-          "ask for the size that it gives", name_);
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("device.pixels-wanted-camera-gives",
+                                   "{} pixels are wanted and the camera gives {}")
+                      .with(as::size(*settings_.photograph), as::size(traits.size)),
+                  RELUCENT_MESSAGE("device.ask-size-gives", "ask for the size that it gives"), name_);
   }
 
   /// Throws: Error{device} if the camera goes on deciding something by itself.
@@ -98,8 +105,12 @@ class Setup {
       const bool refused = failure.happened();
       const std::string held = refused ? "On" : textOf(arv_camera_get_string(camera_, automatic, failure));
       if (refused || held != "Off")
-        throw Error(ErrorKind::device, fmt::format("{} cannot be switched off", automatic),
-                    "switch it off with the camera maker's program, or use another camera", name_);
+        throw Error(
+            ErrorKind::device,
+            RELUCENT_MESSAGE("device.cannot-switched-off", "{} cannot be switched off").with(automatic),
+            RELUCENT_MESSAGE("device.switch-off-camera-maker-program",
+                             "switch it off with the camera maker's program, or use another camera"),
+            name_);
     }
     // Missing on many cameras; where they are, they only get in the way.
     for (const char* hindrance : {"AcquisitionFrameRateEnable", "GammaEnable"}) {
@@ -117,15 +128,17 @@ class Setup {
     failure.check("range of gains");
     const double wanted = settings_.gain.value_or(lowest);
     if (wanted < lowest || wanted > highest)
-      throw Error(ErrorKind::device, fmt::format("a gain of {} is wanted", wanted),
-                  fmt::format("the camera can do {} to {}", lowest, highest), name_);
+      throw Error(
+          ErrorKind::device, RELUCENT_MESSAGE("device.gain-wanted", "a gain of {} is wanted").with(wanted),
+          RELUCENT_MESSAGE("device.camera-can", "the camera can do {} to {}").with(lowest, highest), name_);
     arv_camera_set_gain(camera_, wanted, failure);
     failure.check("gain");
     traits.gain = arv_camera_get_gain(camera_, failure);
     failure.check("gain");
     if (std::abs(traits.gain - wanted) > 0.01 * std::max(1.0, highest - lowest))
       traits.remarks.push_back(
-          fmt::format("was asked for a gain of {:.4g} and keeps to {:.4g}", wanted, traits.gain));
+          RELUCENT_MESSAGE("device.asked-gain-keeps", "was asked for a gain of {} and keeps to {}")
+              .with(as::number(wanted, as::digits(4)), as::number(traits.gain, as::digits(4))));
   }
 
   void chooseTrigger(CameraTraits& traits) {
@@ -140,7 +153,9 @@ class Setup {
     failure.check("software trigger");
     traits.triggered = setup_.triggered;
     if (!setup_.triggered)
-      traits.remarks.push_back("has no software trigger: each photograph may wait for one more exposure");
+      traits.remarks.push_back(
+          RELUCENT_MESSAGE("device.no-software-trigger-each-photograph",
+                           "has no software trigger: each photograph may wait for one more exposure"));
   }
 
   ArvCamera* camera_;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/sensor_frame.h"
 #include "rig/rig.h"
 
@@ -19,24 +20,26 @@ class CameraLost : public std::exception {
  public:
   /// `reason`: a sentence without a full stop. `advice`: one that says what to do; empty: look after its
   /// cable, its power and its address.
-  explicit CameraLost(std::string reason, std::string advice = {})
-      : reason_(std::move(reason)), advice_(std::move(advice)) {}
-  const char* what() const noexcept override { return reason_.c_str(); }
-  const std::string& advice() const { return advice_; }
+  explicit CameraLost(Message reason, Message advice = {})
+      : reason_(std::move(reason)), advice_(std::move(advice)), line_(english(reason_)) {}
+  const char* what() const noexcept override { return line_.c_str(); }
+  const Message& reason() const { return reason_; }
+  const Message& advice() const { return advice_; }
 
  private:
-  std::string reason_, advice_;
+  Message reason_, advice_;
+  std::string line_;
 };
 
 /// What a camera says of itself once it is connected.
 struct CameraTraits {
-  std::string model;                   // "Aravis Fake GV01"
-  Size size;                           // of photographs
-  SensorFormat format;                 // of frames
-  ExposureRange exposures;             // as the camera claims
-  bool triggered = false;              // a frame comes when it is asked for; otherwise all the time
-  double gain = 0.0;                   // as read back, in the camera's own unit
-  std::vector<std::string> remarks{};  // sentences that its user should know
+  std::string model;               // "Aravis Fake GV01"
+  Size size;                       // of photographs
+  SensorFormat format;             // of frames
+  ExposureRange exposures;         // as the camera claims
+  bool triggered = false;          // a frame comes when it is asked for; otherwise all the time
+  double gain = 0.0;               // as read back, in the camera's own unit
+  std::vector<Message> remarks{};  // sentences that its user should know
 };
 
 /// A frame as it arrived.
@@ -44,7 +47,7 @@ struct DriverFrame {
   SensorFrame frame;
   std::uint64_t id = 0;                 // the camera's number for it
   std::chrono::microseconds arrived{};  // when its first part came, on the driver's clock
-  std::string damage{};                 // why it cannot be used; empty: it is whole
+  Message damage{};                     // why it cannot be used; empty: it is whole
 };
 
 /// A camera as a library drives it: the seam between what can be tested without any camera (driven_camera.h)

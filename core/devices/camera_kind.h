@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/listed_camera.h"
 #include "rig/rig.h"
 
@@ -23,7 +24,7 @@ struct CameraKind {
   std::string prefix;     // "genicam": what stands before the colon in its addresses
   std::string place;      // "SERIAL": what stands behind it, for sentences
   std::string help;       // what a place may be, one line for help texts
-  std::string support;    // what cameras these are; of a kind that is not built in: what this build lacks
+  Message support;        // what cameras these are; of a kind that is not built in: what this build lacks
   bool isBuiltIn = true;  // false: open() throws Error{device} with advice, and there is nothing to list
 
   /// The camera at a place, ready for use. Throws: Error{device} if it is not there or cannot be used;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/camera_address.h"
 #include "devices/camera_kind.h"
 
@@ -16,7 +17,7 @@ namespace relucent {
 struct CameraSupport {
   std::string kind;  // "genicam"
   bool available = false;
-  std::string sentence;  // what it is, or what is missing
+  Message sentence;  // what it is, or what is missing
 };
 
 struct CameraList {

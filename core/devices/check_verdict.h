@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "base/message.h"
+
 namespace relucent {
 
 /// What can be found out about a projector and the camera before it.
@@ -45,8 +47,7 @@ struct CheckVerdict {
   bool operator==(const CheckVerdict&) const = default;
 };
 
-/// In plain English: what was seen, and what to do. For the command line, reports and logs; the desktop
-/// program has sentences of its own, in the user's language.
-std::string sentence(const CheckVerdict& verdict);
+/// What was seen, and what to do.
+Message messageOf(const CheckVerdict& verdict);
 
 }  // namespace relucent

@@ -44,8 +44,11 @@ void clear(const fs::path& folder) {
   for (const fs::path& file : filesIn(folder)) {
     std::error_code code;
     if (!fs::remove(file, code) && code)
-      throw Error(ErrorKind::disk, fmt::format("cannot remove the file ({})", code.message()),
-                  "remove it by hand, then try again", file.string());
+      throw Error(
+          ErrorKind::disk,
+          RELUCENT_MESSAGE("device.cannot-remove-file", "cannot remove the file ({})").with(code.message()),
+          RELUCENT_MESSAGE("device.remove-hand-try-again", "remove it by hand, then try again"),
+          file.string());
   }
 }
 
@@ -60,32 +63,51 @@ fs::path pictureIn(const fs::path& folder) {
   return best;
 }
 
-std::string listOf(const std::vector<fs::path>& files) {
+/// What the command wrote instead of `wanted`.
+Message missed(const std::vector<fs::path>& files, const std::string& wanted) {
   std::vector<std::string> names;
   for (const fs::path& file : files) names.push_back(file.filename().string());
   std::sort(names.begin(), names.end());
-  return names.empty() ? "wrote nothing" : fmt::format("wrote {}", fmt::join(names, ", "));
+  if (names.empty())
+    return RELUCENT_MESSAGE("device.command-wrote-nothing",
+                            "the command ended well but wrote nothing, not {}")
+        .with(wanted);
+  return RELUCENT_MESSAGE("device.command-wrote-something-else",
+                          "the command ended well but wrote {}, not {}")
+      .with(fmt::to_string(fmt::join(names, ", ")), wanted);
 }
 
 }  // namespace
 
-std::vector<std::string> problems(const CommandCameraSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const CommandCameraSettings& settings) {
+  std::vector<Message> found;
   if (settings.command.find("{exposure}") == std::string::npos)
-    found.push_back("the camera's command does not say {exposure}, the exposure time in seconds");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "device.camera-command-not-say-exposure",
+        "the camera's command does not say {exposure}, the exposure time in seconds"));
   if (settings.command.find("{output}") == std::string::npos)
-    found.push_back("the camera's command does not say {output}, the file that it is to write");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.camera-command-not-say-output",
+                                 "the camera's command does not say {output}, the file that it is to write"));
   if (settings.size && settings.size->empty())
     found.push_back(
-        fmt::format("a camera of {}x{} pixels is impossible", settings.size->width, settings.size->height));
+        RELUCENT_ENGLISH_MESSAGE("device.camera-pixels-impossible", "a camera of {} pixels is impossible")
+            .with(as::size(*settings.size)));
   if (rankOf(fs::path("x." + settings.extension)) == extensions.size())
-    found.push_back(fmt::format("photographs are read as {}, not as {}", fmt::join(extensions, ", "),
-                                settings.extension));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.photographs-read-not", "photographs are read as {}, not as {}")
+            .with(fmt::to_string(fmt::join(extensions, ", ")), settings.extension));
   if (!(settings.exposures.shortest > 0.0) || !std::isfinite(settings.exposures.longest) ||
       !(settings.exposures.longest >= settings.exposures.shortest))
-    found.push_back("the shortest exposure must be above zero and no longer than the longest");
-  if (settings.attempts < 1) found.push_back("the camera's command needs at least one attempt");
-  if (settings.timeout.count() <= 0) found.push_back("the camera's command needs time to run");
+    found.push_back(
+        RELUCENT_MESSAGE("device.shortest-exposure-must-above-zero",
+                         "the shortest exposure must be above zero and no longer than the longest"));
+  if (settings.attempts < 1)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-command-needs-least-one",
+                                             "the camera's command needs at least one attempt"));
+  if (settings.timeout.count() <= 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-command-needs-time-run",
+                                             "the camera's command needs time to run"));
   return found;
 }
 
@@ -110,9 +132,12 @@ RawFrame CommandCamera::checkedPhotograph(const CaptureRequest& request) {
   RawFrame frame = photograph(request);
   if (frame.signal.size() != size_)
     throw Error(ErrorKind::device,
-                fmt::format("the photograph has {}x{} pixels where {}x{} were announced",
-                            frame.signal.width(), frame.signal.height(), size_.width, size_.height),
-                "let the command write that size, or begin again with the size that the camera delivers",
+                RELUCENT_MESSAGE("device.photograph-pixels-announced",
+                                 "the photograph has {} pixels where {} were announced")
+                    .with(as::size(frame.signal.width(), frame.signal.height()), as::size(size_)),
+                RELUCENT_MESSAGE(
+                    "device.let-command-write-size-begin",
+                    "let the command write that size, or begin again with the size that the camera delivers"),
                 name());
   checkFrame(frame, size_, name());
   return frame;
@@ -132,10 +157,11 @@ RawFrame CommandCamera::photograph(const CaptureRequest& request) {
 
   const fs::path picture = pictureIn(folder_.path());
   if (picture.empty())
-    throw Error(ErrorKind::device,
-                fmt::format("the command ended well but {}, not {}", listOf(filesIn(folder_.path())),
-                            output.filename().string()),
-                fmt::format("let it write the photograph to {{output}}: {}", command), name());
+    throw Error(
+        ErrorKind::device, missed(filesIn(folder_.path()), output.filename().string()),
+        RELUCENT_MESSAGE("device.let-write-photograph-output", "let it write the photograph to {output}: {}")
+            .with(command),
+        name());
   try {
     Picture taken = readPicture(picture);
     return {std::move(taken.encoded), taken.bits, request.seconds};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/temporary_folder.h"
 #include "rig/rig.h"
 
@@ -23,7 +24,7 @@ struct CommandCameraSettings {
   int attempts = 2;                          // at one photograph: cables and cameras have hiccups
   std::string name = "camera command";
 };
-std::vector<std::string> problems(const CommandCameraSettings& settings);
+std::vector<Message> problems(const CommandCameraSettings& settings);
 
 /// A camera behind an external program. It writes float OpenEXR or TIFF (linear, full scale 1), 16-bit PNG or
 /// TIFF, or 8-bit pictures; RawFrame::bits says which. Every photograph has a clean folder, so an old file is

@@ -7,17 +7,26 @@
 
 namespace relucent {
 
-std::vector<std::string> problems(const CommandProjectorSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const CommandProjectorSettings& settings) {
+  std::vector<Message> found;
   if (settings.command.find("{image}") == std::string::npos)
-    found.push_back("the projector's command does not say {image}, the file that it is to show");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "device.projector-command-not-say-image",
+        "the projector's command does not say {image}, the file that it is to show"));
   if (settings.size.empty())
-    found.push_back(
-        fmt::format("a projector of {}x{} pixels is impossible", settings.size.width, settings.size.height));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-pixels-impossible",
+                                             "a projector of {} pixels is impossible")
+                        .with(as::size(settings.size)));
   if (settings.bits != 8 && settings.bits != 16)
-    found.push_back(fmt::format("pictures for the projector have 8 or 16 bits, not {}", settings.bits));
-  if (settings.attempts < 1) found.push_back("the projector's command needs at least one attempt");
-  if (settings.timeout.count() <= 0) found.push_back("the projector's command needs time to run");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.pictures-projector-8-16-bits",
+                                             "pictures for the projector have 8 or 16 bits, not {}")
+                        .with(settings.bits));
+  if (settings.attempts < 1)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-command-needs-least-one",
+                                             "the projector's command needs at least one attempt"));
+  if (settings.timeout.count() <= 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-command-needs-time-run",
+                                             "the projector's command needs time to run"));
   return found;
 }
 

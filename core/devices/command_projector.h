@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/temporary_folder.h"
 #include "rig/rig.h"
 
@@ -20,7 +21,7 @@ struct CommandProjectorSettings {
   int attempts = 2;                          // at one picture
   std::string name = "projector command";
 };
-std::vector<std::string> problems(const CommandProjectorSettings& settings);
+std::vector<Message> problems(const CommandProjectorSettings& settings);
 
 /// A projector behind an external program.
 class CommandProjector : public Projector {

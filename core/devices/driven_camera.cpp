@@ -21,8 +21,13 @@ constexpr double longestUseful = 10.0;
 
 /// A photograph that has to be taken again; the sentence says why.
 struct Unusable {
-  std::string reason;
+  Message reason;
 };
+
+Message thenGoOn(const Message& advice) {
+  return RELUCENT_MESSAGE("device.then-go-on", "{}, then go on: every photograph so far is kept")
+      .with(advice);
+}
 
 microseconds inMicroseconds(double seconds) {
   return std::chrono::duration_cast<microseconds>(duration<double>(seconds));
@@ -38,14 +43,20 @@ bool near(double a, double b) {
 
 }  // namespace
 
-std::vector<std::string> problems(const DrivenCameraSettings& settings) {
-  std::vector<std::string> found;
-  if (settings.timeout.count() <= 0) found.push_back("a photograph needs time");
-  if (settings.attempts < 1) found.push_back("a photograph needs at least one attempt");
+std::vector<Message> problems(const DrivenCameraSettings& settings) {
+  std::vector<Message> found;
+  if (settings.timeout.count() <= 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-needs-time", "a photograph needs time"));
+  if (settings.attempts < 1)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-needs-least-one-attempt",
+                                             "a photograph needs at least one attempt"));
   if (settings.connectFor.count() < 0 || settings.reconnectFor.count() < 0 ||
       settings.reconnectPause.count() <= 0)
-    found.push_back("times to look for a lost camera must not be negative");
-  if (settings.skipAfterChange < 0) found.push_back("no fewer than 0 frames can be skipped");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.times-look-lost-camera-must",
+                                             "times to look for a lost camera must not be negative"));
+  if (settings.skipAfterChange < 0)
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.no-fewer-than-0-frames", "no fewer than 0 frames can be skipped"));
   return found;
 }
 
@@ -60,12 +71,12 @@ DrivenCamera::DrivenCamera(std::unique_ptr<CameraDriver> driver, DrivenCameraSet
       driver_->disconnect();
       isConnected_ = false;
       if (driver_->now() - begun >= settings_.connectFor)
-        throw Error(
-            ErrorKind::device, lost.what(),
-            lost.advice().empty()
-                ? "check its cable, its power and its address; `relucent-cli devices` lists what is there"
-                : lost.advice(),
-            name());
+        throw Error(ErrorKind::device, lost.reason(),
+                    lost.advice().empty() ? RELUCENT_MESSAGE("device.check-cable-power-address-relucent",
+                                                             "check its cable, its power and its address; "
+                                                             "`relucent-cli devices` lists what is there")
+                                          : lost.advice(),
+                    name());
       driver_->wait(settings_.reconnectPause);
     }
   }
@@ -89,39 +100,53 @@ void DrivenCamera::probe(CameraTraits& traits) {
   if (!(claimed.shortest > 0.0) || !(claimed.longest >= claimed.shortest))
     throw Error(
         ErrorKind::device,
-        fmt::format("the camera claims exposures of {:.4g} to {:.4g} s", claimed.shortest, claimed.longest),
-        "set its exposure mode to timed and manual, or update its firmware", name());
+        RELUCENT_MESSAGE("device.camera-claims-exposures-s", "the camera claims exposures of {} to {} s")
+            .with(as::seconds(claimed.shortest, as::digits(4)), as::seconds(claimed.longest, as::digits(4))),
+        RELUCENT_MESSAGE("device.set-exposure-mode-timed-manual",
+                         "set its exposure mode to timed and manual, or update its firmware"),
+        name());
   const double wanted = std::min(claimed.longest, std::max(longestUseful, claimed.shortest));
   const double longest = driver_->setExposure(wanted);
   const double shortest = driver_->setExposure(claimed.shortest);
   traits.exposures = {std::min(shortest, longest), std::max(shortest, longest)};
   if (!(traits.exposures.shortest > 0.0) || near(shortest, longest))
     throw Error(ErrorKind::device,
-                fmt::format("the camera keeps to {:.4g} s whatever exposure it is asked for", longest),
-                "switch its automatic exposure off; a camera without manual exposure cannot be used", name());
+                RELUCENT_MESSAGE("device.camera-keeps-s-whatever-exposure",
+                                 "the camera keeps to {} s whatever exposure it is asked for")
+                    .with(as::seconds(longest, as::digits(4))),
+                RELUCENT_MESSAGE(
+                    "device.switch-automatic-exposure-off-camera",
+                    "switch its automatic exposure off; a camera without manual exposure cannot be used"),
+                name());
   if (!near(longest, wanted))
     traits.remarks.push_back(
-        fmt::format("claims exposures up to {:.4g} s but keeps to {:.4g} s", wanted, longest));
+        RELUCENT_MESSAGE("device.claims-exposures-up-s-but", "claims exposures up to {} s but keeps to {} s")
+            .with(as::seconds(wanted, as::digits(4)), as::seconds(longest, as::digits(4))));
   if (!near(shortest, claimed.shortest))
     traits.remarks.push_back(
-        fmt::format("claims exposures from {:.4g} s but keeps to {:.4g} s", claimed.shortest, shortest));
+        RELUCENT_MESSAGE("device.claims-exposures-s-but-keeps",
+                         "claims exposures from {} s but keeps to {} s")
+            .with(as::seconds(claimed.shortest, as::digits(4)), as::seconds(shortest, as::digits(4))));
 }
 
 void DrivenCamera::reconnect() {
   const microseconds begun = driver_->now();
   for (;;) {
-    std::string reason, advice;
+    Message reason, advice;
     try {
       const CameraTraits traits = connected();
       if (traits.size != traits_.size)
         throw Error(ErrorKind::device,
-                    fmt::format("the camera came back with {}x{} pixels instead of {}x{}", traits.size.width,
-                                traits.size.height, traits_.size.width, traits_.size.height),
-                    "connect the camera that the measurement was begun with", name());
+                    RELUCENT_MESSAGE("device.camera-came-back-pixels-instead",
+                                     "the camera came back with {} pixels instead of {}")
+                        .with(as::size(traits.size), as::size(traits_.size)),
+                    RELUCENT_MESSAGE("device.connect-camera-measurement-begun",
+                                     "connect the camera that the measurement was begun with"),
+                    name());
       ++reconnections_;
       return;
     } catch (const CameraLost& lost) {
-      reason = lost.what();
+      reason = lost.reason();
       advice = lost.advice();
     }
     driver_->disconnect();
@@ -129,9 +154,11 @@ void DrivenCamera::reconnect() {
     const microseconds away = driver_->now() - begun;
     if (away >= settings_.reconnectFor)
       throw Error(ErrorKind::device,
-                  fmt::format("the camera has been gone for {:.0f} s: {}", inSeconds(away), reason),
-                  (advice.empty() ? "check its cable and its power" : advice) +
-                      ", then go on: every photograph so far is kept",
+                  RELUCENT_MESSAGE("device.camera-been-gone-s", "the camera has been gone for {} s: {}")
+                      .with(as::seconds(inSeconds(away), as::decimals(0)), reason),
+                  thenGoOn(advice.empty()
+                               ? RELUCENT_MESSAGE("device.check-cable-power", "check its cable and its power")
+                               : advice),
                   name());
     driver_->wait(settings_.reconnectPause);
   }
@@ -141,8 +168,12 @@ double DrivenCamera::expose(double seconds) {
   const double held = driver_->setExposure(seconds);
   if (!(held > 0.0) || held > tolerableRatio * seconds || seconds > tolerableRatio * held)
     throw Error(ErrorKind::device,
-                fmt::format("the camera was asked to expose {:.4g} s and keeps to {:.4g} s", seconds, held),
-                "switch its automatic exposure and its frame rate limit off", name());
+                RELUCENT_MESSAGE("device.camera-asked-expose-s-keeps",
+                                 "the camera was asked to expose {} s and keeps to {} s")
+                    .with(as::seconds(seconds, as::digits(4)), as::seconds(held, as::digits(4))),
+                RELUCENT_MESSAGE("device.switch-automatic-exposure-frame-rate",
+                                 "switch its automatic exposure and its frame rate limit off"),
+                name());
   if (held != held_) toSkip_ = settings_.skipAfterChange;
   held_ = held;
   return held;
@@ -163,7 +194,8 @@ DriverFrame DrivenCamera::freshFrame(double seconds) {
   for (;;) {
     std::optional<DriverFrame> frame = driver_->next(std::max(microseconds{0}, deadline - driver_->now()));
     if (!frame)
-      throw Unusable{fmt::format("no photograph came within {:.3g} s", inSeconds(deadline - asked))};
+      throw Unusable{RELUCENT_MESSAGE("device.no-photograph-came-within", "no photograph came within {} s")
+                         .with(as::seconds(inSeconds(deadline - asked), as::digits(3)))};
     if (isStale(*frame, asked, seconds)) continue;
     if (toSkip_ > 0) {
       --toSkip_;
@@ -188,7 +220,7 @@ bool DrivenCamera::restarted() {
 }
 
 RawFrame DrivenCamera::capture(const CaptureRequest& request) {
-  std::string reason, advice;
+  Message reason, advice;
   for (int attempt = 0; attempt < settings_.attempts; ++attempt) {
     if (attempt > 0) ++repeats_;
     try {
@@ -197,28 +229,33 @@ RawFrame DrivenCamera::capture(const CaptureRequest& request) {
       const DriverFrame taken = freshFrame(seconds);
       const Size size = photographSize(taken.frame.size, taken.frame.format);
       if (size != traits_.size || taken.frame.format != traits_.format)
-        throw CameraLost(fmt::format("the photograph has {}x{} pixels as {} where {}x{} as {} were agreed",
-                                     size.width, size.height, nameOf(taken.frame.format), traits_.size.width,
-                                     traits_.size.height, nameOf(traits_.format)));
+        throw CameraLost(RELUCENT_MESSAGE("device.photograph-pixels-agreed",
+                                          "the photograph has {} pixels as {} where {} as {} were agreed")
+                             .with(as::size(size), nameOf(taken.frame.format), as::size(traits_.size),
+                                   nameOf(traits_.format)));
       return {photographOf(taken.frame, name()), photographBits(taken.frame), seconds};
     } catch (const Unusable& unusable) {
       reason = unusable.reason;
-      advice.clear();
+      advice = {};
       // Once may be chance. Twice, and the camera may have forgotten how it was set up.
       isConnected_ = attempt == 0 && restarted();
     } catch (const CameraLost& lost) {
-      reason = lost.what();
+      reason = lost.reason();
       advice = lost.advice();
       isConnected_ = false;
     }
     if (!isConnected_) driver_->disconnect();
   }
-  throw Error(ErrorKind::device,
-              fmt::format("{} attempts at a photograph failed: {}", settings_.attempts, reason),
-              (advice.empty() ? "check the camera's cable and network card, and that no other program uses it"
-                              : advice) +
-                  ", then go on: every photograph so far is kept",
-              name());
+  throw Error(
+      ErrorKind::device,
+      RELUCENT_MESSAGE("device.attempts-photograph-failed", "{} attempts at a photograph failed: {}")
+          .with(settings_.attempts, reason),
+      thenGoOn(advice.empty()
+                   ? RELUCENT_MESSAGE(
+                         "device.check-camera-cable-network-card",
+                         "check the camera's cable and network card, and that no other program uses it")
+                   : advice),
+      name());
 }
 
 }  // namespace relucent

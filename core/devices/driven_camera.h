@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/camera_driver.h"
 
 namespace relucent {
@@ -22,7 +23,7 @@ struct DrivenCameraSettings {
   /// do not wait while they expose.
   bool exposureTakesTime = true;
 };
-std::vector<std::string> problems(const DrivenCameraSettings& settings);
+std::vector<Message> problems(const DrivenCameraSettings& settings);
 
 /// Any camera that a driver speaks to, with the patience and the mistrust that real cameras need:
 /// - Exposure times are believed as they are read back, and both ends of the range are tried when the camera

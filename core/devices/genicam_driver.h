@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/camera_driver.h"
 
 namespace relucent {
@@ -17,7 +18,7 @@ struct GenicamSettings {
   std::optional<double> gain;      // in the camera's unit; none: its lowest, which has the least noise
   int packetSize = 0;              // bytes, GigE only; 0: as much as the network lets through
 };
-std::vector<std::string> problems(const GenicamSettings& settings);
+std::vector<Message> problems(const GenicamSettings& settings);
 
 /// A camera that answered.
 struct GenicamCamera {

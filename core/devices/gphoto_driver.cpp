@@ -128,7 +128,9 @@ class GphotoDriver : public CameraDriver {
       } while (port_->now() < deadline);
       explainSilence();
       if (developed.empty()) return std::nullopt;
-      return damaged(fmt::format("the camera sent {} and no raw file", developed), port_->now());
+      return damaged(
+          RELUCENT_MESSAGE("device.no-raw-file-sent", "the camera sent {} and no raw file").with(developed),
+          port_->now());
     });
   }
 
@@ -144,7 +146,9 @@ class GphotoDriver : public CameraDriver {
         isOwed_ = !isRawName(event.file->name);
         discard(*event.file);
       }
-      if (isOwed_) throw CameraLost("a photograph was asked for and none came");
+      if (isOwed_)
+        throw CameraLost(RELUCENT_MESSAGE("device.photograph-asked-none-came",
+                                          "a photograph was asked for and none came"));
       listenToTheEnd();
     });
   }
@@ -160,13 +164,19 @@ class GphotoDriver : public CameraDriver {
       if (camera.port == settings_.camera || isSameModel(camera.model, settings_.camera))
         meant.push_back(camera);
     if (meant.size() > 1)
-      throw Error(ErrorKind::device, fmt::format("{} cameras of this model are plugged in", meant.size()),
-                  fmt::format("name one by its port: gphoto2:{} or gphoto2:{}", meant[0].port, meant[1].port),
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("device.cameras-model-plugged", "{} cameras of this model are plugged in")
+                      .with(meant.size()),
+                  RELUCENT_MESSAGE("device.name-one-port-gphoto2-gphoto2",
+                                   "name one by its port: gphoto2:{} or gphoto2:{}")
+                      .with(meant[0].port, meant[1].port),
                   name());
     if (meant.size() == 1) return meant.front();
     if (cameras.empty() || !model_.empty()) throw GphotoFailure(GphotoFault::absent, "not listed");
-    throw CameraLost(fmt::format("no camera of this name is plugged in, but {}", cameras.front().model),
-                     fmt::format("name that one: gphoto2:{}", cameras.front().model));
+    throw CameraLost(
+        RELUCENT_MESSAGE("device.no-camera-name-plugged-but", "no camera of this name is plugged in, but {}")
+            .with(cameras.front().model),
+        RELUCENT_MESSAGE("device.name-one-gphoto2", "name that one: gphoto2:{}").with(cameras.front().model));
   }
 
   bool isListed() const {
@@ -186,15 +196,18 @@ class GphotoDriver : public CameraDriver {
     trigger();
     const std::optional<DriverFrame> trial = next(trialTime);
     if (!trial)
-      throw CameraLost(
-          "the camera was asked for a photograph and took none",
-          "switch its lens to manual focus, close its menus, and take a photograph by hand to see "
-          "what it complains of");
+      throw CameraLost(RELUCENT_MESSAGE("device.camera-asked-photograph-took-none",
+                                        "the camera was asked for a photograph and took none"),
+                       RELUCENT_MESSAGE("device.switch-lens-manual-focus-close",
+                                        "switch its lens to manual focus, close its menus, and take a "
+                                        "photograph by hand to see what it complains of"));
     if (!trial->damage.empty()) throw CameraLost(trial->damage);
     traits.size = photographSize(trial->frame.size, trial->frame.format);
     traits.format = trial->frame.format;
     if (traits.format.layout == SensorLayout::mono)
-      traits.remarks.push_back("sees no colours: brightness can be compensated, colours cannot");
+      traits.remarks.push_back(
+          RELUCENT_MESSAGE("device.sees-no-colours-brightness-can",
+                           "sees no colours: brightness can be compensated, colours cannot"));
   }
 
   /// Hears and forgets what the camera still has to say, photographs that were taken by hand included: they
@@ -211,7 +224,7 @@ class GphotoDriver : public CameraDriver {
     whenFree(*port_, [&] { port_->set(bulb.setting, bulb.close); });
   }
 
-  DriverFrame damaged(std::string reason, microseconds arrived) {
+  DriverFrame damaged(Message reason, microseconds arrived) {
     DriverFrame frame;
     frame.id = ++count_;
     frame.arrived = arrived;
@@ -233,17 +246,19 @@ class GphotoDriver : public CameraDriver {
       return frame;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::format) throw;
-      return damaged(error.summary() + " (" + error.advice() + ")", arrived);
+      return damaged(RELUCENT_MESSAGE("sentence.explained", "{} ({})").with(error.summary(), error.advice()),
+                     arrived);
     }
   }
 
   void cutToWish(SensorFrame& frame) const {
     const Size wanted = *settings_.photograph, has = photographSize(frame.size, frame.format);
     if (wanted.width > has.width || wanted.height > has.height)
-      throw Error(ErrorKind::device,
-                  fmt::format("{}x{} pixels are wanted and the camera has {}x{}", wanted.width, wanted.height,
-                              has.width, has.height),
-                  "ask for that or less", name());
+      throw Error(
+          ErrorKind::device,
+          RELUCENT_MESSAGE("device.pixels-wanted-camera", "{} pixels are wanted and the camera has {}")
+              .with(as::size(wanted), as::size(has)),
+          RELUCENT_MESSAGE("device.ask-less", "ask for that or less"), name());
     frame = cut(frame, sensorSize(wanted, frame.format));
   }
 

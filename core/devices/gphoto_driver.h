@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "devices/driven_camera.h"
 #include "devices/gphoto_port.h"
 #include "devices/raw_photograph.h"
@@ -18,7 +19,7 @@ struct GphotoCameraSettings {
   std::optional<Size> photograph;  // a part around the sensor's middle; none: all of the sensor
   std::optional<int> iso;          // none: the lowest from 100 on
 };
-std::vector<std::string> problems(const GphotoCameraSettings& settings);
+std::vector<Message> problems(const GphotoCameraSettings& settings);
 
 /// What makes a photograph of a raw file: rawPhotograph().
 using RawReader =

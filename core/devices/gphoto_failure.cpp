@@ -7,6 +7,8 @@
 #include <charconv>
 #include <initializer_list>
 
+#include "base/message.h"
+
 namespace relucent {
 namespace {
 
@@ -39,13 +41,18 @@ std::optional<int> batteryPercent(std::string_view word) {
 
 CameraLost lostByEmptyBattery(int percent) {
   return CameraLost(
-      fmt::format("the camera's battery seems to be empty ({} % when it was last asked)", percent),
-      "charge or change the battery, best use a mains adapter, and switch the camera on again");
+      RELUCENT_MESSAGE("device.battery-empty",
+                       "the camera's battery seems to be empty ({} % when it was last asked)")
+          .with(as::share(percent / 100.0)),
+      RELUCENT_MESSAGE(
+          "device.charge-change-battery-best-use",
+          "charge or change the battery, best use a mains adapter, and switch the camera on again"));
 }
 
 CameraLost lostByFullCard() {
-  return CameraLost("the camera has no room left for a photograph: its memory card is full",
-                    "change or empty the memory card");
+  return CameraLost(RELUCENT_MESSAGE("device.card-full",
+                                     "the camera has no room left for a photograph: its memory card is full"),
+                    RELUCENT_MESSAGE("device.change-empty-memory-card", "change or empty the memory card"));
 }
 
 CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circumstances) {
@@ -53,34 +60,46 @@ CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circu
   switch (failure.fault()) {
     case GphotoFault::claimed:
       return CameraLost(
-          "another program holds the camera, mostly the desktop, which mounts it like a memory stick",
-          "let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) "
-          "and close programs for photographs");
+          RELUCENT_MESSAGE(
+              "device.held-by-desktop",
+              "another program holds the camera, mostly the desktop, which mounts it like a memory stick"),
+          RELUCENT_MESSAGE("device.let-desktop-go-gio-mount",
+                           "let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file "
+                           "manager) and close programs for photographs"));
     case GphotoFault::full:
       return lostByFullCard();
     case GphotoFault::busy:
-      return CameraLost("the camera stays busy",
-                        "close its menus and its playback, and end its live picture");
+      return CameraLost(RELUCENT_MESSAGE("device.camera-stays-busy", "the camera stays busy"),
+                        RELUCENT_MESSAGE("device.close-menus-playback-end-live",
+                                         "close its menus and its playback, and end its live picture"));
     case GphotoFault::absent:
     case GphotoFault::silent:
       if (hasEmptyBattery) return lostByEmptyBattery(*circumstances.battery);
       if (failure.fault() == GphotoFault::silent && circumstances.isListed)
-        return CameraLost(
-            "the camera is there but does not answer, it may be asleep",
-            "press its shutter button half way or switch it off and on, and switch its automatic "
-            "power-off off");
-      return CameraLost("the camera has been unplugged or switched off, or has fallen asleep",
-                        "check its cable, switch it on and switch its automatic power-off off");
+        return CameraLost(RELUCENT_MESSAGE("device.camera-asleep",
+                                           "the camera is there but does not answer, it may be asleep"),
+                          RELUCENT_MESSAGE("device.press-shutter-button-half-way",
+                                           "press its shutter button half way or switch it off and on, and "
+                                           "switch its automatic power-off off"));
+      return CameraLost(
+          RELUCENT_MESSAGE("device.camera-gone",
+                           "the camera has been unplugged or switched off, or has fallen asleep"),
+          RELUCENT_MESSAGE("device.check-cable-switch-switch-automatic",
+                           "check its cable, switch it on and switch its automatic power-off off"));
     case GphotoFault::refused:
       break;
   }
   if (speaksOf(failure, {"store full", "card full", "no space", "memory full"})) return lostByFullCard();
   if (speaksOf(failure, {"battery"})) return lostByEmptyBattery(circumstances.battery.value_or(0));
   if (speaksOf(failure, {"focus"}))
-    return CameraLost(fmt::format("the camera found no focus and took no photograph ({})", failure.what()),
-                      "switch its lens to manual focus");
-  return CameraLost(fmt::format("the camera refused what it was asked for ({})", failure.what()),
-                    "close its menus, and switch it off and on");
+    return CameraLost(RELUCENT_MESSAGE("device.camera-found-no-focus-took",
+                                       "the camera found no focus and took no photograph ({})")
+                          .with(failure.what()),
+                      RELUCENT_MESSAGE("device.switch-lens-manual-focus", "switch its lens to manual focus"));
+  return CameraLost(
+      RELUCENT_MESSAGE("device.camera-refused-what-asked", "the camera refused what it was asked for ({})")
+          .with(failure.what()),
+      RELUCENT_MESSAGE("device.close-menus-switch-off", "close its menus, and switch it off and on"));
 }
 
 }  // namespace relucent

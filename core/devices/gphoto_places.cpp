@@ -2,18 +2,24 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/message.h"
 #include "devices/gphoto_driver.h"
 
 namespace relucent {
 
 using namespace std::chrono_literals;
 
-std::vector<std::string> problems(const GphotoCameraSettings& settings) {
-  std::vector<std::string> found;
-  if (settings.camera.empty()) found.push_back("it is not said which still camera is meant");
+std::vector<Message> problems(const GphotoCameraSettings& settings) {
+  std::vector<Message> found;
+  if (settings.camera.empty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.not-said-still-camera-meant",
+                                             "it is not said which still camera is meant"));
   if (settings.photograph && settings.photograph->empty())
-    found.push_back("a part of the sensor without pixels cannot be photographed");
-  if (settings.iso && *settings.iso < 1) found.push_back("a sensitivity is at least ISO 1");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.part-sensor-without-pixels-cannot",
+                                             "a part of the sensor without pixels cannot be photographed"));
+  if (settings.iso && *settings.iso < 1)
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.sensitivity-least-iso-1", "a sensitivity is at least ISO 1"));
   return found;
 }
 

@@ -63,7 +63,7 @@ class Setup {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& what, const std::string& advice) const {
+  [[noreturn]] void refuse(const Message& what, const Message& advice) const {
     throw Error(ErrorKind::device, what, advice, name_);
   }
 
@@ -77,9 +77,10 @@ class Setup {
     if (isManual(now.value)) return;
     const auto manual = std::find_if(now.choices.begin(), now.choices.end(), isManual);
     if (manual != now.choices.end() && settings_.set(setting, *manual)) return;
-    refuse(fmt::format("the camera's mode dial stands on {}, where the camera chooses exposures itself",
-                       now.value),
-           "turn it to M");
+    refuse(RELUCENT_MESSAGE("device.mode-dial-not-manual",
+                            "the camera's mode dial stands on {}, where the camera chooses exposures itself")
+               .with(now.value),
+           RELUCENT_MESSAGE("device.turn-dial-to-m", "turn it to M"));
   }
 
   void chooseRaw() {
@@ -96,8 +97,10 @@ class Setup {
       if (!isRaw && raw && rawChoice({now->value})) isRaw = true;
     }
     if (!isRaw)
-      refuse("the camera does not deliver raw files",
-             "switch its picture quality to RAW by hand; a camera without RAW cannot be used");
+      refuse(
+          RELUCENT_MESSAGE("device.no-raw-files", "the camera does not deliver raw files"),
+          RELUCENT_MESSAGE("device.switch-quality-to-raw",
+                           "switch its picture quality to RAW by hand; a camera without RAW cannot be used"));
     if (const auto target = settings_.get("capturetarget"))
       if (const auto memory = choiceLike(*target, {"internal ram", "sdram", "ram"}))
         settings_.set("capturetarget", *memory);
@@ -121,29 +124,45 @@ class Setup {
       if (!best || worth(*value) < worth(*wholeNumber(*best))) best = choice;
     }
     if (iso_ && !best)
-      refuse(fmt::format("ISO {} is wanted and the camera does not have it", *iso_),
-             fmt::format("it has {}", fmt::join(iso->choices, ", ")));
+      refuse(
+          RELUCENT_MESSAGE("device.iso-wanted-not-there", "ISO {} is wanted and the camera does not have it")
+              .with(as::label(*iso_)),
+          RELUCENT_MESSAGE("device.it-has", "it has {}").with(fmt::to_string(fmt::join(iso->choices, ", "))));
     if (best) settings_.set("iso", *best);
     const std::optional<GphotoSetting> held = settings_.get("iso");
     const std::optional<int> number = held ? wholeNumber(held->value) : std::nullopt;
     traits_.gain = number.value_or(0);
     if (!number)
-      refuse("the camera chooses its sensitivity itself (automatic ISO)", "set it to ISO 100 by hand");
+      refuse(RELUCENT_MESSAGE("device.automatic-iso",
+                              "the camera chooses its sensitivity itself (automatic ISO)"),
+             RELUCENT_MESSAGE("device.set-iso-100", "set it to ISO 100 by hand"));
     if (best && held->value != *best)
-      traits_.remarks.push_back(fmt::format("was asked for ISO {} and keeps to ISO {}", *best, held->value));
+      traits_.remarks.push_back(
+          RELUCENT_MESSAGE("device.asked-iso-keeps-iso", "was asked for ISO {} and keeps to ISO {}")
+              .with(*best, held->value));
   }
 
   /// What is better so, but can do without.
   void chooseTheRest() {
-    wish("longexpnr", {"off", "0"}, "may take a dark frame after long exposures, which doubles their time");
-    wish("flashmode", {"flash off", "off"}, "may fire its flash: close it");
-    wish("focusmode", {"manual", "mf"}, "focuses by itself: switch its lens to manual focus");
-    wish("drivemode", {"single"}, "may take several photographs at once: switch it to single shots");
-    wish("capturemode", {"single"}, "may take several photographs at once: switch it to single shots");
-    wish("autopoweroff", {"0", "off", "never"}, "switches itself off after a while: switch that off");
+    wish("longexpnr", {"off", "0"},
+         RELUCENT_MESSAGE("device.may-take-dark-frame",
+                          "may take a dark frame after long exposures, which doubles their time"));
+    wish("flashmode", {"flash off", "off"},
+         RELUCENT_MESSAGE("device.may-fire-flash", "may fire its flash: close it"));
+    wish("focusmode", {"manual", "mf"},
+         RELUCENT_MESSAGE("device.focuses-by-itself", "focuses by itself: switch its lens to manual focus"));
+    wish("drivemode", {"single"},
+         RELUCENT_MESSAGE("device.may-take-several-photographs",
+                          "may take several photographs at once: switch it to single shots"));
+    wish("capturemode", {"single"},
+         RELUCENT_MESSAGE("device.may-take-several-photographs",
+                          "may take several photographs at once: switch it to single shots"));
+    wish(
+        "autopoweroff", {"0", "off", "never"},
+        RELUCENT_MESSAGE("device.switches-itself-off", "switches itself off after a while: switch that off"));
   }
 
-  void wish(const char* setting, std::initializer_list<std::string_view> words, const char* remark) {
+  void wish(const char* setting, std::initializer_list<std::string_view> words, const Message& remark) {
     const std::optional<GphotoSetting> now = settings_.get(setting);
     if (!now) return;
     auto isGood = [&](const std::string& value) {
@@ -155,7 +174,7 @@ class Setup {
     const bool takesZero = std::find(words.begin(), words.end(), "0") != words.end();
     const std::optional<std::string> choice =
         now->choices.empty() ? std::string(takesZero ? "0" : *words.begin()) : choiceLike(*now, words);
-    if (!choice || !settings_.set(setting, *choice)) traits_.remarks.emplace_back(remark);
+    if (!choice || !settings_.set(setting, *choice)) traits_.remarks.push_back(remark);
   }
 
   void chooseShutter() {
@@ -168,8 +187,10 @@ class Setup {
       if (!setup_.speeds.empty()) break;
     }
     if (setup_.speeds.empty())
-      refuse("the camera's exposure time cannot be set",
-             "turn its mode dial to M; a camera without it cannot be used");
+      refuse(
+          RELUCENT_MESSAGE("device.exposure-time-cannot-be-set", "the camera's exposure time cannot be set"),
+          RELUCENT_MESSAGE("device.turn-dial-to-m-or-another-camera",
+                           "turn its mode dial to M; a camera without it cannot be used"));
     traits_.exposures = {setup_.speeds.shortest(), setup_.speeds.longest()};
   }
 
@@ -188,8 +209,10 @@ class Setup {
     const std::optional<GphotoSetting> battery = settings_.get("batterylevel");
     const std::optional<int> percent = battery ? batteryPercent(battery->value) : std::nullopt;
     if (percent && *percent <= weakBattery)
-      traits_.remarks.push_back(fmt::format(
-          "has {} % left in its battery: a measurement needs a full one or a mains adapter", *percent));
+      traits_.remarks.push_back(
+          RELUCENT_MESSAGE("device.battery-low",
+                           "has {} % left in its battery: a measurement needs a full one or a mains adapter")
+              .with(as::share(*percent / 100.0)));
   }
 
   BorrowedSettings& settings_;

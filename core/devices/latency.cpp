@@ -32,9 +32,12 @@ class LatencyMeasurement {
     measureLevels(latency);
     if (!suffices(settings_.mostFrames))
       throw Error(ErrorKind::device,
-                  fmt::format("a new picture is not fully there after {} frames", settings_.mostFrames),
-                  "check that the camera's view is steady and its exposure short, and switch the projector's "
-                  "smoothing of motion off",
+                  RELUCENT_MESSAGE("device.new-picture-not-fully-there",
+                                   "a new picture is not fully there after {} frames")
+                      .with(settings_.mostFrames),
+                  RELUCENT_MESSAGE("device.check-camera-view-steady-exposure",
+                                   "check that the camera's view is steady and its exposure short, and "
+                                   "switch the projector's smoothing of motion off"),
                   projector_.name());
     int least = -1, enough = settings_.mostFrames;  // the first does not suffice, the second does
     while (enough - least > 1) {
@@ -71,8 +74,12 @@ class LatencyMeasurement {
       variance += std::pow(level - whiteLevel_, 2.0) / static_cast<double>(levels.size() - 1);
     latency.step = whiteLevel_ - blackLevel_;
     if (!(latency.step > leastStep))
-      throw Error(ErrorKind::device, "the camera sees no difference between white and black",
-                  "aim it at the projection, take its cap off, and expose longer", camera_.name());
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("device.camera-sees-no-difference-between",
+                                   "the camera sees no difference between white and black"),
+                  RELUCENT_MESSAGE("device.aim-projection-take-cap-off",
+                                   "aim it at the projection, take its cap off, and expose longer"),
+                  camera_.name());
     latency.flicker = std::sqrt(variance) / whiteLevel_;
   }
 
@@ -135,13 +142,21 @@ class DelayedProjector : public Projector {
 
 }  // namespace
 
-std::vector<std::string> problems(const LatencySettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.frame > 0.0)) found.push_back("a projector's frame takes time");
-  if (settings.mostFrames < 1) found.push_back("a picture needs at least one frame");
-  if (settings.repeats < 1) found.push_back("a step must be tried at least once");
+std::vector<Message> problems(const LatencySettings& settings) {
+  std::vector<Message> found;
+  if (!(settings.frame > 0.0))
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.projector-frame-takes-time", "a projector's frame takes time"));
+  if (settings.mostFrames < 1)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.picture-needs-least-one-frame",
+                                             "a picture needs at least one frame"));
+  if (settings.repeats < 1)
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.step-must-tried-least-once", "a step must be tried at least once"));
   if (!(settings.settled > 0.0 && settings.settled < 0.5))
-    found.push_back("the share of a step that may be missing is between 0 and a half");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.share-step-may-missing-between",
+                                 "the share of a step that may be missing is between 0 and a half"));
   return found;
 }
 

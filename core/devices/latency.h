@@ -19,7 +19,7 @@ struct LatencySettings {
   double settled = 0.03;      // share of the step that may be missing
   double flicker = 0.02;      // relative deviation between equal photographs that is worth a word
 };
-std::vector<std::string> problems(const LatencySettings& settings);
+std::vector<Message> problems(const LatencySettings& settings);
 
 /// How long after Projector::show() a photograph sees the new picture and nothing older.
 struct Latency {

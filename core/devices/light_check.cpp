@@ -242,8 +242,12 @@ class LightMeasurement {
     step_ = steps.mean();
     progress_.report(static_cast<double>(number_) / (4.0 * settings_.photographs + 1.0));
     if (lit_.spots.empty())
-      throw Error(ErrorKind::device, "the camera sees no difference between white and black",
-                  "aim it at the projection, take its cap off, and expose longer", camera_.name());
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("device.camera-sees-no-difference-between",
+                                   "the camera sees no difference between white and black"),
+                  RELUCENT_MESSAGE("device.aim-projection-take-cap-off",
+                                   "aim it at the projection, take its cap off, and expose longer"),
+                  camera_.name());
   }
 
   void speak(LightCheck& check) const {
@@ -281,11 +285,17 @@ class LightMeasurement {
 
 }  // namespace
 
-std::vector<std::string> problems(const LightCheckSettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.frame > 0.0)) found.push_back("a projector's frame takes time");
-  if (!(settings.settle >= 0.0)) found.push_back("a flat field cannot be steady before it is shown");
-  if (settings.photographs < 8) found.push_back("at least 8 photographs tell whether light is steady");
+std::vector<Message> problems(const LightCheckSettings& settings) {
+  std::vector<Message> found;
+  if (!(settings.frame > 0.0))
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.projector-frame-takes-time", "a projector's frame takes time"));
+  if (!(settings.settle >= 0.0))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.flat-field-cannot-steady-before",
+                                             "a flat field cannot be steady before it is shown"));
+  if (settings.photographs < 8)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.least-8-photographs-tell-whether",
+                                             "at least 8 photographs tell whether light is steady"));
   return found;
 }
 

@@ -21,7 +21,7 @@ struct LightCheckSettings {
   double bands = 0.03;
   double dither = 0.03;
 };
-std::vector<std::string> problems(const LightCheckSettings& settings);
+std::vector<Message> problems(const LightCheckSettings& settings);
 
 /// How steady a projector's light is within its frames, as a camera sees it. All are relative standard
 /// deviations. b: brief exposures, w: whole frames; S_kcg: signal of photograph k, colour c, band of rows g,

@@ -7,7 +7,7 @@
 
 namespace relucent {
 
-ListedCamera judged(std::string address, std::string model,
+ListedCamera judged(std::string address, Message model,
                     const std::function<std::unique_ptr<CameraDriver>()>& open,
                     const DrivenCameraSettings& settings) {
   ListedCamera camera{std::move(address), std::move(model), false};
@@ -15,7 +15,7 @@ ListedCamera judged(std::string address, std::string model,
     camera.traits = DrivenCamera(open(), settings).traits();
     camera.usable = true;
   } catch (const Error& error) {
-    camera.problem = error.summary() + "; " + error.advice();
+    camera.problem = RELUCENT_MESSAGE("sentence.with-advice", "{}; {}").with(error.summary(), error.advice());
   }
   return camera;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/message.h"
 #include "devices/driven_camera.h"
 
 namespace relucent {
@@ -12,15 +13,15 @@ namespace relucent {
 /// A camera that is there, and what can be said about it.
 struct ListedCamera {
   std::string address;  // "genicam:40012345"
-  std::string model;
+  Message model;
   bool usable = false;
-  std::string problem{};  // what is wrong and what to do, if it is not usable
+  Message problem{};      // what is wrong and what to do, if it is not usable
   CameraTraits traits{};  // if it is
 };
 
 /// Judges one camera by opening it for a moment: `open` gives its driver. Nothing is thrown: what fails is
 /// the camera's problem.
-ListedCamera judged(std::string address, std::string model,
+ListedCamera judged(std::string address, Message model,
                     const std::function<std::unique_ptr<CameraDriver>()>& open,
                     const DrivenCameraSettings& settings);
 

@@ -52,10 +52,14 @@ SensorLevels levelsOf(LibRaw& raw, bool isMono) {
   return levels;
 }
 
-[[noreturn]] void failDamaged(const char* reason, const std::string& name) {
-  throw Error(ErrorKind::format, fmt::format("the raw file cannot be read ({})", reason),
-              "copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files",
-              name);
+[[noreturn]] void failDamaged(const Message& reason, const std::string& name) {
+  throw Error(
+      ErrorKind::format,
+      RELUCENT_MESSAGE("device.raw-file-cannot-read", "the raw file cannot be read ({})").with(reason),
+      RELUCENT_MESSAGE(
+          "device.copy-again-take-photograph-again",
+          "copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files"),
+      name);
 }
 
 std::vector<std::uint8_t> visiblePart(const LibRaw& raw, Size size) {
@@ -88,35 +92,50 @@ std::optional<std::time_t> timeTaken(const std::filesystem::path& rawFile) {
 }
 
 RawPhotograph rawPhotograph(const std::vector<std::uint8_t>& bytes, const std::string& name) {
-  if (bytes.empty()) failDamaged("it is empty", name);
+  if (bytes.empty()) failDamaged(RELUCENT_MESSAGE("device.raw-file-empty", "it is empty"), name);
   const auto raw = std::make_unique<LibRaw>();  // several hundred kilobytes
   // LibRaw reports damage on standard error unless somebody listens; error_count() tells it as well. Releases
   // disagree about the type of the place.
   raw->set_dataerror_handler([](void*, const char*, auto) {}, nullptr);
   int result = raw->open_buffer(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
   if (result == LIBRAW_SUCCESS) result = raw->unpack();
-  if (result != LIBRAW_SUCCESS) failDamaged(libraw_strerror(result), name);
-  if (raw->error_count() > 0) failDamaged("parts of it are missing", name);
+  if (result != LIBRAW_SUCCESS) failDamaged(Message::plain(libraw_strerror(result)), name);
+  if (raw->error_count() > 0)
+    failDamaged(RELUCENT_MESSAGE("device.raw-file-incomplete", "parts of it are missing"), name);
 
   const libraw_data_t& data = raw->imgdata;
   if (data.rawdata.raw_image == nullptr)
-    throw Error(ErrorKind::format, "the raw file does not hold the sensor's own values",
-                "switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)", name);
+    throw Error(ErrorKind::format,
+                RELUCENT_MESSAGE("device.raw-file-not-hold-sensor",
+                                 "the raw file does not hold the sensor's own values"),
+                RELUCENT_MESSAGE("device.switch-camera-full-size-raw",
+                                 "switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)"),
+                name);
   const std::optional<SensorLayout> layout = layoutOf(*raw);
   if (!layout || raw->is_fuji_rotated() != 0)
-    throw Error(ErrorKind::format, "the camera's colour filter is no Bayer filter",
-                "develop the files linearly, as 16-bit TIFF, or use another camera", name);
+    throw Error(ErrorKind::format,
+                RELUCENT_MESSAGE("device.camera-colour-filter-no-bayer",
+                                 "the camera's colour filter is no Bayer filter"),
+                RELUCENT_MESSAGE("device.develop-files-linearly-16-bit",
+                                 "develop the files linearly, as 16-bit TIFF, or use another camera"),
+                name);
 
   RawPhotograph photograph;
   const Size size{data.sizes.width & ~1, data.sizes.height & ~1};
-  if (size.empty()) failDamaged("it has no pixels", name);
+  if (size.empty())
+    failDamaged(RELUCENT_ENGLISH_MESSAGE("device.raw-file-without-pixels", "it has no pixels"), name);
   if (data.sizes.top_margin + size.height > data.sizes.raw_height ||
       data.sizes.left_margin + size.width > data.sizes.raw_width)
-    failDamaged("its sizes contradict each other", name);
+    failDamaged(
+        RELUCENT_ENGLISH_MESSAGE("device.raw-file-sizes-contradict", "its sizes contradict each other"),
+        name);
   photograph.frame = {
       size, {*layout, storedBits}, visiblePart(*raw, size), levelsOf(*raw, *layout == SensorLayout::mono)};
   for (float black : photograph.frame.levels->black)
-    if (!(photograph.frame.levels->white > black)) failDamaged("its white is not above its black", name);
+    if (!(photograph.frame.levels->white > black))
+      failDamaged(
+          RELUCENT_ENGLISH_MESSAGE("device.raw-file-white-below-black", "its white is not above its black"),
+          name);
   photograph.model = fmt::format("{} {}", data.idata.make, data.idata.model);
   photograph.seconds = static_cast<double>(data.other.shutter);
   if (data.other.timestamp > 0) photograph.taken = data.other.timestamp;

@@ -44,13 +44,19 @@ class Recorder : public RigWatcher {
     createFolder(folder_);
     if (fs::exists(folder_ / "recording.json", code)) {
       if (readRecordedDevices(folder_) != devices_)
-        throw Error(ErrorKind::input, "the folder holds a recording of other devices",
-                    "record into a new folder", folder_.string());
+        throw Error(ErrorKind::input,
+                    RELUCENT_ENGLISH_MESSAGE("device.folder-holds-recording-other-devices",
+                                             "the folder holds a recording of other devices"),
+                    RELUCENT_ENGLISH_MESSAGE("device.record-into-new-folder", "record into a new folder"),
+                    folder_.string());
       // Files that no line names are written over.
       count_ = readPhotographs(folder_).size();
     } else if (!fs::is_empty(folder_, code)) {
-      throw Error(ErrorKind::input, "the folder for the recording holds other things",
-                  "record into a new folder", folder_.string());
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("device.folder-recording-holds-other-things",
+                                           "the folder for the recording holds other things"),
+                  RELUCENT_ENGLISH_MESSAGE("device.record-into-new-folder", "record into a new folder"),
+                  folder_.string());
     } else {
       writeRecordedDevices(folder_, devices_);
     }

@@ -32,8 +32,12 @@ Size sizeFrom(const Json& json) {
 }
 
 [[noreturn]] void failDamaged(const fs::path& file, const std::exception& cause) {
-  throw Error(ErrorKind::format, fmt::format("the recording is damaged ({})", cause.what()),
-              "restore it from a copy, or record again", file.string());
+  throw Error(
+      ErrorKind::format,
+      RELUCENT_ENGLISH_MESSAGE("device.recording-damaged", "the recording is damaged ({})")
+          .with(cause.what()),
+      RELUCENT_ENGLISH_MESSAGE("device.restore-copy-record-again", "restore it from a copy, or record again"),
+      file.string());
 }
 
 RecordedPhotograph photographFrom(const Json& json) {
@@ -82,11 +86,18 @@ RecordedDevices readRecordedDevices(const fs::path& folder) {
   try {
     const Json json = Json::parse(content);
     if (json.at("format") != formatName)
-      throw Error(ErrorKind::format, "this is no recording", "name the folder that `--record` wrote",
+      throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("device.no-recording", "this is no recording"),
+                  RELUCENT_ENGLISH_MESSAGE("device.name-folder-record-wrote",
+                                           "name the folder that `--record` wrote"),
                   file.string());
     if (const int version = json.at("version"); version > recording::version)
-      throw Error(ErrorKind::format, fmt::format("the recording is of version {}", version),
-                  "open it with the version of Relucent that made it, or a later one", file.string());
+      throw Error(
+          ErrorKind::format,
+          RELUCENT_ENGLISH_MESSAGE("device.recording-version", "the recording is of version {}")
+              .with(as::label(version)),
+          RELUCENT_ENGLISH_MESSAGE("device.open-version-relucent-made-later",
+                                   "open it with the version of Relucent that made it, or a later one"),
+          file.string());
     RecordedDevices devices;
     for (const Json& projector : json.at("projectors"))
       devices.projectors.push_back(
@@ -111,8 +122,12 @@ void appendPhotograph(const fs::path& folder, const RecordedPhotograph& photogra
   const std::string line = fmt::format("\n{}", json.dump());
   const fs::path file = folder / photographsName;
   if (const FileOutcome outcome = appendContent(file, line); outcome.code)
-    throw Error(ErrorKind::disk, fmt::format("the recording cannot be written ({})", outcome.code.message()),
-                "free some space, or record elsewhere", file.string());
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("device.recording-cannot-written", "the recording cannot be written ({})")
+            .with(outcome.code.message()),
+        RELUCENT_MESSAGE("device.free-some-space-record-elsewhere", "free some space, or record elsewhere"),
+        file.string());
 }
 
 std::vector<RecordedPhotograph> readPhotographs(const fs::path& folder) {

@@ -71,10 +71,13 @@ class ReplayedCamera : public Camera {
     if (found == nullptr)
       throw Error(
           ErrorKind::input,
-          fmt::format("the recording has no photograph of {} {} with {:.4g} s: other patterns were shown "
-                      "or other exposures taken",
-                      request.shot.stage, request.shot.number, request.seconds),
-          "use the settings that it was recorded with, or photograph the venue again",
+          RELUCENT_ENGLISH_MESSAGE("device.recording-no-photograph-s-other",
+                                   "the recording has no photograph of {} {} with {} s: other patterns were "
+                                   "shown or other exposures taken")
+              .with(request.shot.stage, request.shot.number, as::seconds(request.seconds, as::digits(4))),
+          RELUCENT_ENGLISH_MESSAGE(
+              "device.use-settings-recorded-photograph-venue",
+              "use the settings that it was recorded with, or photograph the venue again"),
           recording_->folder.string());
     return {readRgbExr(recording_->folder / "photographs" / found->file, size()), found->bits,
             found->seconds};

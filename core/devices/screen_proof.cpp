@@ -173,14 +173,19 @@ ScreenSight sightThrough(Projector& screen, Camera& camera, double exposure,
 
 }  // namespace
 
-std::vector<std::string> problems(const ScreenProofSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const ScreenProofSettings& settings) {
+  std::vector<Message> found;
   if (settings.mostLate < 0 || settings.mostLate >= apart)
-    found.push_back(fmt::format("pictures come 0 to {} photographs late", apart - 1));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.pictures-come-0-photographs-late",
+                                             "pictures come 0 to {} photographs late")
+                        .with(apart - 1));
   if (!(settings.explained > 0.0 && settings.explained < 1.0))
-    found.push_back("the share of the changes that the code explains is between 0 and 1");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.share-changes-code-explains-between",
+                                 "the share of the changes that the code explains is between 0 and 1"));
   if (!(settings.leastShare > 0.0 && settings.leastShare <= 1.0))
-    found.push_back("the share of the pixels that see the code is between 0 and 1");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.share-pixels-see-code-between",
+                                             "the share of the pixels that see the code is between 0 and 1"));
   return found;
 }
 
@@ -240,13 +245,19 @@ ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others
 void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera) {
   if (proof.isSeen) return;
   if (!proof.instead.empty())
-    throw ScreenNotSeen(
-        ErrorKind::device, fmt::format("the camera sees {}, not {}", proof.instead, screen.name()),
-        fmt::format("choose {}, or aim the camera at {}", proof.instead, screen.name()), camera.name());
+    throw ScreenNotSeen(ErrorKind::device,
+                        RELUCENT_MESSAGE("device.camera-sees-not", "the camera sees {}, not {}")
+                            .with(proof.instead, screen.name()),
+                        RELUCENT_MESSAGE("device.choose-aim-camera", "choose {}, or aim the camera at {}")
+                            .with(proof.instead, screen.name()),
+                        camera.name());
   throw ScreenNotSeen(
-      ErrorKind::device, fmt::format("the camera does not see what is shown on {}", screen.name()),
-      "check that the projector is on and shows that output, aim the camera at it, and take its cap "
-      "off; or choose another screen",
+      ErrorKind::device,
+      RELUCENT_MESSAGE("device.camera-not-see-what-shown", "the camera does not see what is shown on {}")
+          .with(screen.name()),
+      RELUCENT_MESSAGE("device.check-projector-shows-output-aim",
+                       "check that the projector is on and shows that output, aim the camera at it, and take "
+                       "its cap off; or choose another screen"),
       camera.name());
 }
 

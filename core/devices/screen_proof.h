@@ -19,7 +19,7 @@ struct ScreenProofSettings {
   double leastStep = 0.005;  // signal, full scale 1, that the code must change a pixel by
   double leastShare = 0.01;  // of the camera's pixels that must see it
 };
-std::vector<std::string> problems(const ScreenProofSettings& settings);
+std::vector<Message> problems(const ScreenProofSettings& settings);
 
 /// What a camera sees of one screen.
 struct ScreenSight {

@@ -79,8 +79,12 @@ class WatchfulCamera : public Camera {
       RawFrame frame = camera_->capture(request);
       if (shared_->hasStood()) return frame;
     }
-    throw Error(ErrorKind::device, "the projector's screen loses its picture again and again",
-                "check its cable, and switch its saving of energy off", shared_->screen().name());
+    throw Error(ErrorKind::device,
+                RELUCENT_MESSAGE("device.projector-screen-loses-picture-again",
+                                 "the projector's screen loses its picture again and again"),
+                RELUCENT_MESSAGE("device.check-cable-switch-saving-energy",
+                                 "check its cable, and switch its saving of energy off"),
+                shared_->screen().name());
   }
 
  private:

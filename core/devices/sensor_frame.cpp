@@ -180,9 +180,13 @@ int photographBits(const SensorFrame& frame) {
 Image photographOf(const SensorFrame& frame, const std::string& camera) {
   if (frame.bytes.size() < bytesOf(frame))
     throw Error(ErrorKind::device,
-                fmt::format("a photograph of {}x{} pixels as {} came with {} of {} bytes", frame.size.width,
-                            frame.size.height, nameOf(frame.format), frame.bytes.size(), bytesOf(frame)),
-                "switch the camera off and on, or choose another of its pixel formats", camera);
+                RELUCENT_MESSAGE("device.photograph-pixels-came-bytes",
+                                 "a photograph of {} pixels as {} came with {} of {} bytes")
+                    .with(as::size(frame.size), nameOf(frame.format), as::bytes(frame.bytes.size()),
+                          as::bytes(bytesOf(frame))),
+                RELUCENT_MESSAGE("device.switch-camera-off-choose-another",
+                                 "switch the camera off and on, or choose another of its pixel formats"),
+                camera);
   if (frame.levels) {
     require(!isInterleaved(frame.format.layout), "no levels of {}", nameOf(frame.format));
     for (float black : frame.levels->black)

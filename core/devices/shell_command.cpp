@@ -27,8 +27,27 @@ std::string lastLineOf(std::string text) {
   return line;
 }
 
-std::string saying(const std::string& lastLine) {
-  return lastLine.empty() ? "" : fmt::format(", saying \"{}\"", lastLine);
+Message endOf(const ShellResult& result, milliseconds timeout, const std::string& lastLine) {
+  const Argument time = as::seconds(std::chrono::duration<double>(timeout).count(), as::digits(3));
+  const Argument status = as::label(result.status);
+  const bool silent = lastLine.empty();
+  if (result.end == End::timedOut)
+    return silent
+               ? RELUCENT_MESSAGE("device.command-too-long", "the command took longer than {} s").with(time)
+               : RELUCENT_MESSAGE("device.command-too-long-saying",
+                                  "the command took longer than {} s, saying \"{}\"")
+                     .with(time, lastLine);
+  if (result.end == End::exited)
+    return silent
+               ? RELUCENT_MESSAGE("device.command-failed", "the command failed with status {}").with(status)
+               : RELUCENT_MESSAGE("device.command-failed-saying",
+                                  "the command failed with status {}, saying \"{}\"")
+                     .with(status, lastLine);
+  return silent
+             ? RELUCENT_MESSAGE("device.command-killed", "the command was killed by signal {}").with(status)
+             : RELUCENT_MESSAGE("device.command-killed-saying",
+                                "the command was killed by signal {}, saying \"{}\"")
+                   .with(status, lastLine);
 }
 
 }  // namespace
@@ -63,18 +82,23 @@ void runShellCommand(const std::string& command, milliseconds timeout, const std
   const ShellResult result = runShell(command, timeout, grace);
   if (result.end == End::exited && result.status == 0) return;
   if (result.end == End::notStarted)
-    throw Error(ErrorKind::device, fmt::format("the command cannot be started ({})", result.error.message()),
-                "close other programs and try again", device);
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("device.command-cannot-started", "the command cannot be started ({})")
+            .with(result.error.message()),
+        RELUCENT_MESSAGE("device.close-other-programs-try-again", "close other programs and try again"),
+        device);
   const std::string lastLine = lastLineOf(result.outputTail);
   if (result.end == End::timedOut)
-    throw Error(ErrorKind::device,
-                fmt::format("the command took longer than {:.3g} s{}",
-                            std::chrono::duration<double>(timeout).count(), saying(lastLine)),
-                fmt::format("check the device, or allow the command more time: {}", command), device);
-  const std::string end = result.end == End::exited ? fmt::format("failed with status {}", result.status)
-                                                    : fmt::format("was killed by signal {}", result.status);
-  throw Error(ErrorKind::device, fmt::format("the command {}{}", end, saying(lastLine)),
-              fmt::format("run it in a terminal to find out why: {}", command), device);
+    throw Error(ErrorKind::device, endOf(result, timeout, lastLine),
+                RELUCENT_MESSAGE("device.check-device-allow-command-more",
+                                 "check the device, or allow the command more time: {}")
+                    .with(command),
+                device);
+  throw Error(ErrorKind::device, endOf(result, timeout, lastLine),
+              RELUCENT_MESSAGE("device.run-terminal-find-out-why", "run it in a terminal to find out why: {}")
+                  .with(command),
+              device);
 }
 
 }  // namespace relucent

@@ -15,8 +15,13 @@ TemporaryFolder::TemporaryFolder() {
   const fs::path parent = fs::temp_directory_path(code);
   std::string name = ((code ? fs::path("/tmp") : parent) / "relucent-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
-    throw Error(ErrorKind::disk, fmt::format("cannot create a temporary folder ({})", std::strerror(errno)),
-                "free some space there, or let TMPDIR name a folder that you may write to", name);
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("device.cannot-create-temporary-folder", "cannot create a temporary folder ({})")
+            .with(std::strerror(errno)),
+        RELUCENT_MESSAGE("device.free-some-space-there-let",
+                         "free some space there, or let TMPDIR name a folder that you may write to"),
+        name);
   path_ = name;
 }
 

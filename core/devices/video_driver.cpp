@@ -32,12 +32,22 @@ class VideoDriver : public CameraDriver {
 
   CameraTraits connect() override {
     disconnect();
-    if (!source_->exists()) throw CameraLost("no such video device is plugged in");
+    if (!source_->exists())
+      throw CameraLost(
+          RELUCENT_MESSAGE("device.no-such-video-device-plugged", "no such video device is plugged in"));
     if (!source_->open(size_))
-      throw CameraLost("the video device cannot be opened: another program may be using it");
-    switchOff(VideoControl::exposureMode, manual, "exposure");
-    switchOff(VideoControl::automaticWhiteBalance, 0.0, "white balance");
-    switchOff(VideoControl::automaticFocus, 0.0, "focus");
+      throw CameraLost(
+          RELUCENT_MESSAGE("device.video-device-cannot-opened-another",
+                           "the video device cannot be opened: another program may be using it"));
+    switchOff(VideoControl::exposureMode, manual,
+              RELUCENT_MESSAGE("device.automatic-exposure-stays",
+                               "the video device's automatic exposure cannot be switched off"));
+    switchOff(VideoControl::automaticWhiteBalance, 0.0,
+              RELUCENT_MESSAGE("device.automatic-white-balance-stays",
+                               "the video device's automatic white balance cannot be switched off"));
+    switchOff(VideoControl::automaticFocus, 0.0,
+              RELUCENT_MESSAGE("device.automatic-focus-stays",
+                               "the video device's automatic focus cannot be switched off"));
 
     CameraTraits traits;
     traits.model = "video device";
@@ -46,18 +56,25 @@ class VideoDriver : public CameraDriver {
     const double longest = setExposure(longestTried * secondsPerUnit);
     traits.exposures = {setExposure(shortestTried * secondsPerUnit), longest};
     const std::optional<VideoFrame> first = source_->grab();
-    if (!first) throw CameraLost("the video device sends no pictures");
+    if (!first)
+      throw CameraLost(
+          RELUCENT_MESSAGE("device.video-device-sends-no-pictures", "the video device sends no pictures"));
     traits.size = first->size;
     if (size_ && first->size != *size_)
       throw Error(ErrorKind::device,
-                  fmt::format("{}x{} pixels are wanted and the video device gives {}x{}", size_->width,
-                              size_->height, first->size.width, first->size.height),
-                  "ask for a size that it has: v4l2-ctl --list-formats-ext names them", name_);
+                  RELUCENT_MESSAGE("device.pixels-wanted-video-device-gives",
+                                   "{} pixels are wanted and the video device gives {}")
+                      .with(as::size(*size_), as::size(first->size)),
+                  RELUCENT_MESSAGE("device.ask-size-v4l2-ctl-list",
+                                   "ask for a size that it has: v4l2-ctl --list-formats-ext names them"),
+                  name_);
     isStamped_ = hasStamp(*first);
     if (!isStamped_)
-      traits.remarks.push_back(
-          "does not say when pictures were captured: some are dropped before each photograph");
-    traits.remarks.push_back("delivers 8 bits: dark places stay uncertain");
+      traits.remarks.push_back(RELUCENT_MESSAGE(
+          "device.not-say-when-pictures-captured",
+          "does not say when pictures were captured: some are dropped before each photograph"));
+    traits.remarks.push_back(RELUCENT_MESSAGE("device.delivers-8-bits-dark-places",
+                                              "delivers 8 bits: dark places stay uncertain"));
     return traits;
   }
 
@@ -69,8 +86,11 @@ class VideoDriver : public CameraDriver {
     const std::optional<double> held = source_->get(VideoControl::exposure);
     if (!held) {
       checkPresence();
-      throw Error(ErrorKind::device, "the video device has no exposure that can be set",
-                  "use a camera with manual exposure", name_);
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("device.video-device-no-exposure-can",
+                                   "the video device has no exposure that can be set"),
+                  RELUCENT_MESSAGE("device.use-camera-manual-exposure", "use a camera with manual exposure"),
+                  name_);
     }
     return *held * secondsPerUnit;
   }
@@ -99,26 +119,32 @@ class VideoDriver : public CameraDriver {
   }
 
   void restart() override {
-    if (!source_->open(size_)) throw CameraLost("the video device cannot be opened again");
+    if (!source_->open(size_))
+      throw CameraLost(RELUCENT_MESSAGE("device.video-device-cannot-opened-again",
+                                        "the video device cannot be opened again"));
   }
 
   microseconds now() const override { return source_->now(); }
   void wait(microseconds time) override { source_->wait(time); }
 
  private:
-  /// Throws: Error{device} if the device decides about `what` by itself all the same.
-  void switchOff(VideoControl control, double off, const char* what) {
+  /// Throws: Error{device} that is `failure` if the device decides by itself all the same.
+  void switchOff(VideoControl control, double off, const Message& failure) {
     const std::optional<double> before = source_->get(control);
     if (!before || *before == off) return;
     source_->set(control, off);
     if (source_->get(control) == off) return;
-    throw Error(ErrorKind::device,
-                fmt::format("the video device's automatic {} cannot be switched off", what),
-                "switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera", name_);
+    throw Error(ErrorKind::device, failure,
+                RELUCENT_MESSAGE(
+                    "device.switch-off-v4l2-ctl-list",
+                    "switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera"),
+                name_);
   }
 
   void checkPresence() const {
-    if (!source_->exists()) throw CameraLost("the video device has been unplugged");
+    if (!source_->exists())
+      throw CameraLost(
+          RELUCENT_MESSAGE("device.video-device-been-unplugged", "the video device has been unplugged"));
   }
 
   bool hasStamp(const VideoFrame& frame) const {

@@ -61,17 +61,26 @@ DisplayRange demanded(const std::vector<Reach>& reach, const std::vector<std::ar
 
 }  // namespace
 
-std::vector<std::string> problems(const AdaptiveRangeSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const AdaptiveRangeSettings& settings) {
+  std::vector<Message> found;
   if (!(settings.outOfReach >= 0.0 && settings.outOfReach <= 100.0))
-    found.push_back("the share of pixels out of reach must lie between 0 and 100 percent");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("engine.share-pixels-out-reach-must",
+                                 "the share of pixels out of reach must lie between 0 and 100 percent"));
   if (!(settings.dimmest > 0.0 && settings.dimmest <= 1.0 && settings.brightest >= 1.0 &&
         settings.brightest <= 100.0))
-    found.push_back("the brightness must be able to stay as it is: from 0 to 1 to at most 100");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("engine.brightness-must-able-stay-0",
+                                 "the brightness must be able to stay as it is: from 0 to 1 to at most 100"));
   if (!(settings.mostLift >= 0.0 && settings.mostLift < 1.0))
-    found.push_back("the black lift must lie between 0 and 1");
-  if (!(settings.timeConstant > 0.0)) found.push_back("the time constant must be more than 0 seconds");
-  if (!(settings.cut > 0.0)) found.push_back("a cut must change more than nothing");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-must-lie-between",
+                                             "the black lift must lie between 0 and 1"));
+  if (!(settings.timeConstant > 0.0))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.time-constant-must-more-than",
+                                             "the time constant must be more than 0 seconds"));
+  if (!(settings.cut > 0.0))
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("engine.cut-must-change-more-than", "a cut must change more than nothing"));
   return found;
 }
 

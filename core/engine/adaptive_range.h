@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "engine/content_frame.h"
 #include "engine/engine_plan.h"
 
@@ -19,7 +20,7 @@ struct AdaptiveRangeSettings {
   double timeConstant = 1.0;  // time constant, seconds
   double cut = 0.4;           // share of the pixels whose change of brightness marks a scene change
 };
-std::vector<std::string> problems(const AdaptiveRangeSettings& settings);
+std::vector<Message> problems(const AdaptiveRangeSettings& settings);
 
 /// Brightness and offset of a frame, see FrameRequest.
 struct DisplayRange {

@@ -14,8 +14,11 @@ namespace {
 void checkFinite(const Stack& values, const char* what) {
   for (float value : values)
     if (!std::isfinite(value))
-      throw Error(ErrorKind::numerics, fmt::format("{} holds values that are not finite", what),
-                  "measure the venue again");
+      throw Error(
+          ErrorKind::numerics,
+          RELUCENT_ENGLISH_MESSAGE("engine.holds-values-not-finite", "{} holds values that are not finite")
+              .with(what),
+          RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 }
 
 Placement placementOf(const EngineVenue& engine, Size content, const Corners& chosen) {
@@ -26,12 +29,16 @@ Placement placementOf(const EngineVenue& engine, Size content, const Corners& ch
 
 }  // namespace
 
-std::vector<std::string> problems(const EngineSettings& settings) {
-  std::vector<std::string> found = problems(settings.target);
-  for (const std::string& problem : problems(settings.compensator)) found.push_back(problem);
-  if (settings.bits != 8 && settings.bits != 10) found.push_back("a projector takes 8 or 10 bits");
+std::vector<Message> problems(const EngineSettings& settings) {
+  std::vector<Message> found = problems(settings.target);
+  for (const Message& problem : problems(settings.compensator)) found.push_back(problem);
+  if (settings.bits != 8 && settings.bits != 10)
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("engine.projector-takes-8-10-bits", "a projector takes 8 or 10 bits"));
   if (settings.patchSide < 8 || settings.patchSide > 256)
-    found.push_back("the patches of the light transport must be 8 to 256 camera pixels wide");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("engine.patches-light-transport-must-8",
+                                 "the patches of the light transport must be 8 to 256 camera pixels wide"));
   return found;
 }
 
@@ -53,8 +60,10 @@ EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& invers
   checkFinite(venue.flood, "the flood image");
   for (std::size_t row = 0; row < transport.leaves().rows(); ++row)
     if (!std::isfinite(transport.leaves().scale(row)))
-      throw Error(ErrorKind::numerics, "the light transport holds values that are not finite",
-                  "measure the venue again");
+      throw Error(ErrorKind::numerics,
+                  RELUCENT_ENGLISH_MESSAGE("engine.light-transport-holds-values-not",
+                                           "the light transport holds values that are not finite"),
+                  RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 
   std::vector<DriveEncoder> encoders;
   for (const ProjectorResponse& response : responses)

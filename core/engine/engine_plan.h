@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "compensation/methods.h"
 #include "compensation/target.h"
 #include "engine/content_warp.h"
@@ -22,7 +23,7 @@ struct EngineSettings {
   CompensatorSettings compensator;  // the correction of the windows, and the steps behind it
   int patchSide = 64;               // of T's patches, in camera pixels, so that their nodes fit the cache
 };
-std::vector<std::string> problems(const EngineSettings& settings);
+std::vector<Message> problems(const EngineSettings& settings);
 
 /// A venue as prepared for rendering. Back ends copy what they need in another form.
 struct EngineVenue {

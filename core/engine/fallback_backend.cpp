@@ -16,11 +16,13 @@ FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make make
   require(backend_ != nullptr && makeOther_ != nullptr, "a fallback needs two back ends");
 }
 
-void FallbackBackend::goOver(const std::string& why) {
+void FallbackBackend::goOver(const Message& why) {
   const std::string before(backend_->name());
   backend_ = std::exchange(makeOther_, nullptr)();
   if (content_ != nullptr) backend_->setContent(*content_);
-  if (told_) told_(fmt::format("{}: {}; going on with {}", before, why, backend_->name()));
+  if (told_)
+    told_(RELUCENT_ENGLISH_MESSAGE("engine.going-on-with-another", "{}: {}; going on with {}")
+              .with(before, why, backend_->name()));
 }
 
 void FallbackBackend::setContent(const EngineContent& content) {
@@ -38,7 +40,7 @@ bool FallbackBackend::render(const ContentFrame& frame, const FrameRequest& requ
   if (backend_->render(frame, request, words, report)) return true;
   if (!makeOther_) return false;
   try {
-    goOver("the device was lost");
+    goOver(RELUCENT_ENGLISH_MESSAGE("engine.device-was-lost", "the device was lost"));
     return backend_->render(frame, request, words, report);
   } catch (const std::exception&) {
     return false;
@@ -63,7 +65,7 @@ std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendCho
     return std::make_unique<FallbackBackend>(std::move(openGl), cpu, told);
   } catch (const Error& error) {
     if (!automatic) throw;
-    if (told) told(error.what());
+    if (told) told(error.sentence());
     return cpu();
   }
 }

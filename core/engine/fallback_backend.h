@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/enum_names.h"
+#include "base/message.h"
 #include "engine/backend.h"
 
 namespace relucent {
@@ -30,7 +31,7 @@ class FallbackBackend : public EngineBackend {
   /// Makes the other back end when it is first needed.
   using Make = std::function<std::unique_ptr<EngineBackend>()>;
   /// Called once, on the rendering thread, with a sentence that says what happened.
-  using Told = std::function<void(const std::string&)>;
+  using Told = std::function<void(const Message&)>;
 
   FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Told told);
 
@@ -42,7 +43,7 @@ class FallbackBackend : public EngineBackend {
               FrameReport& report) noexcept override;
 
  private:
-  void goOver(const std::string& why);
+  void goOver(const Message& why);
 
   std::unique_ptr<EngineBackend> backend_;
   Make makeOther_;  // empty once it was used

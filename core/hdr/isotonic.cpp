@@ -62,8 +62,12 @@ ResponseCurve curveFromRamp(const std::vector<double>& x, const std::vector<doub
   std::vector<Pool> pools = pooled(y, weights);
   double black = pools.front().value, white = pools.back().value;
   if (pools.size() < 2 || !std::isfinite(white - black) || !(white > black))
-    throw Error(ErrorKind::numerics, "the brightness does not rise along the ramp",
-                "check that the projector shows the pictures and that the camera sees them");
+    throw Error(ErrorKind::numerics,
+                RELUCENT_ENGLISH_MESSAGE("linearization.brightness-not-rise-along-ramp",
+                                         "the brightness does not rise along the ramp"),
+                RELUCENT_ENGLISH_MESSAGE(
+                    "linearization.check-projector-shows-pictures-camera",
+                    "check that the projector shows the pictures and that the camera sees them"));
 
   Samples samples;
   for (const Pool& pool : pools) {

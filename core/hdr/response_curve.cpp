@@ -51,8 +51,13 @@ ResponseCurve::ResponseCurve(std::vector<double> x, std::vector<double> y)
     : x_(std::move(x)), y_(std::move(y)) {
   bool usable = x_.size() == y_.size() && x_.size() >= 2 && x_.front() == 0.0 && x_.back() == 1.0;
   if (!usable || !ascends(x_) || !ascends(y_))
-    throw Error(ErrorKind::numerics, fmt::format("{} samples do not make an ascending curve", x_.size()),
-                "measure the response again; check that nothing moved and no light changed meanwhile");
+    throw Error(ErrorKind::numerics,
+                RELUCENT_ENGLISH_MESSAGE("linearization.samples-not-make-ascending-curve",
+                                         "{} samples do not make an ascending curve")
+                    .with(x_.size()),
+                RELUCENT_ENGLISH_MESSAGE(
+                    "linearization.measure-response-again-check-nothing",
+                    "measure the response again; check that nothing moved and no light changed meanwhile"));
   slope_ = monotoneSlopes(x_, y_);
   identity_ = x_ == y_;
 }

@@ -101,7 +101,7 @@ std::map<std::string, ExrAttribute> attributesOf(const Imf::Header& header) {
   return attributes;
 }
 
-[[noreturn]] void failFormat(const fs::path& path, std::string what, std::string advice) {
+[[noreturn]] void failFormat(const fs::path& path, Message what, Message advice) {
   throw Error(ErrorKind::format, std::move(what), std::move(advice), path.string());
 }
 
@@ -109,18 +109,30 @@ std::map<std::string, ExrAttribute> attributesOf(const Imf::Header& header) {
 void checkKind(const Imf::InputFile& file, const fs::path& path) {
   const Imf::Header& header = file.header();
   if (Imf::isMultiPart(file.version()))
-    failFormat(path, "the OpenEXR file has several parts",
-               "save the part that you want as a file of its own");
+    failFormat(
+        path,
+        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-several-parts", "the OpenEXR file has several parts"),
+        RELUCENT_ENGLISH_MESSAGE("image.save-part-you-want-file",
+                                 "save the part that you want as a file of its own"));
   if (Imf::isNonImage(file.version()) || (header.hasType() && Imf::isDeepData(header.type())))
-    failFormat(path, "the OpenEXR file holds deep data", "flatten it to a plain picture and save it again");
+    failFormat(
+        path,
+        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-holds-deep-data", "the OpenEXR file holds deep data"),
+        RELUCENT_ENGLISH_MESSAGE("image.flatten-plain-picture-save-again",
+                                 "flatten it to a plain picture and save it again"));
   if (!file.isComplete())
-    failFormat(path, "the OpenEXR file is incomplete", "copy it again, or write it again with its program");
+    failFormat(path,
+               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-incomplete", "the OpenEXR file is incomplete"),
+               RELUCENT_ENGLISH_MESSAGE("image.copy-again-write-again-program",
+                                        "copy it again, or write it again with its program"));
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
     if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
       failFormat(
           path,
-          fmt::format("channel {} of the OpenEXR file is subsampled (luminance and chroma)", channel.name()),
-          "save it again as R, G, B at full resolution");
+          RELUCENT_ENGLISH_MESSAGE("image.channel-openexr-file-subsampled-luminance",
+                                   "channel {} of the OpenEXR file is subsampled (luminance and chroma)")
+              .with(channel.name()),
+          RELUCENT_ENGLISH_MESSAGE("image.save-again-r-g-b", "save it again as R, G, B at full resolution"));
 }
 
 ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
@@ -131,10 +143,17 @@ ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
   ExrImage image;
   image.channelNames = orderedNames(header.channels());
   const std::size_t channels = image.channelNames.size();
-  if (channels == 0) failFormat(path, "the OpenEXR file has no channels", "choose another file");
+  if (channels == 0)
+    failFormat(path,
+               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-no-channels", "the OpenEXR file has no channels"),
+               RELUCENT_ENGLISH_MESSAGE("image.choose-another-file", "choose another file"));
   if (size.count() > largestSampleCount / channels)
-    failFormat(path, fmt::format("the OpenEXR file claims {}x{} pixels", size.width, size.height),
-               "check the file: it is damaged, or far larger than any camera's picture");
+    failFormat(
+        path,
+        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-claims-pixels", "the OpenEXR file claims {} pixels")
+            .with(as::size(size)),
+        RELUCENT_ENGLISH_MESSAGE("image.check-file-damaged-far-larger",
+                                 "check the file: it is damaged, or far larger than any camera's picture"));
   image.pixels = Image(size, static_cast<int>(channels));
   image.dataOrigin = {window.min.x, window.min.y};
   image.displayOrigin = {header.displayWindow().min.x, header.displayWindow().min.y};
@@ -158,8 +177,11 @@ std::vector<half> toHalf(const Image& image, const fs::path& path) {
     samples[i] = half(image.data()[i]);
     if (samples[i].isInfinity() && std::isfinite(image.data()[i]))
       throw Error(ErrorKind::input,
-                  fmt::format("the value {} is too large for half precision (65504)", image.data()[i]),
-                  "write the picture as float", path.string());
+                  RELUCENT_ENGLISH_MESSAGE("image.value-too-large-half-precision",
+                                           "the value {} is too large for half precision (65504)")
+                      .with(image.data()[i]),
+                  RELUCENT_ENGLISH_MESSAGE("image.write-picture-float", "write the picture as float"),
+                  path.string());
   }
   return samples;
 }
@@ -211,7 +233,9 @@ bool looksLikeExr(std::string_view content) {
 
 ExrImage readExr(const fs::path& path) {
   const std::string content = readFile(path);
-  if (!looksLikeExr(content)) failFormat(path, "this is not an OpenEXR file", "choose an .exr file");
+  if (!looksLikeExr(content))
+    failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.not-openexr-file", "this is not an OpenEXR file"),
+               RELUCENT_ENGLISH_MESSAGE("image.choose-exr-file", "choose an .exr file"));
   try {
     detail::MemoryInput stream(content, path.filename().string());
     Imf::InputFile file(stream);
@@ -220,11 +244,18 @@ ExrImage readExr(const fs::path& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::memory, "there is not enough memory to read the picture",
-                "close other programs, or make the picture smaller", path.string());
+    throw Error(ErrorKind::memory,
+                RELUCENT_ENGLISH_MESSAGE("image.there-not-enough-memory-read",
+                                         "there is not enough memory to read the picture"),
+                RELUCENT_ENGLISH_MESSAGE("image.close-other-programs-make-picture",
+                                         "close other programs, or make the picture smaller"),
+                path.string());
   } catch (const std::exception&) {
-    failFormat(path, "the OpenEXR file is damaged or cut short",
-               "copy it again, or write it again with its program");
+    failFormat(path,
+               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-damaged-cut-short",
+                                        "the OpenEXR file is damaged or cut short"),
+               RELUCENT_ENGLISH_MESSAGE("image.copy-again-write-again-program",
+                                        "copy it again, or write it again with its program"));
   }
 }
 
@@ -254,12 +285,18 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
   const Size size = *exr.displaySize;
   if (expected && size != *expected)
     throw Error(ErrorKind::input,
-                fmt::format("the picture has {}x{} pixels where {}x{} are needed", size.width, size.height,
-                            expected->width, expected->height),
-                "choose a picture of that size", path.string());
+                RELUCENT_ENGLISH_MESSAGE("image.picture-pixels-needed",
+                                         "the picture has {} pixels where {} are needed")
+                    .with(as::size(size), as::size(*expected)),
+                RELUCENT_ENGLISH_MESSAGE("image.choose-picture-size", "choose a picture of that size"),
+                path.string());
   if (size.count() > largestSampleCount / 3)
-    failFormat(path, fmt::format("the OpenEXR file claims {}x{} pixels", size.width, size.height),
-               "check the file: it is damaged, or far larger than any camera's picture");
+    failFormat(
+        path,
+        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-claims-pixels", "the OpenEXR file claims {} pixels")
+            .with(as::size(size)),
+        RELUCENT_ENGLISH_MESSAGE("image.check-file-damaged-far-larger",
+                                 "check the file: it is damaged, or far larger than any camera's picture"));
 
   auto placeOf = [&](const char* name) {
     return std::find(exr.channelNames.begin(), exr.channelNames.end(), name) - exr.channelNames.begin();
@@ -270,8 +307,11 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
   if (!rgb && exr.channelNames == std::vector<std::string>{"Y"})
     source = {0, 0, 0};
   else if (!rgb)
-    failFormat(path, fmt::format("the OpenEXR file has the channels {}", joined(exr.channelNames)),
-               "save it with the channels R, G and B, or with Y alone");
+    failFormat(path,
+               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-channels", "the OpenEXR file has the channels {}")
+                   .with(joined(exr.channelNames)),
+               RELUCENT_ENGLISH_MESSAGE("image.save-channels-r-g-b",
+                                        "save it with the channels R, G and B, or with Y alone"));
 
   // Display coordinates of the data window; only what both windows share is copied.
   const std::int64_t left = std::int64_t{exr.dataOrigin.x} - exr.displayOrigin.x;
@@ -297,10 +337,14 @@ void checkFinite(const Image& image, const fs::path& path) {
   }
   if (notNumbers + infinities == 0) return;
   const Pixel place = pixelAt(image.size(), first / static_cast<std::size_t>(image.channels()));
-  throw Error(ErrorKind::input,
-              fmt::format("the picture holds {} NaN and {} infinite values, the first at pixel {}, {}",
-                          notNumbers, infinities, place.x, place.y),
-              "write it again with finite numbers only", path.string());
+  throw Error(
+      ErrorKind::input,
+      RELUCENT_ENGLISH_MESSAGE("image.picture-holds-nan-infinite-values",
+                               "the picture holds {} NaN and {} infinite values, the first at pixel {}, {}")
+          .with(notNumbers, infinities, as::label(place.x), place.y),
+      RELUCENT_ENGLISH_MESSAGE("image.write-again-finite-numbers-only",
+                               "write it again with finite numbers only"),
+      path.string());
 }
 
 }  // namespace relucent

@@ -23,8 +23,11 @@ constexpr std::string_view pngSignature{"\x89PNG\r\n\x1a\n", 8};
 constexpr std::string_view jpegStart{"\xff\xd8", 2};
 
 [[noreturn]] void failShort(const fs::path& path) {
-  throw Error(ErrorKind::format, "the picture is damaged or cut short", "copy it again, or take it again",
-              path.string());
+  throw Error(
+      ErrorKind::format,
+      RELUCENT_ENGLISH_MESSAGE("image.picture-damaged-cut-short", "the picture is damaged or cut short"),
+      RELUCENT_ENGLISH_MESSAGE("image.copy-again-take-again", "copy it again, or take it again"),
+      path.string());
 }
 
 std::uint32_t bigEndian32(std::string_view bytes) {
@@ -86,16 +89,26 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
     picture = cv::imdecode(bytes, flags);
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::memory, "there is not enough memory to read the picture",
-                "close other programs, or make the picture smaller", path.string());
+    throw Error(ErrorKind::memory,
+                RELUCENT_ENGLISH_MESSAGE("image.there-not-enough-memory-read",
+                                         "there is not enough memory to read the picture"),
+                RELUCENT_ENGLISH_MESSAGE("image.close-other-programs-make-picture",
+                                         "close other programs, or make the picture smaller"),
+                path.string());
   } catch (const cv::Exception&) {
     // Sizes beyond OpenCV's limits end here; told below like everything that cannot be decoded.
   }
   if (picture.empty() && looksLikePicture(content))
-    throw Error(ErrorKind::format, "the picture is damaged, cut short, or too large",
-                "copy it again, or save it smaller", path.string());
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("image.picture-damaged-cut-short-too",
+                                 "the picture is damaged, cut short, or too large"),
+        RELUCENT_ENGLISH_MESSAGE("image.copy-again-save-smaller", "copy it again, or save it smaller"),
+        path.string());
   if (picture.empty())
-    throw Error(ErrorKind::format, "this is not a picture", "choose a PNG, TIFF, JPEG or OpenEXR file",
+    throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("image.not-picture", "this is not a picture"),
+                RELUCENT_ENGLISH_MESSAGE("image.choose-png-tiff-jpeg-openexr",
+                                         "choose a PNG, TIFF, JPEG or OpenEXR file"),
                 path.string());
   return picture;
 }
@@ -137,9 +150,12 @@ Image toRgb(const cv::Mat& picture, const fs::path& path) {
   const std::optional<double> scale = fullScale(picture.depth());
   if (!scale || picture.channels() > 4)
     throw Error(ErrorKind::format,
-                fmt::format("the picture has {} channels of {} bytes a sample", picture.channels(),
-                            picture.elemSize1()),
-                "save it as grey or RGB with 8 or 16 bits, or as float", path.string());
+                RELUCENT_ENGLISH_MESSAGE("image.picture-channels-bytes-sample",
+                                         "the picture has {} channels of {} bytes a sample")
+                    .with(picture.channels(), as::bytes(picture.elemSize1())),
+                RELUCENT_ENGLISH_MESSAGE("image.save-grey-rgb-8-16",
+                                         "save it as grey or RGB with 8 or 16 bits, or as float"),
+                path.string());
   switch (picture.depth()) {
     case CV_8U:
       return rgbOf<std::uint8_t>(picture, *scale);

@@ -87,8 +87,11 @@ bool addBilinear(const Image& image, Point point, std::span<double> sum) {
 
 Homography homographyBetween(const std::array<Point, 4>& from, const std::array<Point, 4>& to) {
   if (threeOnALine(from) || threeOnALine(to))
-    throw Error(ErrorKind::input, "three of the four corners lie on a line",
-                "move the corners apart so that they form a quadrilateral");
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("image.three-four-corners-lie-line",
+                                         "three of the four corners lie on a line"),
+                RELUCENT_ENGLISH_MESSAGE("image.move-corners-apart-so-they",
+                                         "move the corners apart so that they form a quadrilateral"));
   const cv::Mat map = cv::getPerspectiveTransform(cvPoints(from).data(), cvPoints(to).data());
   Homography result;
   std::copy(map.ptr<double>(), map.ptr<double>() + 9, result.begin());
@@ -109,8 +112,11 @@ Homography inverted(const Homography& map) {
   Homography result;
   std::copy(inverse.val, inverse.val + 9, result.begin());
   if (std::all_of(result.begin(), result.end(), [](double v) { return v == 0.0; }))
-    throw Error(ErrorKind::input, "the perspective map has no inverse",
-                "move the corners apart so that they form a quadrilateral");
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("image.perspective-map-no-inverse", "the perspective map has no inverse"),
+        RELUCENT_ENGLISH_MESSAGE("image.move-corners-apart-so-they",
+                                 "move the corners apart so that they form a quadrilateral"));
   return result;
 }
 

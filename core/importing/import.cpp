@@ -33,32 +33,41 @@ class Importing {
         frames_(chooseFrames(patterns, photographs, std::move(heldOut))) {
     constexpr int leastSide = 8;
     if (std::min(patterns.size().width, patterns.size().height) < leastSide)
-      throw Error(ErrorKind::input,
-                  fmt::format("the patterns have {}x{} pixels, which is no projector", patterns.size().width,
-                              patterns.size().height),
-                  fmt::format("give patterns of at least {0}x{0} pixels", leastSide));
-    if (static_cast<int>(frames_.spatial.size()) < leastSpatial)
       throw Error(
           ErrorKind::input,
-          fmt::format("{} of the patterns have content and take part in the fit, which is too few to tell "
-                      "where light comes from",
-                      frames_.spatial.size()),
-          fmt::format("import at least {} different patterns, or photograph those of `relucent-cli plan`",
-                      leastSpatial + 2));
+          RELUCENT_ENGLISH_MESSAGE("import.no-projector-size",
+                                   "the patterns have {} pixels, which is no projector")
+              .with(as::size(patterns.size())),
+          RELUCENT_ENGLISH_MESSAGE("import.give-larger-patterns", "give patterns of at least {} pixels")
+              .with(as::size(leastSide, leastSide)));
+    if (static_cast<int>(frames_.spatial.size()) < leastSpatial)
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("import.too-few-patterns",
+                                           "{} of the patterns have content and take part in the fit, which "
+                                           "is too few to tell where light comes from")
+                      .with(frames_.spatial.size()),
+                  RELUCENT_ENGLISH_MESSAGE(
+                      "import.give-more-patterns",
+                      "import at least {} different patterns, or photograph those of `relucent-cli plan`")
+                      .with(leastSpatial + 2));
     response_.channels.fill(usualCurve());
     findLitPixels();
   }
 
   Import run(Progress& progress) {
-    Progress decoding = progress.part(0.35, "Decoding");
+    Progress decoding = progress.part(0.35, RELUCENT_MESSAGE("stage.decoding", "Decoding"));
     decode(decoding);
-    Progress sampling = progress.part(0.1, "Estimating response and colours");
+    Progress sampling = progress.part(
+        0.1, RELUCENT_MESSAGE("stage.estimating-response-colours", "Estimating response and colours"));
     alternate(sampling);
-    Progress spreading = progress.part(0.45, "Fitting the spread of light");
+    Progress spreading =
+        progress.part(0.45, RELUCENT_MESSAGE("stage.fitting-spread-light", "Fitting the spread of light"));
     fitFootprints(litPixels_, spreading);
-    Progress assembling = progress.part(0.07, "Assembling the light transport");
+    Progress assembling = progress.part(
+        0.07, RELUCENT_MESSAGE("stage.assembling-light-transport", "Assembling the light transport"));
     Import result = assembled(assembling);
-    Progress scoring = progress.part(0.03, "Predicting held-out patterns");
+    Progress scoring = progress.part(
+        0.03, RELUCENT_MESSAGE("stage.predicting-held-out-patterns", "Predicting held-out patterns"));
     if (!frames_.heldOut.empty()) score(result, scoring);
     addFindings(result);
     progress.report(1.0);
@@ -71,15 +80,20 @@ class Importing {
     for (std::size_t pixel = 0; pixel < lit_.size(); ++pixel)
       if (lit_[pixel] != 0) litPixels_.push_back(static_cast<std::uint32_t>(pixel));
     if (litPixels_.empty())
-      throw Error(ErrorKind::input, "the photographs are all alike: no camera pixel reacts to the patterns",
-                  "check that patterns and photographs belong together and that the projector was on");
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("import.photographs-alike",
+                                   "the photographs are all alike: no camera pixel reacts to the patterns"),
+          RELUCENT_ENGLISH_MESSAGE(
+              "import.check-patterns-and-photographs",
+              "check that patterns and photographs belong together and that the projector was on"));
   }
 
   void decode(Progress& progress) {
     pyramid_ = sequencePyramid(patterns_, frames_, DriveTable(response_));
-    Progress descending = progress.part(0.7, "Decoding");
+    Progress descending = progress.part(0.7, RELUCENT_MESSAGE("stage.decoding", "Decoding"));
     decoded_ = decodePixels({pyramid_, photographs_, frames_}, litPixels_, settings_.beam, descending);
-    Progress propagating = progress.part(0.3, "Decoding");
+    Progress propagating = progress.part(0.3, RELUCENT_MESSAGE("stage.decoding", "Decoding"));
     propagate({pyramid_, photographs_, frames_}, lit_, decoded_, propagating);
     agreeOnPlaces(pyramid_, photographs_.size(), decoded_);
     footprint_.resize(decoded_.size());
@@ -235,24 +249,32 @@ class Importing {
   }
 
   void addFindings(Import& result) const {
-    std::vector<std::string>& findings = result.acquisition.findings;
+    std::vector<Message>& findings = result.acquisition.findings;
     if (!colouredPatterns())
       findings.push_back(
           photographs_.isColoured()
-              ? "The patterns are grey: how colours mix was not measured, and T's blocks are diagonal."
-              : "Patterns and photographs are grey: colours are not told apart, and T's blocks are neutral.");
+              ? RELUCENT_MESSAGE(
+                    "import.patterns-grey",
+                    "The patterns are grey: how colours mix was not measured, and T's blocks are diagonal")
+              : RELUCENT_MESSAGE("import.patterns-and-photographs-grey",
+                                 "Patterns and photographs are grey: colours are not told apart, and T's "
+                                 "blocks are neutral"));
     else if (!photographs_.isColoured())
-      findings.push_back(
-          "The photographs are grey: what each of the projector's colours contributes is known "
-          "in brightness only.");
+      findings.push_back(RELUCENT_MESSAGE("import.photographs-grey",
+                                          "The photographs are grey: what each of the projector's colours "
+                                          "contributes is known in brightness only"));
     if (!responseKnown_)
-      result.linearization.findings.push_back(
-          "The patterns hold black and white only: the projector's response is taken to be a power of 2.2.");
-    result.linearization.findings.push_back(
-        "The camera is taken to be linear, and one photograph counts as one second of exposure.");
+      result.linearization.findings.push_back(RELUCENT_MESSAGE(
+          "import.patterns-black-and-white",
+          "The patterns hold black and white only: the projector's response is taken to be a power of 2.2"));
+    result.linearization.findings.push_back(RELUCENT_MESSAGE(
+        "import.camera-taken-as-linear",
+        "The camera is taken to be linear, and one photograph counts as one second of exposure"));
     double share = static_cast<double>(litPixels_.size()) / static_cast<double>(lit_.size());
     if (share < 0.9)
-      findings.push_back(fmt::format("The projector lights {:.0f} % of the camera's pixels.", 100.0 * share));
+      findings.push_back(
+          RELUCENT_MESSAGE("import.lit-share", "The projector lights {} % of the camera's pixels")
+              .with(as::share(share, as::decimals(0))));
   }
 
   const PictureSequence& patterns_;
@@ -275,10 +297,14 @@ class Importing {
 
 }  // namespace
 
-std::vector<std::string> problems(const ImportSettings& settings) {
-  std::vector<std::string> found;
-  if (settings.holdOutEvery < 2) found.push_back("at most every second pattern can be held out");
-  if (settings.beam < 1) found.push_back("the search has to keep at least one place");
+std::vector<Message> problems(const ImportSettings& settings) {
+  std::vector<Message> found;
+  if (settings.holdOutEvery < 2)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.held-out-too-often",
+                                             "at most every second pattern can be held out"));
+  if (settings.beam < 1)
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("import.search-keeps-nothing", "the search has to keep at least one place"));
   return found;
 }
 

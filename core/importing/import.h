@@ -16,7 +16,7 @@ struct ImportSettings {
   int beam = 8;          // places that the search keeps at each level
   bool refit = true;     // once the held-out patterns are predicted, T is fitted to all patterns
 };
-std::vector<std::string> problems(const ImportSettings& settings);
+std::vector<Message> problems(const ImportSettings& settings);
 
 struct Import {
   Linearization linearization;  // the projector's estimated response, a linear camera

@@ -48,14 +48,18 @@ bool isLit(const PlannedPattern& pattern, int x, int y) {
 
 }  // namespace
 
-std::vector<std::string> problems(const PatternPlanSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const PatternPlanSettings& settings) {
+  std::vector<Message> found;
   if (settings.projector.width < 8 || settings.projector.height < 8 || settings.projector.width > 8192 ||
       settings.projector.height > 8192)
-    found.push_back(fmt::format("a projector of {}x{} pixels is impossible: each side is 8 to 8192",
-                                settings.projector.width, settings.projector.height));
-  if (settings.rampLevels < 2 || settings.rampLevels > 65) found.push_back("a ramp has 2 to 65 levels");
-  if (settings.randomPatterns < 0) found.push_back("there cannot be fewer than no random patterns");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.projector-pixels-impossible-each-side",
+                                             "a projector of {} pixels is impossible: each side is 8 to 8192")
+                        .with(as::size(settings.projector)));
+  if (settings.rampLevels < 2 || settings.rampLevels > 65)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.ramp-2-65-levels", "a ramp has 2 to 65 levels"));
+  if (settings.randomPatterns < 0)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.there-cannot-fewer-than-no",
+                                             "there cannot be fewer than no random patterns"));
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "image/image.h"
 
 namespace relucent {
@@ -14,7 +15,7 @@ struct PatternPlanSettings {
   int randomPatterns = 8;  // binary, block sizes 1, 2, 4, 8 in turn
   std::uint64_t seed = 1;
 };
-std::vector<std::string> problems(const PatternPlanSettings& settings);
+std::vector<Message> problems(const PatternPlanSettings& settings);
 
 /// One picture of a plan.
 struct PlannedPattern {

@@ -9,12 +9,15 @@
 
 namespace relucent {
 
-std::vector<std::string> problems(const ClusterInverseSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const ClusterInverseSettings& settings) {
+  std::vector<Message> found;
   if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
-    found.push_back("the ridge must lie above 0 and at most 100");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.ridge-must-lie-above-0",
+                                             "the ridge must lie above 0 and at most 100"));
   if (!(settings.truncation >= 0.0 && settings.truncation < 1.0))
-    found.push_back("the truncation of singular values must be at least 0 and below 1");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("inverse.truncation-singular-values-must-least",
+                                 "the truncation of singular values must be at least 0 and below 1"));
   return found;
 }
 

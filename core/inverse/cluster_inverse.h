@@ -27,7 +27,7 @@ struct ClusterInverseSettings {
   double truncation = 0.05;  // singular values up to this share of the cluster's largest are left out
   bool whiteFlood = true;    // scale so that the flood image gives white
 };
-std::vector<std::string> problems(const ClusterInverseSettings& settings);
+std::vector<Message> problems(const ClusterInverseSettings& settings);
 
 /// The paper's operator: every cluster inverted on its own, recombined into one sparse T+.
 ///   p_cluster = A^+ U r_cluster

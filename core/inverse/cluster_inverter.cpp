@@ -82,9 +82,12 @@ class ClusterInverter {
         rows * pixels * inverse_.planes() <= mostWeights)
       return;
     throw Error(ErrorKind::memory,
-                fmt::format("a cluster joins {} projector pixels and {} camera pixels, too many to invert",
-                            pixels, rows),
-                "hold clusters to a size, or cut more of each patch");
+                RELUCENT_ENGLISH_MESSAGE(
+                    "inverse.cluster-joins-projector-pixels-camera",
+                    "a cluster joins {} projector pixels and {} camera pixels, too many to invert")
+                    .with(pixels, rows),
+                RELUCENT_ENGLISH_MESSAGE("inverse.hold-clusters-size-cut-more",
+                                         "hold clusters to a size, or cut more of each patch"));
   }
 
   /// Takes each camera pixel to the common scale.
@@ -173,7 +176,9 @@ class ClusterInverter {
 ClusterInverse computeClusterInverse(const Clustering& clustering, const std::vector<std::uint8_t>& usable,
                                      const ClusterInverseSettings& settings, Progress& progress) {
   if (auto found = problems(settings); !found.empty())
-    throw Error(ErrorKind::usage, found.front(), "correct the setting", "cluster inverse");
+    throw Error(ErrorKind::usage, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("clusters.correct-setting", "correct the setting"),
+                "cluster inverse");
   require(usable.size() == clustering.cameraCluster.size(), "{} usable flags for {} camera pixels",
           usable.size(), clustering.cameraCluster.size());
   progress.checkpoint();

@@ -17,8 +17,12 @@ constexpr double leastRidgeOfFloats = 1e-2;
 constexpr float leastUncancelled = 0.2f;
 
 [[noreturn]] void failSingular() {
-  throw Error(ErrorKind::numerics, "a cluster of the light transport cannot be inverted",
-              "choose a larger ridge, or the truncated singular value decomposition");
+  throw Error(
+      ErrorKind::numerics,
+      RELUCENT_ENGLISH_MESSAGE("inverse.cluster-light-transport-cannot-inverted",
+                               "a cluster of the light transport cannot be inverted"),
+      RELUCENT_ENGLISH_MESSAGE("inverse.choose-larger-ridge-truncated-singular",
+                               "choose a larger ridge, or the truncated singular value decomposition"));
 }
 
 template <typename Scalar>

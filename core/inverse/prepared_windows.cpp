@@ -103,8 +103,11 @@ class WindowBuilder {
       Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>> cholesky(gram);
       if (cholesky.info() != Eigen::Success)
         throw Error(ErrorKind::numerics,
-                    "the light transport around a tile of projector pixels cannot be inverted",
-                    "raise the ridge of the windows or measure the venue again",
+                    RELUCENT_ENGLISH_MESSAGE(
+                        "inverse.light-transport-around-tile-projector",
+                        "the light transport around a tile of projector pixels cannot be inverted"),
+                    RELUCENT_ENGLISH_MESSAGE("inverse.raise-ridge-windows-measure-venue",
+                                             "raise the ridge of the windows or measure the venue again"),
                     fmt::format("window {} of {}", tile, result_.tiles_.count()));
       solveChannel(rows, channel, cholesky, scratch);
       store(tile, channel, scratch.weights);

@@ -6,13 +6,17 @@
 
 namespace relucent {
 
-std::vector<std::string> problems(const WindowSettings& settings) {
-  std::vector<std::string> found;
-  if (settings.tile != 4 && settings.tile != 8) found.push_back("the side of a tile must be 4 or 8");
+std::vector<Message> problems(const WindowSettings& settings) {
+  std::vector<Message> found;
+  if (settings.tile != 4 && settings.tile != 8)
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("inverse.side-tile-must-4-8", "the side of a tile must be 4 or 8"));
   if (settings.rows < 1 || settings.rows > 1024)
-    found.push_back("a window must have 1 to 1024 camera pixels");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.window-must-1-1024-camera",
+                                             "a window must have 1 to 1024 camera pixels"));
   if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
-    found.push_back("the ridge must lie above 0 and at most 100");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.ridge-must-lie-above-0",
+                                             "the ridge must lie above 0 and at most 100"));
   return found;
 }
 

@@ -15,7 +15,7 @@ struct WindowSettings {
   int rows = 48;       // camera pixels of a window: those that see the tile strongest
   double ridge = 0.4;  // lambda as a share of the mean diagonal of G
 };
-std::vector<std::string> problems(const WindowSettings& settings);
+std::vector<Message> problems(const WindowSettings& settings);
 
 /// The arrays of a WindowInverse, without owning them: for callers that apply it with loops of their own.
 /// Valid as long as the WindowInverse.

@@ -94,15 +94,25 @@ Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std
   Additivity result;
   result.whiteWeights = LightWeights(white, black);
   if (result.whiteWeights.empty())
-    throw Error(ErrorKind::input, "no camera can measure the white of this projector",
-                "check that its picture is in view and not overexposed: close the aperture or lower the gain",
-                rig.projectors[projector]->name());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("linearization.no-camera-can-measure-white",
+                                 "no camera can measure the white of this projector"),
+        RELUCENT_ENGLISH_MESSAGE(
+            "linearization.check-picture-view-not-overexposed",
+            "check that its picture is in view and not overexposed: close the aperture or lower the gain"),
+        rig.projectors[projector]->name());
   for (std::size_t c = 0; c < 3; ++c) {
     result.channelWeights[c] = LightWeights(primary[c], black);
     if (!result.channelWeights[c].empty()) continue;
     static constexpr std::array<const char*, 3> names{"red", "green", "blue"};
-    throw Error(ErrorKind::input, fmt::format("no camera sees the {} light of this projector", names[c]),
-                "check its cable and colour settings, and that a camera looks at its picture",
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("linearization.no-camera-sees-light-projector",
+                                         "no camera sees the {} light of this projector")
+                    .with(names[c]),
+                RELUCENT_ENGLISH_MESSAGE(
+                    "linearization.check-cable-colour-settings-camera",
+                    "check its cable and colour settings, and that a camera looks at its picture"),
                 rig.projectors[projector]->name());
   }
 
@@ -117,27 +127,42 @@ Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std
   return result;
 }
 
-std::vector<std::string> additivityFindings(const Additivity& additivity, const std::string& projector,
-                                            double limit) {
-  std::vector<std::string> findings;
-  double percent = 100.0 * std::abs(additivity.white);
+namespace {
+
+Message superpositionFinding(double excess, const std::string& projector) {
+  const Argument share = as::share(std::abs(excess), as::decimals(0));
+  return excess > 0.0 ? RELUCENT_MESSAGE(
+                            "linearization.halves-brighter-than-whole",
+                            "{}: two halves of a picture are {} % brighter than the whole; switch off the "
+                            "dynamic iris, dynamic contrast and any picture mode that adapts to the content")
+                            .with(projector, share)
+                      : RELUCENT_MESSAGE(
+                            "linearization.halves-darker-than-whole",
+                            "{}: two halves of a picture are {} % darker than the whole; switch off the "
+                            "dynamic iris, dynamic contrast and any picture mode that adapts to the content")
+                            .with(projector, share);
+}
+
+}  // namespace
+
+std::vector<Message> additivityFindings(const Additivity& additivity, const std::string& projector,
+                                        double limit) {
+  std::vector<Message> findings;
+  const Argument share = as::share(std::abs(additivity.white), as::decimals(0));
   if (additivity.white > limit)
     findings.push_back(
-        fmt::format("{}: white is {:.0f} % brighter than red, green and blue together; switch off the "
-                    "white segment (often called brilliant colour or bright mode) and choose a "
-                    "picture mode for video or sRGB.",
-                    projector, percent));
+        RELUCENT_MESSAGE(
+            "linearization.white-brighter-than-colours",
+            "{}: white is {} % brighter than red, green and blue together; switch off the white segment "
+            "(often called brilliant colour or bright mode) and choose a picture mode for video or sRGB")
+            .with(projector, share));
   if (additivity.white < -limit)
-    findings.push_back(
-        fmt::format("{}: white is {:.0f} % darker than red, green and blue together; switch off power "
-                    "saving, colour management and dynamic picture modes.",
-                    projector, percent));
+    findings.push_back(RELUCENT_MESSAGE("linearization.white-darker-than-colours",
+                                        "{}: white is {} % darker than red, green and blue together; switch "
+                                        "off power saving, colour management and dynamic picture modes")
+                           .with(projector, share));
   if (std::abs(additivity.superposition) > limit)
-    findings.push_back(
-        fmt::format("{}: two halves of a picture are {:.0f} % {} than the whole; switch off the dynamic "
-                    "iris, dynamic contrast and any picture mode that adapts to the content.",
-                    projector, 100.0 * std::abs(additivity.superposition),
-                    additivity.superposition > 0.0 ? "brighter" : "darker"));
+    findings.push_back(superpositionFinding(additivity.superposition, projector));
   return findings;
 }
 

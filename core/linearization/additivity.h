@@ -24,7 +24,7 @@ Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std
                              Progress& progress);
 
 /// Findings about deviations above `limit`: the likely cause and what to switch off.
-std::vector<std::string> additivityFindings(const Additivity& additivity, const std::string& projector,
-                                            double limit);
+std::vector<Message> additivityFindings(const Additivity& additivity, const std::string& projector,
+                                        double limit);
 
 }  // namespace relucent

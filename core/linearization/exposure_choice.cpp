@@ -199,32 +199,38 @@ void findLight(std::vector<Search>& searches, const Shot& white, const std::vect
                            blackAgain.frames[exposure][camera].signal, lit.bits);
     if (static_cast<double>(search.lit.size()) <
         std::max(8.0, 0.002 * static_cast<double>(lit.signal.pixels())))
-      throw Error(ErrorKind::input, "the camera sees no difference between a white and a black projection",
-                  "check that the projector is on and shows the pictures, that the lens cap is off, and that "
-                  "the camera looks at the projection",
-                  search.name);
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("linearization.camera-sees-no-difference-between",
+                                   "the camera sees no difference between a white and a black projection"),
+          RELUCENT_ENGLISH_MESSAGE("linearization.check-projector-shows-pictures-lens",
+                                   "check that the projector is on and shows the pictures, that the lens cap "
+                                   "is off, and that the camera looks at the projection"),
+          search.name);
     search.findHighlights(white, camera, sweepSeconds);
   }
 }
 
-std::vector<std::string> remarks(const std::vector<Search>& searches) {
-  std::vector<std::string> findings;
+std::vector<Message> remarks(const std::vector<Search>& searches) {
+  std::vector<Message> findings;
   for (const Search& search : searches) {
     if (search.level > clipping * search.saturation)
-      findings.push_back(
-          fmt::format("{}: the projection is overexposed even at {:.3g} s, the shortest exposure; "
-                      "close the aperture, lower the gain or add a grey filter.",
-                      search.name, search.seconds));
+      findings.push_back(RELUCENT_MESSAGE("linearization.overexposed",
+                                          "{}: the projection is overexposed even at {} s, the shortest "
+                                          "exposure; close the aperture, lower the gain or add a grey filter")
+                             .with(search.name, as::seconds(search.seconds, as::digits(3))));
     else if (search.level < 0.25 * search.saturation)
-      findings.push_back(
-          fmt::format("{}: the projection reaches only {:.0f} % of the camera's range at {:.3g} s, the "
-                      "longest exposure; open the aperture or raise the gain.",
-                      search.name, 100.0 * search.level / search.saturation, search.seconds));
+      findings.push_back(RELUCENT_MESSAGE("linearization.underexposed",
+                                          "{}: the projection reaches only {} % of the camera's range at {} "
+                                          "s, the longest exposure; open the aperture or raise the gain")
+                             .with(search.name, as::share(search.level / search.saturation, as::decimals(0)),
+                                   as::seconds(search.seconds, as::digits(3))));
     else if (search.highlightsClip && search.clips)
-      findings.push_back(fmt::format(
-          "{}: some highlights are overexposed even at {:.3g} s, the shortest exposure, and will not be "
-          "compensated; close the aperture or add a grey filter if they matter.",
-          search.name, search.highlights));
+      findings.push_back(
+          RELUCENT_MESSAGE("linearization.highlights-overexposed",
+                           "{}: some highlights are overexposed even at {} s, the shortest exposure, and "
+                           "will not be compensated; close the aperture or add a grey filter if they matter")
+              .with(search.name, as::seconds(search.highlights, as::digits(3))));
   }
   return findings;
 }
@@ -238,8 +244,11 @@ ExposureRange commonRange(const Rig& rig) {
     range.longest = std::min(range.longest, camera->exposures().longest);
   }
   if (!(range.shortest > 0.0 && range.shortest <= range.longest))
-    throw Error(ErrorKind::device, "the cameras have no exposure time in common",
-                "set them to ranges of exposure times that overlap");
+    throw Error(ErrorKind::device,
+                RELUCENT_MESSAGE("linearization.cameras-no-exposure-time-common",
+                                 "the cameras have no exposure time in common"),
+                RELUCENT_MESSAGE("linearization.set-them-ranges-exposure-times",
+                                 "set them to ranges of exposure times that overlap"));
   return range;
 }
 

@@ -13,7 +13,7 @@ namespace relucent {
 struct ExposureChoice {
   std::vector<double> seconds;     // longest first
   std::vector<double> saturation;  // per camera: signals from this value on are saturated
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
 };
 
 /// Exposure times that all cameras of a rig support.

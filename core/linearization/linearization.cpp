@@ -52,58 +52,71 @@ void calibrateCameras(ShotTaker& shots, const LinearizationSettings& settings,
     model = withMeasuredTimes(std::move(model), pairs, camera);
     double flicker = flickerOf(model, pairs, camera);
     if (flicker > flickerLimit)
-      result.findings.push_back(fmt::format(
-          "{}: the light changes by {:.1f} % from one photograph to the next; switch off the projector's "
-          "dynamic lamp modes and other lamps nearby, and choose exposure times that are multiples of "
-          "the mains period.",
-          rig.cameras[camera]->name(), 100.0 * flicker));
+      result.findings.push_back(
+          RELUCENT_MESSAGE("linearization.light-flickers",
+                           "{}: the light changes by {} % from one photograph to the next; switch off the "
+                           "projector's dynamic lamp modes and other lamps nearby, and choose exposure times "
+                           "that are multiples of the mains period")
+              .with(rig.cameras[camera]->name(), as::share(flicker, as::decimals(1))));
     result.cameras.push_back(std::move(model));
   }
 }
 
 }  // namespace
 
-std::vector<std::string> problems(const LinearizationSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const LinearizationSettings& settings) {
+  std::vector<Message> found;
   if (settings.levels < 5 || settings.levels > 1025)
-    found.push_back(fmt::format("a ramp has 5 to 1025 levels, not {}", settings.levels));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.ramp-5-1025-levels-not",
+                                             "a ramp has 5 to 1025 levels, not {}")
+                        .with(settings.levels));
   if (!(settings.shadowPower >= 0.5 && settings.shadowPower <= 4.0))
-    found.push_back(fmt::format("the shadow power is between 0.5 and 4, not {}", settings.shadowPower));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.shadow-power-between-0-5",
+                                             "the shadow power is between 0.5 and 4, not {}")
+                        .with(settings.shadowPower));
   if (settings.noisePairs < 1 || settings.noisePairs > 100)
-    found.push_back(
-        fmt::format("the camera's noise takes 1 to 100 pairs of shots, not {}", settings.noisePairs));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.camera-noise-takes-1-100",
+                                             "the camera's noise takes 1 to 100 pairs of shots, not {}")
+                        .with(settings.noisePairs));
   if (!(settings.additivityLimit > 0.0 && settings.additivityLimit < 1.0))
-    found.push_back(fmt::format("the additivity limit is between 0 and 1, not {}", settings.additivityLimit));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.additivity-limit-between-0-1",
+                                             "the additivity limit is between 0 and 1, not {}")
+                        .with(settings.additivityLimit));
   return found;
 }
 
 Linearization linearize(ShotTaker& shots, const LinearizationSettings& settings, Progress& progress) {
-  for (const std::string& problem : problems(settings)) require(false, "{}", problem);
+  for (const Message& problem : problems(settings)) require(false, "{}", problem);
   const Rig& rig = shots.rig();
   require(!rig.projectors.empty() && !rig.cameras.empty(), "{} projectors and {} cameras make no rig",
           rig.projectors.size(), rig.cameras.size());
 
   Linearization result;
-  Progress exposing = progress.part(0.1, "Finding the exposure");
+  Progress exposing = progress.part(0.1, RELUCENT_MESSAGE("stage.finding-exposure", "Finding the exposure"));
   ExposureChoice choice = chooseExposures(shots, exposing);
   result.exposures = choice.seconds;
   result.findings = choice.findings;
 
-  Progress calibrating = progress.part(0.1, "Measuring the camera");
+  Progress calibrating =
+      progress.part(0.1, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
   calibrateCameras(shots, settings, choice.saturation, result, calibrating);
 
   LightMeter meter(shots, result.cameras, result.exposures);
   double share = 0.8 / static_cast<double>(rig.projectors.size());
   for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
     const std::string name = rig.projectors[projector]->name();
-    Progress adding = progress.part(0.1 * share, "Checking that the colours of " + name + " add up");
+    Progress adding = progress.part(
+        0.1 * share,
+        RELUCENT_MESSAGE("stage.checking-additivity", "Checking that the colours of {} add up").with(name));
     Additivity additivity = measureAdditivity(meter, projector, settings.seed, adding);
     result.additivityError.push_back(
         std::max(std::abs(additivity.white), std::abs(additivity.superposition)));
-    for (std::string& finding : additivityFindings(additivity, name, settings.additivityLimit))
+    for (Message& finding : additivityFindings(additivity, name, settings.additivityLimit))
       result.findings.push_back(std::move(finding));
 
-    Progress ramps = progress.part(0.9 * share, "Measuring the brightness curves of " + name);
+    Progress ramps = progress.part(0.9 * share, RELUCENT_MESSAGE("stage.measuring-brightness-curves",
+                                                                 "Measuring the brightness curves of {}")
+                                                    .with(name));
     result.projectors.push_back(measureRamps(meter, projector, additivity, settings, ramps));
   }
   progress.report(1.0);

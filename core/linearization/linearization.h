@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "hdr/hdr.h"
 #include "rig/shot.h"
 
@@ -31,7 +32,7 @@ struct LinearizationSettings {
   std::uint64_t seed = 1;          // order of the ramp and the halves that test superposition
 };
 /// What is wrong with the settings; empty: nothing.
-std::vector<std::string> problems(const LinearizationSettings& settings);
+std::vector<Message> problems(const LinearizationSettings& settings);
 
 /// Results of the calibration of projectors and cameras.
 struct Linearization {
@@ -47,7 +48,7 @@ struct Linearization {
   /// Time that its shots took: a benchmark of the devices. Shots read from a log do not count.
   ShotTimes times;
   /// Findings (a white segment, a picture mode, flicker); empty: none.
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
 };
 
 /// Measures projectors and cameras with uniform patterns:

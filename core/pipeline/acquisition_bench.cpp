@@ -69,8 +69,8 @@ std::vector<Trial> trialsOf(const AcquisitionBenchSettings& settings) {
 
 }  // namespace
 
-std::vector<std::string> problems(const AcquisitionBenchSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const AcquisitionBenchSettings& settings) {
+  std::vector<Message> found;
   for (const std::string& name : venueNames(settings)) {
     VenueSettings venue;
     venue.name = name;
@@ -78,10 +78,12 @@ std::vector<std::string> problems(const AcquisitionBenchSettings& settings) {
     venue.camera = settings.camera;
     CalibrateSettings one;
     one.rig = venue;
-    for (std::string& problem : problems(one)) found.push_back(std::move(problem));
+    for (Message& problem : problems(one)) found.push_back(std::move(problem));
   }
   if (trialsOf(settings).empty())
-    found.push_back("no way to measure is compared in that mode at that threshold; name neither to see all");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "calibration.no-way-measure-compared-mode",
+        "no way to measure is compared in that mode at that threshold; name neither to see all"));
   return found;
 }
 
@@ -98,7 +100,8 @@ AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings
     venue.camera = settings.camera;
     for (const Trial& trial : chosen) {
       Progress part =
-          progress.part(share, fmt::format("{}: {} at {}", name, nameOf(trial.mode), trial.threshold));
+          progress.part(share, RELUCENT_ENGLISH_MESSAGE("stage.venue-mode-threshold", "{}: {} at {}")
+                                   .with(name, nameOf(trial.mode), trial.threshold));
       result.runs.push_back(measured(venue, trial, cache, part));
     }
   }

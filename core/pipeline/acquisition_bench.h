@@ -19,7 +19,7 @@ struct AcquisitionBenchSettings {
   Size projector{256, 192};
   Size camera{160, 120};
 };
-std::vector<std::string> problems(const AcquisitionBenchSettings& settings);
+std::vector<Message> problems(const AcquisitionBenchSettings& settings);
 
 /// One measurement of one venue, and how near T came to the truth.
 struct AcquisitionBenchRun {

@@ -100,7 +100,7 @@ std::string sizesOf(const EngineBenchSettings& settings) {
 BenchResult benchEngine(BackendChoice backend, Progress& progress) {
   EngineBenchSettings settings;
   settings.backend = backend;
-  Progress usual = progress.part(0.4, sizesOf(settings));
+  Progress usual = progress.part(0.4, Message::plain(sizesOf(settings)));
   const EngineBenchResult engine = benchEngine(settings, usual);
   BenchResult result;
   result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
@@ -112,11 +112,12 @@ BenchResult benchEngine(BackendChoice backend, Progress& progress) {
   settings.references = false;
   const std::string sizes = sizesOf(settings);
   if (availableMemory() < memoryOfLarge) {
-    result.notes.push_back(
-        fmt::format("{} was not timed: it takes {:.0f} GB of memory", sizes, memoryOfLarge / 1e9));
+    result.notes.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.not-timed-takes-gb-memory",
+                                                    "{} was not timed: it takes {} GB of memory")
+                               .with(sizes, as::number(memoryOfLarge / 1e9, as::decimals(0))));
     return result;
   }
-  Progress large = progress.part(0.6, sizes);
+  Progress large = progress.part(0.6, Message::plain(sizes));
   append(benchEngine(settings, large), sizes + ", ", result);
   return result;
 }
@@ -125,7 +126,8 @@ BenchResult bench(const std::string& name, Progress& progress) {
   BenchResult result;
   result.machine.processor = processorName();
   result.machine.threads = static_cast<int>(std::thread::hardware_concurrency());
-  Progress preparing = progress.part(0.3, "Preparing the benchmarks");
+  Progress preparing =
+      progress.part(0.3, RELUCENT_MESSAGE("stage.preparing-benchmarks", "Preparing the benchmarks"));
   result.machine.copyBytesPerSecond = copyBandwidth();
   preparing.report(0.3);
 
@@ -168,12 +170,16 @@ BenchResult bench(const std::string& name, Progress& progress) {
   if (wanted.empty()) {
     std::string known;
     for (const Case& candidate : cases) known += (known.empty() ? "" : ", ") + candidate.name;
-    throw Error(ErrorKind::usage, fmt::format("there is no benchmark named \"{}\"", name),
-                "choose one of: " + known);
+    throw Error(
+        ErrorKind::usage,
+        RELUCENT_ENGLISH_MESSAGE("calibration.there-no-benchmark-named", "there is no benchmark named \"{}\"")
+            .with(name),
+        RELUCENT_ENGLISH_MESSAGE("calibration.choose-one-of", "choose one of: {}").with(known));
   }
 
   for (Case* benchmark : wanted) {
-    Progress running = progress.part(0.7 / static_cast<double>(wanted.size()), benchmark->name);
+    Progress running =
+        progress.part(0.7 / static_cast<double>(wanted.size()), Message::plain(std::string(benchmark->name)));
     if (benchmark->name == "windows/apply") {
       if (windows.bytes() == 0) prepareWindows();
       benchmark->bytes =

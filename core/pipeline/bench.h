@@ -27,7 +27,7 @@ struct BenchResult {
     std::string device;  // what the engine ran on; empty: not the engine was timed
   } machine;
   std::vector<Benchmark> benchmarks;
-  std::vector<std::string> notes{};  // what could not be timed, and why
+  std::vector<Message> notes{};  // what could not be timed, and why
 };
 
 /// Times the parts that decide how fast everything else is. `name`: only those that contain it; empty: all.

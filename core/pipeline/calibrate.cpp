@@ -22,13 +22,15 @@ class Calibrating {
   CalibrateResult run(Progress& progress) {
     MeasuredCalibration measured;
     measured.rig = settings_.rig;
-    Progress linearizing = progress.part(0.15, "Linearizing");
+    Progress linearizing = progress.part(0.15, RELUCENT_MESSAGE("stage.linearizing", "Linearizing"));
     measured.linearization = measureLinearization(folder_, devices_.rig, linearizing);
     linearizing.report(1.0);
-    Progress acquiring = progress.part(0.75, "Measuring the light transport");
+    Progress acquiring = progress.part(
+        0.75, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
     measureVenue(measured, acquiring);
     acquiring.report(1.0);
-    Progress inverting = progress.part(0.1, "Inverting the light transport");
+    Progress inverting = progress.part(
+        0.1, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
     measureInverse(folder_, measured.venue, inverting);
     progress.report(1.0);
     CalibrateResult result = summaryOf(folder_, measured);
@@ -54,10 +56,10 @@ class Calibrating {
 CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, const AlarmHandler& handler,
                           Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
-  Progress opening = progress.part(0.2, "Preparing the devices");
+  Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   OpenedRig devices = openRig(settings.rig, cache, opening);
   opening.report(1.0);
-  Progress measuring = progress.part(0.8, "Calibrating");
+  Progress measuring = progress.part(0.8, RELUCENT_MESSAGE("stage.calibrating", "Calibrating"));
   return Calibrating(folder, devices, handler).run(measuring);
 }
 

@@ -26,7 +26,7 @@ struct CalibrateResult {
   double flaggedShare = 0.0;      // share of camera pixels that verification found wrong
   double verificationError = 0.0;
   std::uint64_t peakMemoryBytes = 0;
-  std::vector<std::string> findings;  // sentences of all stages
+  std::vector<Message> findings;  // sentences of all stages
 };
 
 /// Measures a venue into a new calibration folder. A simulated venue's transport is kept in `cache`.

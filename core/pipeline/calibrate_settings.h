@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acquisition/settings.h"
+#include "base/message.h"
 #include "clustering/clustering.h"
 #include "compensation/methods.h"
 #include "inverse/windows.h"
@@ -26,6 +27,6 @@ struct CalibrateSettings {
   ContentSettings content;
 };
 /// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.
-std::vector<std::string> problems(const CalibrateSettings& settings);
+std::vector<Message> problems(const CalibrateSettings& settings);
 
 }  // namespace relucent

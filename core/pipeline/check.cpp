@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/check.h"
 
+#include "base/message.h"
 #include "devices/test_exposure.h"
 #include "pipeline/calibrate_settings.h"
 #include "pipeline/devices.h"
 
 namespace relucent {
 
-std::vector<std::string> problems(const CheckSettings& settings) {
+std::vector<Message> problems(const CheckSettings& settings) {
   CalibrateSettings calibrate;
   calibrate.rig = settings.rig;
-  std::vector<std::string> found = problems(calibrate);
-  for (std::string& problem : problems(settings.latency)) found.push_back(std::move(problem));
-  for (std::string& problem : problems(settings.proof)) found.push_back(std::move(problem));
+  std::vector<Message> found = problems(calibrate);
+  for (Message& problem : problems(settings.latency)) found.push_back(std::move(problem));
+  for (Message& problem : problems(settings.proof)) found.push_back(std::move(problem));
   return found;
 }
 
@@ -24,14 +25,15 @@ std::vector<CheckVerdict> verdictsOf(const RigCheck& check) {
 }
 
 RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress) {
-  Progress opening = progress.part(0.2, "Preparing the devices");
+  Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   OpenedRig devices = openRig(settings.rig, cache, opening);
   opening.report(1.0);
   Projector& projector = *devices.rig.projectors.front();
   Camera& camera = *devices.rig.cameras.front();
 
   RigCheck check;
-  Progress proving = progress.part(0.2, "Looking for the projector's picture");
+  Progress proving = progress.part(
+      0.2, RELUCENT_MESSAGE("stage.looking-projector-picture", "Looking for the projector's picture"));
   const ScreenExposure exposureOf = [&](Projector& screen) {
     return testExposure(screen, camera, settings.latency, sleepFor, proving);
   };
@@ -42,9 +44,10 @@ RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& ca
   requireSeen(check.proof, projector, camera);
   const double exposure = check.proof.exposure;
 
-  Progress measuring = progress.part(0.4, "Measuring the latency");
+  Progress measuring =
+      progress.part(0.4, RELUCENT_MESSAGE("stage.measuring-latency", "Measuring the latency"));
   check.latency = measureLatency(projector, camera, exposure, settings.latency, sleepFor, measuring);
-  Progress judging = progress.part(0.2, "Judging the light");
+  Progress judging = progress.part(0.2, RELUCENT_MESSAGE("stage.judging-light", "Judging the light"));
   LightCheckSettings light;
   light.frame = settings.latency.frame;
   light.settle = settings.latency.mostFrames * settings.latency.frame;

@@ -16,7 +16,7 @@ struct CheckSettings {
   LatencySettings latency;
   ScreenProofSettings proof;
 };
-std::vector<std::string> problems(const CheckSettings& settings);
+std::vector<Message> problems(const CheckSettings& settings);
 
 /// How a projector and a camera work together.
 struct RigCheck {

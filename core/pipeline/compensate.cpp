@@ -97,12 +97,15 @@ Image reasonNumbers(const std::vector<Uncorrectable>& map, Size size) {
 }  // namespace
 
 CompensateResult compensate(const fs::path& path, const CompensateSettings& settings, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   Image content = readLinearContent(settings.image);
 
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.4, "Reading the calibration");
+  Progress loading =
+      progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
   const MeasuredVenue& venue = measured.venue;
 
@@ -110,7 +113,7 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   CompensatorSettings compensatorSettings;
   compensatorSettings.optimum = defaultsOf(settings.solver);
   Compensator compensator(venue, measured.inverse, compensatorSettings);
-  Progress solving = progress.part(0.5, "Compensating");
+  Progress solving = progress.part(0.5, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   Stopwatch watch;
   Compensation compensation = compensator.solve(settings.method, target, solving);
 
@@ -120,20 +123,25 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
 
   Prediction prediction = predict(venue, target, compensation);
   if (prediction.reachable == 0.0)
-    throw Error(ErrorKind::input, "no part of the picture can be shown in this venue",
-                "make the content darker, or place it where the projector reaches", settings.image.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.no-part-picture-can-shown",
+                                         "no part of the picture can be shown in this venue"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.make-content-darker-place-projector",
+                                         "make the content darker, or place it where the projector reaches"),
+                settings.image.string());
   result.clipped = prediction.clipped;
   result.reachable = prediction.reachable;
   result.psnrPredicted = prediction.psnrReachable;
   result.deltaE = prediction.meanDeltaE;
-  Progress explaining = progress.part(0.05, "Looking for what cannot be corrected");
+  Progress explaining = progress.part(
+      0.05, RELUCENT_MESSAGE("stage.finding-uncorrectable-pixels", "Looking for what cannot be corrected"));
   std::vector<Uncorrectable> reasons = uncorrectableMap(venue, target, {}, explaining);
   auto shares = sharesOf(reasons);
   for (Uncorrectable reason : allReasons)
     if (reason != Uncorrectable::none && reason != Uncorrectable::outside)
       result.uncorrectable.emplace(reason, shares[static_cast<std::size_t>(reason)]);
 
-  Progress writing = progress.part(0.05, "Writing the results");
+  Progress writing = progress.part(0.05, RELUCENT_MESSAGE("stage.writing-results", "Writing the results"));
   const Rasters &cameras = venue.transport.cameras(), &projectors = venue.transport.projectors();
   Writer writer(settings.out);
   writer.writeDrive("pattern", encodedDrive(compensation.projector, projectors, measured.linearization));

@@ -21,7 +21,7 @@ struct CompensateSettings {
   TargetSettings target;
   std::filesystem::path out;  // folder; created; files of the same names are replaced
 };
-std::vector<std::string> problems(const CompensateSettings& settings);
+std::vector<Message> problems(const CompensateSettings& settings);
 
 struct CompensateResult {
   Method method = Method::refined;

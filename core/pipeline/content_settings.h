@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "compensation/method.h"
 #include "compensation/target.h"
 
@@ -21,7 +22,7 @@ struct ContentSettings {
 
   bool operator==(const ContentSettings&) const = default;
 };
-std::vector<std::string> problems(const ContentSettings& settings);
+std::vector<Message> problems(const ContentSettings& settings);
 /// How content is fitted that was decided on so.
 TargetSettings targetOf(const ContentSettings& settings);
 

@@ -15,8 +15,9 @@ namespace {
 CameraAddress addressFrom(const std::string& text) {
   const std::optional<CameraAddress> address = cameraRegistry().addressFrom(text);
   if (!address)
-    throw Error(ErrorKind::usage, fmt::format("'{}' is no camera", text),
-                fmt::format("write {}", cameraRegistry().addressForms()));
+    throw Error(
+        ErrorKind::usage, RELUCENT_ENGLISH_MESSAGE("calibration.no-camera", "'{}' is no camera").with(text),
+        RELUCENT_ENGLISH_MESSAGE("calibration.write", "write {}").with(cameraRegistry().addressForms()));
   return *address;
 }
 
@@ -64,10 +65,16 @@ struct Opener {
 
   OpenedRig operator()(const ScreenRigSettings& settings) const {
     if (!screens)
-      throw Error(ErrorKind::usage, "this calibration's projector is a screen of the desktop",
-                  "open it with `relucent`, which has windows", settings.display.connector);
+      throw Error(ErrorKind::usage,
+                  RELUCENT_ENGLISH_MESSAGE("calibration.calibration-projector-screen-desktop",
+                                           "this calibration's projector is a screen of the desktop"),
+                  RELUCENT_ENGLISH_MESSAGE("calibration.open-relucent-windows",
+                                           "open it with `relucent`, which has windows"),
+                  settings.display.connector);
     if (settings.cameraAddress.empty())
-      throw Error(ErrorKind::input, "no camera is chosen", "choose one at the step Camera");
+      throw Error(
+          ErrorKind::input, RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-chosen", "no camera is chosen"),
+          RELUCENT_ENGLISH_MESSAGE("calibration.choose-one-step-camera", "choose one at the step Camera"));
     OpenedRig result;
     auto camera = cameraFor(settings, addressFrom(settings.cameraAddress));
     ScreenRig screen = screenRig(screens(settings), std::move(camera),
@@ -82,8 +89,12 @@ struct Opener {
   }
 
   OpenedRig operator()(const ImportedRigSettings& settings) const {
-    throw Error(ErrorKind::input, "this calibration was imported from photographs and has no devices",
-                "import again, into a new folder: relucent-cli import", settings.photographs);
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.calibration-imported-photographs-no-devices",
+                                         "this calibration was imported from photographs and has no devices"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.import-again-into-new-folder",
+                                         "import again, into a new folder: relucent-cli import"),
+                settings.photographs);
   }
 };
 
@@ -102,8 +113,12 @@ Rig& RigSource::open(const RigSettings& settings, const TransportMatrix& transpo
                      const std::filesystem::path& calibration, Progress& progress) {
   Rig& rig = given_ != nullptr ? *given_ : opened_.emplace(openRig(settings, cache_, progress)).rig;
   if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
-    throw Error(ErrorKind::input, "the devices have other sizes than those that were calibrated",
-                "set projector and camera as they were, or calibrate anew", calibration.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.devices-other-sizes-than-calibrated",
+                                         "the devices have other sizes than those that were calibrated"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.set-projector-camera-they-calibrate",
+                                         "set projector and camera as they were, or calibrate anew"),
+                calibration.string());
   return rig;
 }
 

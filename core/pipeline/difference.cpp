@@ -41,18 +41,24 @@ Image aroundGrey(const Image& difference, double gain) {
 
 }  // namespace
 
-std::vector<std::string> problems(const DifferenceSettings& settings) {
-  std::vector<std::string> found;
-  if (settings.first.empty() || settings.second.empty()) found.emplace_back("two pictures are needed");
-  if (settings.out.empty()) found.emplace_back("no file for the result is given");
+std::vector<Message> problems(const DifferenceSettings& settings) {
+  std::vector<Message> found;
+  if (settings.first.empty() || settings.second.empty())
+    found.emplace_back(
+        RELUCENT_ENGLISH_MESSAGE("calibration.two-pictures-needed", "two pictures are needed"));
+  if (settings.out.empty())
+    found.emplace_back(
+        RELUCENT_ENGLISH_MESSAGE("calibration.no-file-result-given", "no file for the result is given"));
   if (settings.gain && !(*settings.gain > 0.0 && std::isfinite(*settings.gain)))
-    found.emplace_back("the gain must be above 0");
+    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("calibration.gain-must-above-0", "the gain must be above 0"));
   return found;
 }
 
 DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   const PictureFormat format = pictureFormatOf(settings.out);
   Image first = readLinear(settings.first);
   progress.report(0.3);
@@ -60,9 +66,11 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
   progress.report(0.6);
   if (first.size() != second.size())
     throw Error(ErrorKind::input,
-                fmt::format("pictures of {}x{} and {}x{} pixels cannot be compared", first.width(),
-                            first.height(), second.width(), second.height()),
-                "choose two pictures of one camera");
+                RELUCENT_ENGLISH_MESSAGE("calibration.pictures-pixels-cannot-compared",
+                                         "pictures of {} and {} pixels cannot be compared")
+                    .with(as::size(first.width(), first.height()), as::size(second.width(), second.height())),
+                RELUCENT_ENGLISH_MESSAGE("calibration.choose-two-pictures-one-camera",
+                                         "choose two pictures of one camera"));
 
   DifferenceResult result;
   Image difference = first;

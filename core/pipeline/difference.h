@@ -17,7 +17,7 @@ struct DifferenceSettings {
   /// None: PNG as much as shows all but the largest half percent of the differences, EXR 1.
   std::optional<double> gain;
 };
-std::vector<std::string> problems(const DifferenceSettings& settings);
+std::vector<Message> problems(const DifferenceSettings& settings);
 
 struct DifferenceResult {
   double rms = 0.0;       // of the difference of linear values

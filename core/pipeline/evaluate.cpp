@@ -57,8 +57,12 @@ TransportScore scoreOf(const TransportMatrix& transport, const SimulatedVenue& v
 
 OpenedRig openedVenue(const MeasuredCalibration& measured, const fs::path& cache, Progress& progress) {
   if (!std::holds_alternative<VenueSettings>(measured.rig))
-    throw Error(ErrorKind::input, "only a simulated venue's true light transport is known",
-                "calibrate one with --venue, or look at the prediction: relucent-cli compensate");
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.only-simulated-venue-true-light",
+                                         "only a simulated venue's true light transport is known"),
+                RELUCENT_ENGLISH_MESSAGE(
+                    "calibration.calibrate-one-venue-look-prediction",
+                    "calibrate one with --venue, or look at the prediction: relucent-cli compensate"));
   return openRig(measured.rig, cache, progress);
 }
 
@@ -142,7 +146,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
                      const fs::path& cache, Progress& progress) {
   std::vector<NamedImage> content = contentOf(settings);
   std::vector<Method> methods = methodsOf(settings);
-  Progress opening = progress.part(0.2, "Preparing the venue");
+  Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-venue", "Preparing the venue"));
   OpenedRig devices = openedVenue(measured, cache, opening);
   const SimulatedVenue& venue = devices.venue.value();
 
@@ -155,7 +159,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
 
   Judge judge(measured, venue);
   Compensator compensator(measured.venue, measured.inverse, settings.compensator);
-  Progress judging = progress.part(0.8, "Comparing the methods");
+  Progress judging = progress.part(0.8, RELUCENT_MESSAGE("stage.comparing-methods", "Comparing the methods"));
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
     Target target = fitTarget(image.linear, measured.venue, settings.target);
@@ -166,7 +170,9 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
                                target.white, target.inside,        score.reachable};
     pictures.inside.resize(pixels);
     for (Method method : methods) {
-      Progress solving = judging.part(share, fmt::format("{}: {}", image.name, nameOf(method)));
+      Progress solving = judging.part(
+          share,
+          RELUCENT_ENGLISH_MESSAGE("stage.picture-and-method", "{}: {}").with(image.name, nameOf(method)));
       Stopwatch watch;
       Compensation compensation = compensator.solve(method, target, solving);
       double seconds = watch.seconds();
@@ -191,12 +197,15 @@ TransportScore transportScore(const MeasuredCalibration& measured, const fs::pat
 
 EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,
                         Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.2, "Reading the calibration");
+  Progress loading =
+      progress.part(0.2, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
-  Progress evaluating = progress.part(0.8, "Evaluating");
+  Progress evaluating = progress.part(0.8, RELUCENT_MESSAGE("stage.evaluating", "Evaluating"));
   return evaluated(measured, settings, cache, evaluating).result;
 }
 

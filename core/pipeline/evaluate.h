@@ -18,7 +18,7 @@ struct EvaluateSettings {
   TargetSettings target;
   CompensatorSettings compensator;
 };
-std::vector<std::string> problems(const EvaluateSettings& settings);
+std::vector<Message> problems(const EvaluateSettings& settings);
 
 /// How well one method did on one image, through the venue's true transport.
 struct MethodScore {

@@ -39,14 +39,17 @@ void writeMaps(const fs::path& folder, const MeasuredCalibration& measured, Writ
 }  // namespace
 
 WrittenFiles exportCalibration(const fs::path& path, const ExportSettings& settings, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "name at least one thing to export");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.name-least-one-thing-export",
+                                         "name at least one thing to export"));
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.4, "Reading the calibration");
+  Progress loading =
+      progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
 
   WrittenFiles written;
-  Progress writing = progress.part(0.6, "Writing");
+  Progress writing = progress.part(0.6, RELUCENT_MESSAGE("stage.writing", "Writing"));
   if (!settings.transport.empty()) {
     PixelExpansion expansion = expandedToPixels(measured.venue.transport, {.bytes = settings.mostBytes});
     writing.report(0.3);

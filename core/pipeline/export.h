@@ -18,7 +18,7 @@ struct ExportSettings {
   std::filesystem::path maps;     // folder for black, flood, reachability, flags as EXR; empty: not wanted
   std::uint64_t mostBytes = std::uint64_t{2} << 30;  // of `transport`, see expandedToPixels()
 };
-std::vector<std::string> problems(const ExportSettings& settings);
+std::vector<Message> problems(const ExportSettings& settings);
 
 /// Writes the measured data for other programs.
 WrittenFiles exportCalibration(const std::filesystem::path& folder, const ExportSettings& settings,

@@ -43,12 +43,20 @@ std::vector<fs::path> picturesIn(const fs::path& folder, const char* what, bool 
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
     if (entry->is_regular_file(code) && isMeant(entry->path())) pictures.push_back(entry->path());
   if (code)
-    throw Error(ErrorKind::disk,
-                fmt::format("the folder of the {} cannot be read ({})", what, code.message()),
-                "check its name", folder.string());
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_ENGLISH_MESSAGE("calibration.folder-cannot-read", "the folder of the {} cannot be read ({})")
+            .with(what, code.message()),
+        RELUCENT_ENGLISH_MESSAGE("calibration.check-name", "check its name"), folder.string());
   if (pictures.empty())
-    throw Error(ErrorKind::input, fmt::format("the folder of the {} holds no pictures", what),
-                "name the folder with the PNG, TIFF, JPEG, EXR or raw files themselves", folder.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.folder-holds-no-pictures",
+                                 "the folder of the {} holds no pictures")
+            .with(what),
+        RELUCENT_ENGLISH_MESSAGE("calibration.name-folder-png-tiff-jpeg",
+                                 "name the folder with the PNG, TIFF, JPEG, EXR or raw files themselves"),
+        folder.string());
   std::sort(pictures.begin(), pictures.end());
   return pictures;
 }
@@ -96,11 +104,14 @@ PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive, Fin
       image = srgbDecoded(image);
     if (k == 0) sequence = PictureSequence(image.size(), static_cast<int>(paths.size()));
     if (image.size() != sequence.size())
-      throw Error(
-          ErrorKind::input,
-          fmt::format("the picture has {}x{} pixels, but {} has {}x{}", image.width(), image.height(),
-                      paths.front().filename().string(), sequence.size().width, sequence.size().height),
-          "take out pictures that do not belong there", paths[k].string());
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("calibration.picture-pixels-but",
+                                           "the picture has {} pixels, but {} has {}")
+                      .with(as::size(image.width(), image.height()), paths.front().filename().string(),
+                            as::size(sequence.size())),
+                  RELUCENT_ENGLISH_MESSAGE("calibration.take-out-pictures-not-belong",
+                                           "take out pictures that do not belong there"),
+                  paths[k].string());
     sequence.set(static_cast<int>(k), image);
     fingerprint.add(image.data());
     progress.report(static_cast<double>(k + 1) / static_cast<double>(paths.size()));
@@ -113,14 +124,18 @@ void checkFolderIsFree(const fs::path& folder) {
   std::error_code code;
   if (!fs::exists(folder, code)) return;
   if (!fs::is_directory(folder, code) || fs::directory_iterator(folder, code) != fs::directory_iterator())
-    throw Error(ErrorKind::input, "there is something of this name already",
-                "choose a new or an empty folder for the calibration", folder.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.there-something-name-already",
+                                         "there is something of this name already"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.choose-new-empty-folder-calibration",
+                                         "choose a new or an empty folder for the calibration"),
+                folder.string());
 }
 
 struct Pictures {
   PictureSequence patterns, photographs;
   bool developed = false;  // some of the photographs were not linear
-  std::string finding;     // on the order of the photographs; empty: nothing to be said
+  Message finding;         // on the order of the photographs; empty: nothing to be said
   ImportedRigSettings rig;
 };
 
@@ -136,9 +151,10 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   for (const TakenPhotograph& photograph : sequence.photographs) photographs.push_back(photograph.path);
   Fingerprint fingerprint;
   Pictures pictures;
-  Progress first = progress.part(0.4, "Reading the patterns");
+  Progress first = progress.part(0.4, RELUCENT_MESSAGE("stage.reading-patterns", "Reading the patterns"));
   pictures.patterns = readSequence(patterns, true, fingerprint, first);
-  Progress second = progress.part(0.6, "Reading the photographs");
+  Progress second =
+      progress.part(0.6, RELUCENT_MESSAGE("stage.reading-photographs", "Reading the photographs"));
   pictures.photographs = readSequence(photographs, false, fingerprint, second);
   pictures.finding = sequence.finding;
   pictures.developed = std::any_of(photographs.begin(), photographs.end(), isDeveloped);
@@ -173,16 +189,18 @@ void storeInverse(const fs::path& path, const RidgeChoice& choice, double second
 
 /// What is estimated from the pictures, which are let go of. Sets the rig that they came from.
 Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stages, Progress& progress) {
-  Progress reading = progress.part(0.1, "Reading the pictures");
+  Progress reading = progress.part(0.1, RELUCENT_MESSAGE("stage.reading-pictures", "Reading the pictures"));
   Pictures pictures = readPictures(settings, reading);
   stages.rig = pictures.rig;
-  Progress estimating = progress.part(0.7, "Estimating the light transport");
+  Progress estimating = progress.part(
+      0.7, RELUCENT_MESSAGE("stage.estimating-light-transport", "Estimating the light transport"));
   Import import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
   if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
   if (pictures.developed)
-    import.linearization.findings.emplace_back(
+    import.linearization.findings.emplace_back(RELUCENT_MESSAGE(
+        "calibration.photographs-jpeg-they-made-linear",
         "The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only "
-        "roughly; develop them linearly, as TIFF or EXR, to measure more exactly.");
+        "roughly; develop them linearly, as TIFF or EXR, to measure more exactly"));
   return import;
 }
 
@@ -206,8 +224,10 @@ ImportResult resultOf(const Import& import, const ImportedRigSettings& rig) {
 
 ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& settings,
                             Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   checkFolderIsFree(path);
   Stopwatch watch;
   ImportResult result;
@@ -221,7 +241,8 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
     venue = measuredVenueOf(import.acquisition, stages.threshold);
   }
   Stopwatch invertingWatch;
-  Progress inverting = progress.part(0.2, "Inverting the light transport");
+  Progress inverting = progress.part(
+      0.2, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
   RidgeChoice choice = invert(venue, stages, inverting);
   storeInverse(path, choice, invertingWatch.seconds());
   progress.report(1.0);

@@ -20,7 +20,7 @@ struct ImportPicturesSettings {
   std::filesystem::path photographs;
   ImportSettings import;
 };
-std::vector<std::string> problems(const ImportPicturesSettings& settings);
+std::vector<Message> problems(const ImportPicturesSettings& settings);
 
 struct ImportResult {
   int patterns = 0;
@@ -33,7 +33,7 @@ struct ImportResult {
   double flaggedShare = 0.0;
   double seconds = 0.0;
   std::uint64_t peakMemoryBytes = 0;
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
 };
 
 /// A new calibration out of patterns and photographs taken elsewhere, paired in the order of their names, or

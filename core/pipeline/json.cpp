@@ -3,8 +3,16 @@
 
 #include <map>
 
+#include "base/message.h"
+
 namespace relucent {
 namespace {
+
+Json sentencesOf(const std::vector<Message>& messages) {
+  Json list = Json::array();
+  for (const Message& message : messages) list.push_back(english(message));
+  return list;
+}
 
 Json sizeToJson(Size size) {
   return {size.width, size.height};
@@ -71,7 +79,7 @@ Json toJson(const CalibrateResult& result) {
           {"flagged_share", result.flaggedShare},
           {"verification_error", result.verificationError},
           {"peak_memory_bytes", result.peakMemoryBytes},
-          {"findings", result.findings}};
+          {"findings", sentencesOf(result.findings)}};
 }
 
 Json toJson(const VerifyResult& result) {
@@ -79,7 +87,7 @@ Json toJson(const VerifyResult& result) {
   for (int size = 0; size < verificationSizes; ++size)
     errors[std::to_string(1 << size)] = result.found.errorOf[static_cast<std::size_t>(size)];
   return {{"verdict", toString(result.judgement.verdict)},
-          {"sentence", result.judgement.sentence},
+          {"sentence", english(result.judgement.sentence)},
           {"error", result.found.error},
           {"error_then", result.errorThen},
           {"error_by_block", errors},
@@ -126,7 +134,7 @@ Json toJson(const EvaluateResult& result) {
 }
 
 Json toJson(const WrittenFiles& result) {
-  return {{"files", pathsToJson(result.files)}, {"notes", result.notes}};
+  return {{"files", pathsToJson(result.files)}, {"notes", sentencesOf(result.notes)}};
 }
 
 Json toJson(const SeparateResult& result) {
@@ -199,7 +207,7 @@ Json toJson(const BenchResult& result) {
                {"copy_bytes_per_second", result.machine.copyBytesPerSecond}};
   if (!result.machine.device.empty()) machine["device"] = result.machine.device;
   Json document{{"machine", std::move(machine)}, {"benchmarks", std::move(benchmarks)}};
-  if (!result.notes.empty()) document["notes"] = result.notes;
+  if (!result.notes.empty()) document["notes"] = sentencesOf(result.notes);
   return document;
 }
 
@@ -217,7 +225,7 @@ Json toJson(const ImportResult& result) {
           {"flagged_share", result.flaggedShare},
           {"seconds", result.seconds},
           {"peak_memory_bytes", result.peakMemoryBytes},
-          {"findings", result.findings}};
+          {"findings", sentencesOf(result.findings)}};
 }
 
 Json toJson(const std::vector<VenueDescription>& venues) {

@@ -20,9 +20,13 @@ MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& 
   auto linearization = currentResultOf(folder, Stage::linearization);
   auto acquisition = currentResultOf(folder, Stage::acquisition);
   if (!linearization || !acquisition)
-    throw Error(ErrorKind::input, "the calibration is not finished",
-                fmt::format("finish it first: relucent-cli resume {}", folder.path().string()),
-                folder.path().string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.calibration-not-finished", "the calibration is not finished"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.finish-first-relucent-cli-resume",
+                                 "finish it first: relucent-cli resume {}")
+            .with(folder.path().string()),
+        folder.path().string());
   MeasuredCalibration measured;
   measured.rig = settings.rig;
   measured.linearization = loadLinearization(*linearization);
@@ -140,9 +144,11 @@ InverseResult inverseResultOf(const RidgeChoice& choice, const StageCost& cost) 
 }
 
 MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress) {
-  Progress reading = progress.part(0.5, "Reading the calibration");
+  Progress reading =
+      progress.part(0.5, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadMeasurements(folder, reading);
-  Progress inverting = progress.part(0.5, "Inverting the light transport");
+  Progress inverting = progress.part(
+      0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
   CalibrateSettings settings = settingsOf(folder);
   // Which ridge is best has been tried already, unless an older version made the calibration.
   if (const auto stored = currentResultOf(folder, Stage::inverse)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/message.h"
 #include "calibration/calibration_folder.h"
 #include "compensation/ridge_choice.h"
 #include "compensation/target.h"
@@ -17,7 +18,7 @@ struct AcquisitionFigures {
   Stack floodVariance;
   double unresolvedEnergy = 0.0;
   double verificationError = 0.0;
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
 };
 AcquisitionFigures figuresOf(const Acquisition& acquisition);
 

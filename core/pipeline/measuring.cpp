@@ -32,8 +32,10 @@ fs::path unusedFolder(const fs::path& parent) {
 }  // namespace
 
 CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   return createCalibration(path, settings);
 }
 
@@ -90,8 +92,12 @@ void setShotsAside(const CalibrationFolder& folder, Stage stage) {
   for (const fs::path& shot : shots) {
     fs::rename(shot, aside / shot.filename(), code);
     if (code)
-      throw Error(ErrorKind::disk, fmt::format("a photograph cannot be moved ({})", code.message()),
-                  "check that the folder may be written to, then try again", shot.string());
+      throw Error(ErrorKind::disk,
+                  RELUCENT_MESSAGE("calibration.photograph-cannot-moved", "a photograph cannot be moved ({})")
+                      .with(code.message()),
+                  RELUCENT_MESSAGE("calibration.check-folder-may-written-try",
+                                   "check that the folder may be written to, then try again"),
+                  shot.string());
   }
 }
 

@@ -67,11 +67,10 @@ PhotographSequence inOrder(std::vector<TakenPhotograph> photographs) {
   if (list.empty() || !haveTimes(list) || std::is_sorted(list.begin(), list.end(), isEarlier))
     return sequence;
   std::stable_sort(list.begin(), list.end(), isEarlier);
-  sequence.finding = fmt::format(
-      "The photographs were paired with the patterns in the order in which they were taken, from {} to {}, "
-      "which is not "
-      "that of their names.",
-      nameOf(list.front()), nameOf(list.back()));
+  sequence.finding = RELUCENT_MESSAGE("import.paired-by-time",
+                                      "The photographs were paired with the patterns in the order in which "
+                                      "they were taken, from {} to {}, which is not that of their names")
+                         .with(nameOf(list.front()), nameOf(list.back()));
   return sequence;
 }
 
@@ -79,17 +78,35 @@ CountProblem countProblem(const std::vector<TakenPhotograph>& photographs, std::
   const std::size_t count = photographs.size();
   const bool isMissing = count < patterns;
   const std::size_t off = isMissing ? patterns - count : count - patterns;
-  CountProblem problem;
-  problem.what = fmt::format(
-      "there are {} patterns but {} photographs: {} {}", patterns, count, off,
-      isMissing ? (off == 1 ? "is missing" : "are missing") : (off == 1 ? "is too many" : "are too many"));
-  problem.advice = isMissing ? "photograph the patterns again, or take out those that have no photograph"
-                             : "take out the photographs that show no pattern, mostly the first or the last";
+  const Message counts =
+      RELUCENT_ENGLISH_MESSAGE("import.patterns-and-photographs", "there are {} patterns but {} photographs")
+          .with(patterns, count);
+  const Message missing =
+      RELUCENT_ENGLISH_PLURAL_MESSAGE("import.missing", "{} are missing", "{} is missing").with(off);
+  const Message tooMany =
+      RELUCENT_ENGLISH_PLURAL_MESSAGE("import.too-many", "{} are too many", "{} is too many").with(off);
   const std::vector<std::string> names = suspects(photographs, isMissing);
+  CountProblem problem;
+  problem.what =
+      RELUCENT_ENGLISH_MESSAGE("import.count-differs", "{}: {}").with(counts, isMissing ? missing : tooMany);
+  if (isMissing)
+    problem.advice =
+        RELUCENT_ENGLISH_MESSAGE("import.photograph-again",
+                                 "photograph the patterns again, or take out those that have no photograph");
+  else if (names.empty())
+    problem.advice = RELUCENT_ENGLISH_MESSAGE(
+        "import.take-out-first-or-last",
+        "take out the photographs that show no pattern, mostly the first or the last");
+  else
+    problem.advice = RELUCENT_ENGLISH_MESSAGE("import.take-out-photographs",
+                                              "take out the photographs that show no pattern");
   if (names.empty()) return problem;
-  problem.what += isMissing ? fmt::format(", by the camera's clock after {}", fmt::join(names, ", "))
-                            : fmt::format(", by the camera's clock {}", fmt::join(names, ", "));
-  if (!isMissing) problem.advice = "take out the photographs that show no pattern";
+  const std::string suspected = fmt::to_string(fmt::join(names, ", "));
+  problem.what = isMissing
+                     ? RELUCENT_ENGLISH_MESSAGE("import.missing-after", "{}, by the camera's clock after {}")
+                           .with(problem.what, suspected)
+                     : RELUCENT_ENGLISH_MESSAGE("import.too-many-are", "{}, by the camera's clock {}")
+                           .with(problem.what, suspected);
   return problem;
 }
 

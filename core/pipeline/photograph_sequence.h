@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace relucent {
 
 /// A photograph of a folder, and when its camera says that it was taken: whole seconds; none: it does not
@@ -19,7 +21,7 @@ struct TakenPhotograph {
 /// Photographs in the order in which they were taken, for pairing with patterns.
 struct PhotographSequence {
   std::vector<TakenPhotograph> photographs;
-  std::string finding{};  // a sentence if that is not the order of their names
+  Message finding{};  // a sentence if that is not the order of their names
 };
 
 /// The order of names, unless every photograph has a time and the names go back in time: cameras count from
@@ -30,7 +32,7 @@ PhotographSequence inOrder(std::vector<TakenPhotograph> photographs);
 /// that says what to do. Where times tell it, names the photograph after which one is missing (the interval
 /// there is a multiple of the usual one) or those that came too soon after the one before.
 struct CountProblem {
-  std::string what, advice;
+  Message what, advice;
 };
 CountProblem countProblem(const std::vector<TakenPhotograph>& photographs, std::size_t patterns);
 

@@ -31,8 +31,13 @@ fs::path numbered(const fs::path& path, std::size_t device) {
 PictureFormat pictureFormatOf(const fs::path& path) {
   std::string extension = path.extension().string();
   if (std::optional<PictureFormat> format = valueNamed<PictureFormat>(extension)) return *format;
-  throw Error(ErrorKind::input, fmt::format("pictures are not written as \"{}\"", extension),
-              "choose a name that ends in .exr (linear values) or .png (to look at)", path.string());
+  throw Error(
+      ErrorKind::input,
+      RELUCENT_ENGLISH_MESSAGE("calibration.pictures-not-written", "pictures are not written as \"{}\"")
+          .with(extension),
+      RELUCENT_ENGLISH_MESSAGE("calibration.choose-name-ends-exr-linear",
+                               "choose a name that ends in .exr (linear values) or .png (to look at)"),
+      path.string());
 }
 
 void writePicture(const fs::path& path, const Image& linear, const std::string& units, float white) {

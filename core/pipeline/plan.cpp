@@ -55,15 +55,21 @@ void checkHoldsNoPlan(const fs::path& out) {
   std::error_code code;
   if (fs::exists(out, code) &&
       (!fs::is_directory(out, code) || fs::directory_iterator(out, code) != fs::directory_iterator()))
-    throw Error(ErrorKind::input, "there is something of this name already",
-                "choose a new or an empty folder", out.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.there-something-name-already",
+                                 "there is something of this name already"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.choose-new-empty-folder", "choose a new or an empty folder"),
+        out.string());
 }
 
 }  // namespace
 
 WrittenFiles exportPlan(const PatternPlanSettings& settings, const fs::path& out, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   checkHoldsNoPlan(out);
   createFolder(out);
   std::vector<PlannedPattern> plan = planPatterns(settings);

@@ -68,8 +68,11 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     return record;
   } catch (const Json::exception& cause) {
     throw Error(ErrorKind::format,
-                fmt::format("the record of the verification photograph cannot be read ({})", cause.what()),
-                "take the photograph again", (folder / fileName).string());
+                RELUCENT_ENGLISH_MESSAGE("calibration.record-verification-photograph-cannot-read",
+                                         "the record of the verification photograph cannot be read ({})")
+                    .with(cause.what()),
+                RELUCENT_ENGLISH_MESSAGE("calibration.take-photograph-again", "take the photograph again"),
+                (folder / fileName).string());
   }
 }
 

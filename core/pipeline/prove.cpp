@@ -71,20 +71,25 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
   const Rasters& projectors = measured.venue.transport.projectors();
   if (pictures.size() != projectors.devices())
     throw Error(ErrorKind::input,
-                fmt::format("{} pictures of what is shown are given for {} projectors", pictures.size(),
-                            projectors.devices()),
-                "give one picture for each projector, in their order");
+                RELUCENT_ENGLISH_MESSAGE("calibration.pictures-what-shown-given-projectors",
+                                         "{} pictures of what is shown are given for {} projectors")
+                    .with(pictures.size(), projectors.devices()),
+                RELUCENT_ENGLISH_MESSAGE("calibration.give-one-picture-each-projector",
+                                         "give one picture for each projector, in their order"));
   Projection result;
   std::vector<Image> light;
   for (std::size_t projector = 0; projector < pictures.size(); ++projector) {
     Image drive = readPicture(pictures[projector]).encoded;
     Size size = projectors.size(projector);
     if (!(drive.size() == size))
-      throw Error(ErrorKind::input,
-                  fmt::format("what is shown has {}x{} pixels, the projector {}x{}", drive.width(),
-                              drive.height(), size.width, size.height),
-                  "take the picture of the projector's display alone, at its own size",
-                  pictures[projector].string());
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("calibration.what-shown-pixels-projector",
+                                   "what is shown has {} pixels, the projector {}")
+              .with(as::size(drive.width(), drive.height()), as::size(size)),
+          RELUCENT_ENGLISH_MESSAGE("calibration.take-picture-projector-display-alone",
+                                   "take the picture of the projector's display alone, at its own size"),
+          pictures[projector].string());
     light.push_back(measured.linearization.projectors[projector].decode(drive));
     result.drive.push_back(std::move(drive));
   }
@@ -155,19 +160,22 @@ std::vector<fs::path> writePictures(const fs::path& out, const Target& target, c
 
 ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSource source,
                    Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   Image content = readLinearContent(settings.image);
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.3, "Reading the calibration");
+  Progress loading =
+      progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
-  Progress opening = progress.part(0.2, "Preparing the devices");
+  Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   const TransportMatrix& transport = measured.venue.transport;
   Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, path, opening);
 
   Target target = fitTarget(content, measured.venue, settings.target);
   Compensator compensator(measured.venue, measured.inverse);
-  Progress solving = progress.part(0.2, "Compensating");
+  Progress solving = progress.part(0.2, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   Projection plain = projectionOf(compensator.solve(Method::none, target, solving), measured);
   Projection compensated = settings.shown.empty()
                                ? projectionOf(compensator.solve(settings.method, target, solving), measured)
@@ -176,10 +184,15 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   result.method = settings.method;
   result.reachable = predict(measured.venue, target, compensated.light).reachable;
   if (result.reachable == 0.0)
-    throw Error(ErrorKind::input, "no part of the picture can be shown in this venue",
-                "make the content darker, or place it where the projector reaches", settings.image.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.no-part-picture-can-shown",
+                                         "no part of the picture can be shown in this venue"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.make-content-darker-place-projector",
+                                         "make the content darker, or place it where the projector reaches"),
+                settings.image.string());
 
-  Progress photographing = progress.part(0.25, "Photographing the projections");
+  Progress photographing = progress.part(
+      0.25, RELUCENT_MESSAGE("stage.photographing-projections", "Photographing the projections"));
   Stopwatch watch;
   NoShotLog log;
   ShotTaker shots(rig, log, "prove");

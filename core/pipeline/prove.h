@@ -24,7 +24,7 @@ struct ProveSettings {
   std::filesystem::path out;       // folder; created; files of the same names are replaced
   std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
 };
-std::vector<std::string> problems(const ProveSettings& settings);
+std::vector<Message> problems(const ProveSettings& settings);
 
 /// How far a picture on the surface is from the wanted one, the first camera's pixels.
 struct PictureError {

@@ -14,7 +14,7 @@ struct RelightSettings {
   std::filesystem::path image;  // relight: linear projector pattern or sRGB file; dual: light from the camera
   std::filesystem::path out;    // EXR (linear) or PNG
 };
-std::vector<std::string> problems(const RelightSettings& settings);
+std::vector<Message> problems(const RelightSettings& settings);
 
 /// What the camera sees under a pattern, e included: T p + e. The image is scaled to the projector's size.
 WrittenFiles relight(const std::filesystem::path& folder, const RelightSettings& settings,

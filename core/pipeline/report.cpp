@@ -49,8 +49,8 @@ std::string head(const ReportData& data) {
 
 std::string findings(const ReportData& data) {
   std::string items;
-  for (const std::string& finding : data.result.findings)
-    items += fmt::format("<li class=\"note amber\">{}</li>", escaped(finding));
+  for (const Message& finding : data.result.findings)
+    items += fmt::format("<li class=\"note amber\">{}</li>", escaped(englishSentence(finding)));
   if (items.empty())
     items = "<li class=\"note good\">Nothing stands out: the measurement is as it should be.</li>";
   return section("Findings", "", "<ul class=\"notes\">" + items + "</ul>");

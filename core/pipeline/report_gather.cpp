@@ -118,7 +118,8 @@ std::optional<ReportVerification> verificationIn(const fs::path& calibration, co
 WrittenFiles report(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
                     Progress& progress) {
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.3, "Reading the calibration");
+  Progress loading =
+      progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
   const TransportMatrix& transport = measured.venue.transport;
 
@@ -146,7 +147,7 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   if (auto acquired = folder.latest(Stage::acquisition))
     data.verification = verificationIn(folder.path(), fileOf(*acquired, "transport.npz"));
 
-  Progress comparing = progress.part(0.6, "Compensating");
+  Progress comparing = progress.part(0.6, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   if (settings.evaluate && std::holds_alternative<VenueSettings>(measured.rig)) {
     EvaluateSettings evaluation;
     evaluation.images = settings.images;

@@ -14,7 +14,8 @@ std::string measuredPictures(const ReportData& data);
 /// The projectors' response curves, additivity and exposures.
 std::string responses(const ReportData& data);
 
-/// T in figures: connections, leaves by block size, damping of the inverse, and errors where the truth is known.
+/// T in figures: connections, leaves by block size, damping of the inverse, and errors where the truth is
+/// known.
 std::string transport(const ReportData& data);
 
 }  // namespace relucent

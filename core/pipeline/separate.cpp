@@ -34,26 +34,32 @@ void writePair(const fs::path& folder, std::size_t camera, const Image& direct, 
 
 }  // namespace
 
-std::vector<std::string> problems(const SeparateSettings& settings) {
-  std::vector<std::string> found = problems(settings.direct);
-  if (settings.out.empty()) found.emplace_back("no folder for the results is given");
+std::vector<Message> problems(const SeparateSettings& settings) {
+  std::vector<Message> found = problems(settings.direct);
+  if (settings.out.empty())
+    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-results-given",
+                                                "no folder for the results is given"));
   return found;
 }
 
 SeparateResult separate(const fs::path& path, const SeparateSettings& settings, Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   std::optional<Image> content;
   if (!settings.image.empty()) content = readLinearContent(settings.image);
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-  Progress loading = progress.part(0.7, "Reading the calibration");
+  Progress loading =
+      progress.part(0.7, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredVenue venue = loadMeasuredVenue(folder, loading);
 
   const Rasters &projectors = venue.transport.projectors(), &cameras = venue.transport.cameras();
   Stack pattern(3 * projectors.count(), 1.0f);
   if (content) pattern = patternFrom(*content, projectors);
   for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
-  Progress separating = progress.part(0.2, "Separating direct and indirect light");
+  Progress separating = progress.part(0.2, RELUCENT_MESSAGE("stage.separating-direct-indirect-light",
+                                                            "Separating direct and indirect light"));
   Stack direct = directPart(venue.transport, settings.direct, separating).apply(pattern);
   Stack indirect = venue.transport.apply(pattern);
   double whole = 0.0, directLight = 0.0;

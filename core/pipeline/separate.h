@@ -15,7 +15,7 @@ struct SeparateSettings {
   std::filesystem::path out;    // folder; created; files of the same names are replaced
   DirectLightSettings direct;
 };
-std::vector<std::string> problems(const SeparateSettings& settings);
+std::vector<Message> problems(const SeparateSettings& settings);
 
 struct SeparateResult {
   double directShare = 0.0;  // of all light in the picture

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/message.h"
 #include "devices/camera_registry.h"
 #include "pipeline/calibrate_settings.h"
 #include "pipeline/compensate.h"
@@ -14,59 +15,80 @@
 namespace relucent {
 namespace {
 
-using Problems = std::vector<std::string>;
+using Problems = std::vector<Message>;
 
 void append(Problems& problems, const Problems& more) {
   problems.insert(problems.end(), more.begin(), more.end());
 }
 
-void checkSize(Problems& problems, const char* device, Size size) {
+enum class DeviceKind { projector, camera };
+
+void checkSize(Problems& problems, DeviceKind device, Size size) {
   constexpr int least = 8;
   constexpr int most = 8192;
   if (size.width < least || size.height < least || size.width > most || size.height > most)
-    problems.push_back(fmt::format("a {} of {}x{} pixels is impossible: each side is {} to {}", device,
-                                   size.width, size.height, least, most));
+    problems.push_back(device == DeviceKind::projector
+                           ? RELUCENT_MESSAGE("device.impossible-projector",
+                                              "a projector of {} pixels is impossible: each side is {} to {}")
+                                 .with(as::size(size), least, most)
+                           : RELUCENT_MESSAGE("device.impossible-camera",
+                                              "a camera of {} pixels is impossible: each side is {} to {}")
+                                 .with(as::size(size), least, most));
 }
 
 Problems problemsOf(const VenueSettings& settings) {
   Problems found;
-  checkSize(found, "projector", settings.projector);
-  checkSize(found, "camera", settings.camera);
+  checkSize(found, DeviceKind::projector, settings.projector);
+  checkSize(found, DeviceKind::camera, settings.camera);
   // The venue would complain about the same sizes again in its own words.
   if (found.empty()) append(found, problems(settings));
   return found;
 }
 
-void checkCommand(Problems& problems, const char* device, const std::string& command,
+void checkCommand(Problems& problems, DeviceKind device, const std::string& command,
                   std::initializer_list<const char*> placeholders) {
-  if (command.empty()) problems.push_back(fmt::format("the {}'s command is empty", device));
+  if (command.empty())
+    problems.push_back(
+        device == DeviceKind::projector
+            ? RELUCENT_MESSAGE("device.projector-command-empty", "the projector's command is empty")
+            : RELUCENT_MESSAGE("device.camera-command-empty", "the camera's command is empty"));
   for (const char* placeholder : placeholders)
     if (!command.empty() && command.find(placeholder) == std::string::npos)
-      problems.push_back(fmt::format("the {}'s command does not say {}", device, placeholder));
+      problems.push_back(
+          device == DeviceKind::projector
+              ? RELUCENT_MESSAGE("device.projector-command-lacks", "the projector's command does not say {}")
+                    .with(placeholder)
+              : RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not say {}")
+                    .with(placeholder));
 }
 
 void checkAddress(Problems& problems, const std::string& camera) {
   if (!cameraRegistry().addressFrom(camera))
-    problems.push_back(fmt::format("'{}' is no camera: write {}", camera, cameraRegistry().addressForms()));
+    problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-write", "'{}' is no camera: write {}")
+                           .with(camera, cameraRegistry().addressForms()));
 }
 
 template <typename Settings>
 void checkTimes(Problems& problems, const Settings& settings) {
   if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
-    problems.push_back("a projector's latency is between 0 and 10 seconds");
+    problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.projector-latency-between-0-10",
+                                                "a projector's latency is between 0 and 10 seconds"));
   if (!(settings.frameRate >= 0.0 && settings.frameRate <= 1000.0))
-    problems.push_back("a projector shows up to 1000 pictures a second");
+    problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.projector-shows-up-1000-pictures",
+                                                "a projector shows up to 1000 pictures a second"));
   if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
-    problems.push_back("the shortest exposure must be above zero and no longer than the longest");
+    problems.push_back(
+        RELUCENT_MESSAGE("device.shortest-exposure-must-above-zero",
+                         "the shortest exposure must be above zero and no longer than the longest"));
 }
 
 Problems problemsOf(const CommandRigSettings& settings) {
   Problems found;
-  checkSize(found, "projector", settings.projector);
-  if (settings.camera) checkSize(found, "camera", *settings.camera);
-  checkCommand(found, "projector", settings.projectorCommand, {"{image}"});
+  checkSize(found, DeviceKind::projector, settings.projector);
+  if (settings.camera) checkSize(found, DeviceKind::camera, *settings.camera);
+  checkCommand(found, DeviceKind::projector, settings.projectorCommand, {"{image}"});
   if (settings.cameraAddress.empty())
-    checkCommand(found, "camera", settings.cameraCommand, {"{exposure}", "{output}"});
+    checkCommand(found, DeviceKind::camera, settings.cameraCommand, {"{exposure}", "{output}"});
   else
     checkAddress(found, settings.cameraAddress);
   checkTimes(found, settings);
@@ -74,25 +96,30 @@ Problems problemsOf(const CommandRigSettings& settings) {
 }
 
 Problems problemsOf(const ReplayRigSettings& settings) {
-  if (settings.folder.empty()) return {"the folder of the recording is not named"};
+  if (settings.folder.empty())
+    return {
+        RELUCENT_ENGLISH_MESSAGE("device.recording-not-named", "the folder of the recording is not named")};
   return {};  // the recording knows all else
 }
 
 Problems problemsOf(const ScreenRigSettings& settings) {
   Problems found;
-  checkSize(found, "projector", settings.projector);
-  if (settings.camera) checkSize(found, "camera", *settings.camera);
-  if (settings.display == ScreenRigSettings::Display{}) found.push_back("no screen is chosen");
+  checkSize(found, DeviceKind::projector, settings.projector);
+  if (settings.camera) checkSize(found, DeviceKind::camera, *settings.camera);
+  if (settings.display == ScreenRigSettings::Display{})
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-screen-chosen", "no screen is chosen"));
   if (!settings.cameraAddress.empty()) checkAddress(found, settings.cameraAddress);  // may be chosen later
-  if (!(settings.frameRate > 0.0)) found.push_back("a screen shows some pictures a second");
+  if (!(settings.frameRate > 0.0))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.screen-shows-some-pictures-second",
+                                             "a screen shows some pictures a second"));
   checkTimes(found, settings);
   return found;
 }
 
 Problems problemsOf(const ImportedRigSettings& settings) {
   Problems found;
-  checkSize(found, "projector", settings.projector);
-  checkSize(found, "camera", settings.camera);
+  checkSize(found, DeviceKind::projector, settings.projector);
+  checkSize(found, DeviceKind::camera, settings.camera);
   return found;
 }
 
@@ -127,31 +154,41 @@ TargetSettings targetOf(const ContentSettings& settings) {
   return target;
 }
 
-std::vector<std::string> problems(const VerifySettings& settings) {
+std::vector<Message> problems(const VerifySettings& settings) {
   if (!settings.rig) return {};
   return std::visit([](const auto& rig) { return problemsOf(rig); }, *settings.rig);
 }
 
 Problems problems(const ImportPicturesSettings& settings) {
   Problems found;
-  if (settings.patterns.empty()) found.push_back("no folder of patterns is given");
-  if (settings.photographs.empty()) found.push_back("no folder of photographs is given");
+  if (settings.patterns.empty())
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-patterns-given", "no folder of patterns is given"));
+  if (settings.photographs.empty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-photographs-given",
+                                             "no folder of photographs is given"));
   append(found, problems(settings.import));
   return found;
 }
 
 Problems problems(const CompensateSettings& settings) {
   Problems found;
-  if (settings.image.empty()) found.push_back("no image is given");
-  if (settings.out.empty()) found.push_back("no folder for the results is given");
+  if (settings.image.empty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-image-given", "no image is given"));
+  if (settings.out.empty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-results-given",
+                                             "no folder for the results is given"));
   checkTarget(found, settings.target);
   return found;
 }
 
 Problems problems(const ProveSettings& settings) {
   Problems found;
-  if (settings.image.empty()) found.push_back("no image is given");
-  if (settings.out.empty()) found.push_back("no folder for the results is given");
+  if (settings.image.empty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-image-given", "no image is given"));
+  if (settings.out.empty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-results-given",
+                                             "no folder for the results is given"));
   checkTarget(found, settings.target);
   return found;
 }
@@ -167,12 +204,12 @@ Problems problems(const ExportSettings& settings) {
   if (!settings.transport.empty() || !settings.leaves.empty() || !settings.inverse.empty() ||
       !settings.maps.empty())
     return {};
-  return {"nothing to export is named"};
+  return {RELUCENT_ENGLISH_MESSAGE("calibration.nothing-to-export", "nothing to export is named")};
 }
 
 Problems problems(const RelightSettings& settings) {
   if (!settings.out.empty()) return {};
-  return {"no file for the result is given"};
+  return {RELUCENT_ENGLISH_MESSAGE("calibration.no-file-result-given", "no file for the result is given")};
 }
 
 }  // namespace relucent

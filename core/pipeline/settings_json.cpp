@@ -40,8 +40,12 @@ constexpr EnumNames<RigKind> namesOf(RigKind) {
 using Sorted = nlohmann::json;
 
 [[noreturn]] void failForeign(const std::exception& cause) {
-  throw Error(ErrorKind::format, fmt::format("the manifest's settings cannot be read ({})", cause.what()),
-              "restore calibration.relucent from a copy, or calibrate again");
+  throw Error(ErrorKind::format,
+              RELUCENT_ENGLISH_MESSAGE("calibration.manifest-settings-cannot-read",
+                                       "the manifest's settings cannot be read ({})")
+                  .with(cause.what()),
+              RELUCENT_ENGLISH_MESSAGE("calibration.restore-calibration-relucent-copy-calibrate",
+                                       "restore calibration.relucent from a copy, or calibrate again"));
 }
 
 /// Of content whose place somebody chose: four pairs x, y.

@@ -56,12 +56,18 @@ void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings
 
 void changeRig(CalibrationFolder& folder, const RigSettings& rig) {
   if (folder.latest(Stage::linearization))
-    throw Error(ErrorKind::input, "the response of these devices has been measured already",
-                "begin a new venue for other devices", folder.path().string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.response-devices-been-measured-already",
+                                         "the response of these devices has been measured already"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.begin-new-venue-other-devices",
+                                         "begin a new venue for other devices"),
+                folder.path().string());
   CalibrateSettings settings = settingsOf(folder);
   settings.rig = rig;
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and try again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-try-again",
+                                         "change that setting and try again"));
   if (Json asked = folder.settings(); asked.contains(movedScreen)) {
     asked.erase(movedScreen);
     folder.setSettings(std::move(asked));
@@ -73,14 +79,20 @@ void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen) {
   const RigSettings measured = measuredRigOf(folder);
   const auto* before = std::get_if<ScreenRigSettings>(&measured);
   if (before == nullptr)
-    throw Error(ErrorKind::input, "the projector of this calibration is not a screen of the desktop",
-                "begin a new venue for a screen", folder.path().string());
-  if (before->projector != screen.projector)
     throw Error(
         ErrorKind::input,
-        fmt::format("this screen has {}x{} pixels and the measured projector {}x{}", screen.projector.width,
-                    screen.projector.height, before->projector.width, before->projector.height),
-        "choose a screen of the same resolution", folder.path().string());
+        RELUCENT_ENGLISH_MESSAGE("calibration.projector-calibration-not-screen-desktop",
+                                 "the projector of this calibration is not a screen of the desktop"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.begin-new-venue-screen", "begin a new venue for a screen"),
+        folder.path().string());
+  if (before->projector != screen.projector)
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.screen-pixels-measured-projector",
+                                         "this screen has {} pixels and the measured projector {}")
+                    .with(as::size(screen.projector), as::size(before->projector)),
+                RELUCENT_ENGLISH_MESSAGE("calibration.choose-screen-same-resolution",
+                                         "choose a screen of the same resolution"),
+                folder.path().string());
   Json settings = folder.settings();
   settings[movedScreen] = screenToJson(screen);
   folder.setSettings(std::move(settings));

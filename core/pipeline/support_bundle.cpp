@@ -33,8 +33,10 @@ void addFolder(Entries& entries, const fs::path& calibration, const char* name, 
 }
 
 Error cannotWrite(const fs::path& path, const std::string& reason) {
-  return {ErrorKind::disk, fmt::format("cannot write ({})", reason),
-          "check that the disk has room and that you may write there", path.string()};
+  return {ErrorKind::disk, RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(reason),
+          RELUCENT_ENGLISH_MESSAGE("transport.check-disk-room-you-may",
+                                   "check that the disk has room and that you may write there"),
+          path.string()};
 }
 
 void writeZip(const fs::path& path, const Entries& entries) {

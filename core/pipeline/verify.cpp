@@ -28,23 +28,31 @@ std::vector<fs::path> writeMaps(const fs::path& folder, const Reverification& fo
 
 VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigSource source,
                       Progress& progress) {
-  if (std::vector<std::string> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(), "change that setting and start again");
+  if (std::vector<Message> found = problems(settings); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                                         "change that setting and start again"));
   CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
   CalibrateSettings calibrated = settingsOf(folder);
   auto linearized = currentResultOf(folder, Stage::linearization);
   auto acquired = currentResultOf(folder, Stage::acquisition);
   if (!linearized || !acquired)
-    throw Error(ErrorKind::input, "the calibration is not finished",
-                fmt::format("finish it first: relucent-cli resume {}", path.string()), path.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.calibration-not-finished", "the calibration is not finished"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.finish-first-relucent-cli-resume",
+                                 "finish it first: relucent-cli resume {}")
+            .with(path.string()),
+        path.string());
   Linearization linearization = loadLinearization(*linearized);
   Acquisition acquisition = loadAcquisition(*acquired);
   progress.report(0.2);
 
-  Progress opening = progress.part(0.2, "Preparing the devices");
+  Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   Rig& rig = source.open(settings.rig.value_or(calibrated.rig), acquisition.transport, path, opening);
 
-  Progress verifying = progress.part(0.6, "Photographing test patterns");
+  Progress verifying = progress.part(
+      0.6, RELUCENT_MESSAGE("stage.photographing-test-patterns", "Photographing test patterns"));
   Stopwatch watch;
   NoShotLog log;
   ShotTaker shots(rig, log, "verify");

@@ -17,7 +17,7 @@ struct VerifySettings {
   std::filesystem::path out;       // folder for maps as EXR; created; empty: none
   std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
 };
-std::vector<std::string> problems(const VerifySettings& settings);
+std::vector<Message> problems(const VerifySettings& settings);
 
 struct VerifyResult {
   Judgement judgement;

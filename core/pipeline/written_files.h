@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace relucent {
 
 /// Files that an operation wrote.
 struct WrittenFiles {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> notes{};  // sentences that whoever reads the files should know
+  std::vector<Message> notes{};  // sentences that whoever reads the files should know
 };
 
 }  // namespace relucent

@@ -29,19 +29,31 @@ void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
   const Image& image = frame.signal;
   if (image.size() != size)
     throw Error(ErrorKind::input,
-                fmt::format("the photograph has {}x{} pixels where {}x{} were announced", image.width(),
-                            image.height(), size.width, size.height),
-                "set the camera to that size, or start again with the size that it delivers", camera);
+                RELUCENT_MESSAGE("device.photograph-pixels-announced",
+                                 "the photograph has {} pixels where {} were announced")
+                    .with(as::size(image.width(), image.height()), as::size(size)),
+                RELUCENT_ENGLISH_MESSAGE(
+                    "device.set-camera-size-start-again",
+                    "set the camera to that size, or start again with the size that it delivers"),
+                camera);
   if (image.channels() != 3)
-    throw Error(ErrorKind::input, fmt::format("the photograph has {} channels", image.channels()),
-                "set the camera to colour pictures (red, green, blue)", camera);
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("device.photograph-channels", "the photograph has {} channels")
+                    .with(image.channels()),
+                RELUCENT_ENGLISH_MESSAGE("device.set-camera-colour-pictures-red",
+                                         "set the camera to colour pictures (red, green, blue)"),
+                camera);
   auto notFinite = std::find_if(image.data().begin(), image.data().end(),
                                 [](float value) { return !std::isfinite(value); });
   if (notFinite != image.data().end()) {
     Pixel place = pixelAt(size, static_cast<std::size_t>(notFinite - image.data().begin()) / 3);
-    throw Error(ErrorKind::input,
-                fmt::format("the photograph holds {} at pixel {}, {}", *notFinite, place.x, place.y),
-                "check the program that writes it: every value must be a finite number", camera);
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("device.photograph-holds-pixel", "the photograph holds {} at pixel {}, {}")
+            .with(*notFinite, as::label(place.x), place.y),
+        RELUCENT_ENGLISH_MESSAGE("device.check-program-writes-every-value",
+                                 "check the program that writes it: every value must be a finite number"),
+        camera);
   }
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <string>
+
+#include "base/message.h"
 
 namespace relucent {
 
@@ -28,11 +29,9 @@ constexpr bool isAcceptable(AlarmKind kind) {
 /// A finding that pauses the measurement.
 struct Alarm {
   AlarmKind kind = AlarmKind::flicker;
-  std::string what;    // what happened
-  std::string safe;    // which photographs are safe
-  std::string advice;  // what to do
-
-  std::string sentence() const { return what + "; " + safe + "; " + advice; }
+  Message what;    // what happened
+  Message safe;    // which photographs are safe
+  Message advice;  // what to do
 };
 
 /// - retry: what is not safe is photographed again, from devices that have been put right;

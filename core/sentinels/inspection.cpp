@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/message.h"
 #include "base/random.h"
 #include "sentinels/movement.h"
 
@@ -37,8 +38,10 @@ Sum sumOf(const Stack& values, const Stack& variance, const References& referenc
   return sum;
 }
 
-Alarm alarm(AlarmKind kind, std::string what, std::string advice) {
-  return {kind, std::move(what), "every photograph up to the check before is safe", std::move(advice)};
+Alarm alarm(AlarmKind kind, Message what, Message advice) {
+  return {kind, std::move(what),
+          RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the check before is safe"),
+          std::move(advice)};
 }
 
 std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline, double power) {
@@ -48,11 +51,15 @@ std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline,
   Sum black = sumOf(baseline.black.radiance, baseline.black.variance, baseline.references);
   Sum all = sumOf(seen, now.light.variance, baseline.references);
   if (black.isSignificant() && all.value > 0.5 * black.value)
-    return alarm(AlarmKind::projectorAsleep,
-                 "the projector shows nothing, the room's own light is still seen",
-                 "wake the projector, switch off its and the screen's power saving, then retry");
-  return alarm(AlarmKind::coveredLens, "the camera sees nothing at all",
-               "uncover the lens, check that the projector is on, then retry");
+    return alarm(
+        AlarmKind::projectorAsleep,
+        RELUCENT_MESSAGE("alarm.projector-shows-nothing",
+                         "the projector shows nothing, the room's own light is still seen"),
+        RELUCENT_MESSAGE("alarm.wake-projector",
+                         "wake the projector, switch off its and the screen's power saving, then retry"));
+  return alarm(
+      AlarmKind::coveredLens, RELUCENT_MESSAGE("alarm.camera-sees-nothing", "the camera sees nothing at all"),
+      RELUCENT_MESSAGE("alarm.uncover-lens", "uncover the lens, check that the projector is on, then retry"));
 }
 
 /// In units of the typical flood.
@@ -74,8 +81,11 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
                  static_cast<double>(now.black.radiance.size());
   if (std::abs(change.value) < limit || !change.isSignificant()) return std::nullopt;
   return alarm(AlarmKind::ambientChanged,
-               fmt::format("the light of the room became {}", change.value > 0.0 ? "brighter" : "darker"),
-               "switch it back, keep doors and curtains closed, then retry");
+               change.value > 0.0
+                   ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
+                   : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
+               RELUCENT_MESSAGE("alarm.restore-room-light",
+                                "switch it back, keep doors and curtains closed, then retry"));
 }
 
 /// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
@@ -123,17 +133,23 @@ std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, dou
 
     Movement movement = movementBetween(views.before, views.after);
     if (movement.explains)
-      return alarm(AlarmKind::moved,
-                   fmt::format("a camera or projector has moved: the view of camera {} is shifted by "
-                               "{:.1f}, {:.1f} pixels and turned by {:.1f} degrees",
-                               camera + 1, movement.x, movement.y, movement.degrees),
-                   "put it back to within half a pixel, then retry");
+      return alarm(
+          AlarmKind::moved,
+          RELUCENT_MESSAGE("alarm.moved",
+                           "a camera or projector has moved: the view of camera {} is shifted by {}, {} "
+                           "pixels and turned by {} degrees")
+              .with(as::label(camera + 1), as::pixels(movement.x, as::decimals(1)),
+                    as::pixels(movement.y, as::decimals(1)), as::degrees(movement.degrees, as::decimals(1))),
+          RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then retry"));
     if (local)
-      return alarm(AlarmKind::localChange,
-                   fmt::format("{:.1f} % of the view of camera {} look different than before",
-                               100.0 * static_cast<double>(views.changed) / static_cast<double>(size.count()),
-                               camera + 1),
-                   "take away what is in the light or in the view, then retry");
+      return alarm(
+          AlarmKind::localChange,
+          RELUCENT_MESSAGE("alarm.view-changed", "{} % of the view of camera {} look different than before")
+              .with(as::share(static_cast<double>(views.changed) / static_cast<double>(size.count()),
+                              as::decimals(1)),
+                    as::label(camera + 1)),
+          RELUCENT_MESSAGE("alarm.clear-the-view",
+                           "take away what is in the light or in the view, then retry"));
   }
   return std::nullopt;
 }
@@ -215,10 +231,13 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
   if (auto ambient = inspectAmbient(now, baseline)) return ambient;
   if (auto view = inspectView(now, baseline, power)) return view;
   if (std::abs(power / baseline.power - 1.0) > reading_limit::lamp)
-    return alarm(AlarmKind::lampChanged,
-                 fmt::format("the projector's light changed by {:.0f} % within a few photographs",
-                             100.0 * (power / baseline.power - 1.0)),
-                 "switch off its automatic brightness and eco modes, let it warm up, then retry");
+    return alarm(
+        AlarmKind::lampChanged,
+        RELUCENT_MESSAGE("alarm.lamp-changed",
+                         "the projector's light changed by {} % within a few photographs")
+            .with(as::share((power / baseline.power - 1.0), as::decimals(0))),
+        RELUCENT_MESSAGE("alarm.switch-off-eco-modes",
+                         "switch off its automatic brightness and eco modes, let it warm up, then retry"));
   return std::nullopt;
 }
 
@@ -248,13 +267,20 @@ std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t proje
   }
   double view = static_cast<double>(cameras.count()) / 1600.0;  // (2.5 % of the camera's width and height)^2
   if (span < view)
-    return alarm(AlarmKind::wrongScreen,
-                 fmt::format("projector {} does not show the picture that it is given", projector + 1),
-                 "check that the right screen is chosen and nothing covers the picture, then retry");
+    return alarm(
+        AlarmKind::wrongScreen,
+        RELUCENT_MESSAGE("alarm.wrong-picture", "projector {} does not show the picture that it is given")
+            .with(as::label(projector + 1)),
+        RELUCENT_MESSAGE("alarm.check-screen",
+                         "check that the right screen is chosen and nothing covers the picture, then retry"));
   if (turned < -0.3 * span && !mayBeMirrored)
-    return alarm(AlarmKind::mirroredScreen,
-                 fmt::format("the picture of projector {} appears mirrored", projector + 1),
-                 "switch off the projector's rear or ceiling mode, or allow a mirrored picture, then retry");
+    return alarm(
+        AlarmKind::mirroredScreen,
+        RELUCENT_MESSAGE("alarm.picture-mirrored", "the picture of projector {} appears mirrored")
+            .with(as::label(projector + 1)),
+        RELUCENT_MESSAGE(
+            "alarm.switch-off-rear-projection",
+            "switch off the projector's rear or ceiling mode, or allow a mirrored picture, then retry"));
   return std::nullopt;
 }
 

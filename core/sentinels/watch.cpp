@@ -50,12 +50,21 @@ double deviation(const HdrFrame& a, const HdrFrame& b) {
   return sum / static_cast<double>(std::max<std::size_t>(1, a.radiance.size()));
 }
 
-Alarm flickerAlarm(double apart, const char* safe) {
+Alarm flickerAlarm(double apart, const Message& safe) {
   return {AlarmKind::flicker,
-          fmt::format("the light flickers: photographs of one pattern differ by {:.1f} %", 100.0 * apart),
-          fmt::format("{} safe", safe),
-          "switch off dimmed and fluorescent lamps and the projector's power saving, then retry"};
+          RELUCENT_MESSAGE("alarm.light-flickers",
+                           "the light flickers: photographs of one pattern differ by {} %")
+              .with(as::share(apart, as::decimals(1))),
+          safe,
+          RELUCENT_MESSAGE(
+              "alarm.switch-off-dimmed-lamps",
+              "switch off dimmed and fluorescent lamps and the projector's power saving, then retry")};
 }
+
+constexpr auto safeBeforeTransport = RELUCENT_MESSAGE("alarm.safe-before-light-transport",
+                                                      "every photograph before the light transport is safe");
+constexpr auto safeBeforeCheck =
+    RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the check before is safe");
 
 /// The mean of two estimates of the same, weighted by their variances.
 void join(HdrFrame& into, const HdrFrame& other) {
@@ -109,7 +118,7 @@ std::optional<Interruption> Watch::inspectProjectors(const Progress& progress) {
 std::optional<Interruption> Watch::begin(const Progress& progress) {
   trusted_ = 0;
   if (references_.flicker > roundsLimit) {
-    Alarm alarm = flickerAlarm(references_.flicker, "every photograph before the light transport is");
+    Alarm alarm = flickerAlarm(references_.flicker, safeBeforeTransport);
     if (auto interrupted = handle(alarm, 0)) return interrupted;
   }
   if (auto interrupted = inspectProjectors(progress)) return interrupted;
@@ -157,7 +166,7 @@ void Watch::contradicted(int shot, int patterns) {
 
 std::optional<Interruption> Watch::handle(const Alarm& alarm, int doubtful) {
   int shot = shots_.shots();
-  std::map<int, std::string>& accepted = supervision_.accepted;
+  std::map<int, Message>& accepted = supervision_.accepted;
   if (accepted.contains(shot)) return std::nullopt;
   Answer answer = supervision_.handler ? supervision_.handler(alarm) : Answer::retry;
   if (answer == Answer::skip) {
@@ -168,7 +177,9 @@ std::optional<Interruption> Watch::handle(const Alarm& alarm, int doubtful) {
   accepted.erase(accepted.upper_bound(doubtful), accepted.end());
   if (answer == Answer::keepAndStop) return Interruption::keepAndStop;
   if (!supervision_.handler)
-    throw Error(ErrorKind::device, alarm.what, alarm.advice + " by resuming the calibration; " + alarm.safe,
+    throw Error(ErrorKind::device, alarm.what,
+                RELUCENT_MESSAGE("alarm.by-resuming", "{} by resuming the calibration; {}")
+                    .with(alarm.advice, alarm.safe),
                 "light transport");
   supervision_.observer.takenAgain({doubtful, shot - doubtful, RetakeReason::alarm, alarm.kind});
   return Interruption::beginAgain;
@@ -178,7 +189,7 @@ std::optional<Interruption> Watch::inspectBracket() {
   double apart = photographer_.contradiction();
   flicker_ = std::max(flicker_, apart);
   if (apart < reading_limit::flicker) return std::nullopt;
-  return handle(flickerAlarm(apart, "every photograph up to the check before is"), trusted_);
+  return handle(flickerAlarm(apart, safeBeforeCheck), trusted_);
 }
 
 double Watch::power() const {

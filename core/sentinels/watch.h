@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "photography/photographer.h"
 #include "sentinels/inspection.h"
 #include "sentinels/interruption.h"
@@ -18,7 +19,7 @@ namespace relucent {
 struct Supervision {
   AlarmHandler handler;
   AcquisitionObserver& observer;
-  std::map<int, std::string> accepted{};  // what accepted alarms said, by the shot that they came before
+  std::map<int, Message> accepted{};  // what accepted alarms said, by the shot that they came before
 };
 
 struct WatchSettings {

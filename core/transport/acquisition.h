@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
@@ -23,7 +24,7 @@ struct Acquisition {
   double verificationError = 0.0;  // relative error of held-out patterns over all pixels
   int patterns = 0;
   int exposures = 0;
-  std::vector<std::string> findings;  // sentences
+  std::vector<Message> findings;  // sentences
 };
 
 }  // namespace relucent

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
@@ -117,15 +118,17 @@ void PixelExpansion::row(std::size_t row, std::vector<Entry>& entries) const {
   entries.resize(left);
 }
 
-std::string PixelExpansion::summary() const {
+Message PixelExpansion::summary() const {
   double gigabytes = static_cast<double>(blocks() * bytesPerBlock) / static_cast<double>(1 << 30);
   if (sampledShare_ == 0.0)
-    return fmt::format("Every leaf is written in full, {} connections of single pixels, {:.2f} GiB", blocks(),
-                       gigabytes);
-  return fmt::format(
-      "Blocks of more than {0}x{0} pixels are carried by {0}x{0} sample pixels each, which hold {1:.1f} % "
-      "of the light; {2} connections, {3:.2f} GiB",
-      side_, 100.0 * sampledShare_, blocks(), gigabytes);
+    return RELUCENT_ENGLISH_MESSAGE("transport.expanded-in-full",
+                                    "Every leaf is written in full, {} connections of single pixels, {} GiB")
+        .with(blocks(), as::number(gigabytes, as::decimals(2)));
+  return RELUCENT_ENGLISH_MESSAGE("transport.expanded-by-samples",
+                                  "Blocks of more than {} pixels are carried by {} sample pixels each, which "
+                                  "hold {} % of the light; {} connections, {} GiB")
+      .with(as::size(side_, side_), as::size(side_, side_), as::share(sampledShare_, as::decimals(1)),
+            blocks(), as::number(gigabytes, as::decimals(2)));
 }
 
 PixelExpansion expandedToPixels(const TransportMatrix& transport, const ExpansionLimits& limits) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "transport/transport_matrix.h"
 
 namespace relucent {
@@ -37,7 +38,7 @@ class PixelExpansion {
   /// Of all light, how much is carried by samples.
   double sampledShare() const { return sampledShare_; }
   /// What was done, as a sentence for the user.
-  std::string summary() const;
+  Message summary() const;
 
   /// A row's entries, columns ascending.
   void row(std::size_t row, std::vector<Entry>& entries) const;

@@ -65,10 +65,12 @@ Rasters readSizes(const NpzReader& reader, const std::string& name) {
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
     constexpr std::int64_t largest = 1 << 16;
     if (values[i] < 1 || values[i + 1] < 1 || values[i] > largest || values[i + 1] > largest)
-      reader.fail("names a device of an impossible size");
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.names-device-impossible-size",
+                                           "names a device of an impossible size"));
     sizes.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1])});
   }
-  if (sizes.empty() || values.size() % 2 != 0) reader.fail("names no devices");
+  if (sizes.empty() || values.size() % 2 != 0)
+    reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.names-no-devices", "names no devices"));
   return Rasters(std::move(sizes));
 }
 
@@ -103,7 +105,9 @@ class TransportFile {
   }
 
   static BlockSparse read(const NpzReader& reader) {
-    if (reader.text("format") != "bsr") reader.fail("holds a matrix in another form than BSR");
+    if (reader.text("format") != "bsr")
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.holds-matrix-another-form-than",
+                                           "holds a matrix in another form than BSR"));
     BlockSparse blocks;
     readShape(reader, blocks);
     readIndices(reader, blocks);
@@ -118,10 +122,12 @@ class TransportFile {
     constexpr std::int64_t largest = 3 * static_cast<std::int64_t>(std::numeric_limits<std::uint32_t>::max());
     if (shape.size() != 2 || shape[0] < 0 || shape[1] < 0 || shape[0] > largest || shape[1] > largest ||
         shape[0] % 3 != 0 || shape[1] % 3 != 0)
-      reader.fail("has a shape that is not of 3x3 blocks");
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shape-not-3x3-blocks",
+                                           "has a shape that is not of 3x3 blocks"));
     blocks.columns_ = static_cast<std::size_t>(shape[1] / 3);
     if (reader.header("indptr").count() != static_cast<std::uint64_t>(shape[0] / 3) + 1)
-      reader.fail("has another number of rows in 'indptr' than in 'shape'");
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.another-number-rows-indptr-than",
+                                           "has another number of rows in 'indptr' than in 'shape'"));
   }
 
   static void readIndices(const NpzReader& reader, BlockSparse& blocks) {
@@ -129,12 +135,16 @@ class TransportFile {
     std::vector<std::int64_t> start = reader.integers("indptr");
     bool ordered = start.front() == 0 && start.back() == static_cast<std::int64_t>(count) &&
                    std::is_sorted(start.begin(), start.end());
-    if (!ordered) reader.fail("has rows in 'indptr' that do not fit its entries");
+    if (!ordered)
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.rows-indptr-not-fit-entries",
+                                           "has rows in 'indptr' that do not fit its entries"));
     blocks.rowStart_.assign(start.begin(), start.end());
 
     NpyHeader header = reader.header("indices");
     bool wide = header.type == "<i8";
-    if (!wide && header.type != "<i4") reader.fail("has indices that are no integers");
+    if (!wide && header.type != "<i4")
+      reader.fail(
+          RELUCENT_ENGLISH_MESSAGE("transport.indices-no-integers", "has indices that are no integers"));
     RowCursor cursor;
     reader.read("indices", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
       if (begin == 0) blocks.column_.reserve(count);
@@ -145,11 +155,13 @@ class TransportFile {
         if (!wide) std::memcpy(&narrow, in + 4 * i, 4);
         if (!wide) column = narrow;
         if (column < 0 || column >= static_cast<std::int64_t>(blocks.columns_))
-          reader.fail("has an index outside its shape");
+          reader.fail(
+              RELUCENT_ENGLISH_MESSAGE("transport.index-outside-shape", "has an index outside its shape"));
         std::size_t row = cursor.rowOf(begin + i, [&](std::size_t r) { return blocks.rowStart_[r]; });
         if (begin + i > blocks.rowStart_[row] && column <= static_cast<std::int64_t>(blocks.column_.back()))
-          reader.fail(
-              "has indices that do not ascend (sum_duplicates() and sort_indices() in SciPy mend that)");
+          reader.fail(RELUCENT_ENGLISH_MESSAGE(
+              "transport.indices-not-ascend-sum-duplicates",
+              "has indices that do not ascend (sum_duplicates() and sort_indices() in SciPy mend that)"));
         blocks.column_.push_back(static_cast<std::uint32_t>(column));
       }
     });
@@ -159,9 +171,12 @@ class TransportFile {
     if (reader.has("scale")) {
       blocks.scale_ = reader.floats("scale");
       if (blocks.scale_.size() != blocks.rows())
-        reader.fail("has another number of rows in 'scale' than in 'shape'");
+        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.another-number-rows-cale-than",
+                                             "has another number of rows in 'scale' than in 'shape'"));
       for (float scale : blocks.scale_)
-        if (!(scale >= 0.0f) || !std::isfinite(scale)) reader.fail("has a scale that is no finite number");
+        if (!(scale >= 0.0f) || !std::isfinite(scale))
+          reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.scale-no-finite-number",
+                                               "has a scale that is no finite number"));
       return;
     }
     blocks.scale_.assign(blocks.rows(), 0.0f);
@@ -183,7 +198,8 @@ class TransportFile {
         largest = std::max(largest, std::abs(steps[k]));
       }
       if (!(largest < largestCode + 0.5f))
-        reader.fail("has values in 'data' that do not fit their row's scale");
+        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-data-not-fit-their",
+                                             "has values in 'data' that do not fit their row's scale"));
       // To the nearest, in a form that compilers have instructions for.
       for (std::size_t k = 0; k < steps.size(); ++k)
         blocks.code_[entry][k] =
@@ -199,9 +215,11 @@ class TransportFile {
                         const Take& take) {
     NpyHeader header = reader.header("data");
     if (header.type != "<f4" && header.type != "<f8")
-      reader.fail("has values that are no floating point numbers");
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-no-floating-point-numbers",
+                                           "has values that are no floating point numbers"));
     if (header.shape != std::vector<std::uint64_t>{blocks.blocks(), 3, 3})
-      reader.fail("has another number of 3x3 blocks in 'data' than in 'indices'");
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.another-number-3x3-blocks-data",
+                                           "has another number of 3x3 blocks in 'data' than in 'indices'"));
     bool wide = header.type == "<f8";
     reader.read("data", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
       std::uint64_t firstBlock = begin / 9;
@@ -228,7 +246,9 @@ class TransportFile {
     }
     float nothing = 0.0f;
     for (float value : values) nothing += 0.0f * value;  // NaN where one is not finite
-    if (nothing != 0.0f) reader.fail("has a value in 'data' that is no finite number");
+    if (nothing != 0.0f)
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.value-data-no-finite-number",
+                                           "has a value in 'data' that is no finite number"));
     return values;
   }
 };
@@ -243,8 +263,11 @@ auto withinMemory(const std::filesystem::path& path, const Load& load) {
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw Error(ErrorKind::memory, "the file needs more memory than there is",
-              "close other programs and try again", path.string());
+  throw Error(ErrorKind::memory,
+              RELUCENT_ENGLISH_MESSAGE("transport.file-needs-more-memory-than",
+                                       "the file needs more memory than there is"),
+              RELUCENT_MESSAGE("device.close-other-programs-try-again", "close other programs and try again"),
+              path.string());
 }
 
 }  // namespace
@@ -273,7 +296,8 @@ TransportMatrix loadTransport(const std::filesystem::path& path) {
     Rasters cameras = readSizes(reader, "cameras"), projectors = readSizes(reader, "projectors");
     BlockSparse leaves = TransportFile::read(reader);
     if (leaves.rows() != cameras.count() || leaves.columns() != NodeLayout(projectors).count())
-      reader.fail("has a shape that does not fit its cameras and projectors");
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shape-not-fit-cameras-projectors",
+                                           "has a shape that does not fit its cameras and projectors"));
     return TransportMatrix(std::move(cameras), std::move(projectors), std::move(leaves));
   });
 }

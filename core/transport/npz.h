@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "transport/npy.h"
 
 namespace relucent {
@@ -64,7 +65,7 @@ class NpzReader {
   std::string text(const std::string& name) const;
 
   /// Throws: Error{format} that names the file.
-  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const Message& what) const;
 
  private:
   struct Archive;

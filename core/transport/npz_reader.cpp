@@ -55,16 +55,22 @@ NpzReader::NpzReader(const std::filesystem::path& path) : path_(path), archive_(
   archive_->zip = zip_open(path.c_str(), ZIP_RDONLY, &code);
   if (archive_->zip != nullptr) return;
   if (code == ZIP_ER_NOENT || code == ZIP_ER_OPEN || code == ZIP_ER_READ)
-    throw Error(ErrorKind::disk, "cannot read the file", "check the path and the disk", path.string());
-  fail("is not a NumPy archive, or only a part of one");
+    throw Error(ErrorKind::disk,
+                RELUCENT_ENGLISH_MESSAGE("transport.cannot-read-file", "cannot read the file"),
+                RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk"), path.string());
+  fail(RELUCENT_ENGLISH_MESSAGE("transport.not-numpy-archive-only-part",
+                                "is not a NumPy archive, or only a part of one"));
 }
 
 NpzReader::~NpzReader() {
   if (archive_ != nullptr && archive_->zip != nullptr) zip_discard(archive_->zip);
 }
 
-void NpzReader::fail(const std::string& what) const {
-  throw Error(ErrorKind::format, "the file " + what, "save it again or take another copy", path_.string());
+void NpzReader::fail(const Message& what) const {
+  throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("transport.wrong-file", "the file {}").with(what),
+              RELUCENT_ENGLISH_MESSAGE("transport.save-again-take-another-copy",
+                                       "save it again or take another copy"),
+              path_.string());
 }
 
 bool NpzReader::has(const std::string& name) const {
@@ -74,9 +80,14 @@ bool NpzReader::has(const std::string& name) const {
 NpyHeader NpzReader::headerOf(Member& member, const std::string& name) const {
   auto dictionary =
       readNpyDictionary([&](char* out, std::uint64_t bytes) { return member.read(out, bytes); });
-  if (!dictionary) fail(fmt::format("has an array '{}' that cannot be read", name));
+  if (!dictionary)
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-cannot-read", "has an array '{}' that cannot be read")
+             .with(name));
   auto header = parseNpyDictionary(*dictionary);
-  if (!header) fail(fmt::format("has an array '{}' of a kind that is not expected", name));
+  if (!header)
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-kind-not-expected",
+                                  "has an array '{}' of a kind that is not expected")
+             .with(name));
   return *header;
 }
 
@@ -84,7 +95,7 @@ void NpzReader::read(const std::string& name, const Take& take) const {
   zip_stat_t stat;
   zip_stat_init(&stat);
   if (zip_stat(archive_->zip, (name + ".npy").c_str(), 0, &stat) != 0)
-    fail(fmt::format("has no array '{}'", name));
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.no-array", "has no array '{}'").with(name));
   Member member(archive_->zip, stat.index);
   NpyHeader parsed = headerOf(member, name);
   std::uint64_t itemBytes = parsed.itemBytes();
@@ -93,7 +104,8 @@ void NpzReader::read(const std::string& name, const Take& take) const {
   bool empty = std::find(parsed.shape.begin(), parsed.shape.end(), 0u) != parsed.shape.end();
   for (std::uint64_t length : parsed.shape) {
     if (empty) break;
-    if (length > room) fail(fmt::format("ends within the array '{}'", name));
+    if (length > room)
+      fail(RELUCENT_ENGLISH_MESSAGE("transport.ends-within-array", "ends within the array '{}'").with(name));
     room /= length;
   }
   std::uint64_t count = parsed.count(), most = std::max<std::uint64_t>(1, readBytes / itemBytes);
@@ -103,7 +115,7 @@ void NpzReader::read(const std::string& name, const Take& take) const {
   std::vector<char> piece(std::min(count, most) * itemBytes), next(count > most ? piece.size() : 0);
   auto readAt = [&](std::uint64_t begin, std::vector<char>& into) {
     if (!member.read(into.data(), std::min(most, count - begin) * itemBytes))
-      fail(fmt::format("is damaged in the array '{}'", name));
+      fail(RELUCENT_ENGLISH_MESSAGE("transport.damaged-array", "is damaged in the array '{}'").with(name));
   };
   if (count > 0) readAt(0, piece);
   for (std::uint64_t begin = 0; begin < count; begin += most) {
@@ -116,12 +128,13 @@ void NpzReader::read(const std::string& name, const Take& take) const {
     });
     std::swap(piece, next);
   }
-  if (!member.isAtEnd()) fail(fmt::format("is damaged in the array '{}'", name));
+  if (!member.isAtEnd())
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.damaged-array", "is damaged in the array '{}'").with(name));
 }
 
 NpyHeader NpzReader::header(const std::string& name) const {
   zip_int64_t index = zip_name_locate(archive_->zip, (name + ".npy").c_str(), 0);
-  if (index < 0) fail(fmt::format("has no array '{}'", name));
+  if (index < 0) fail(RELUCENT_ENGLISH_MESSAGE("transport.no-array", "has no array '{}'").with(name));
   Member member(archive_->zip, static_cast<zip_uint64_t>(index));
   return headerOf(member, name);
 }
@@ -130,7 +143,9 @@ std::vector<std::int64_t> NpzReader::integers(const std::string& name) const {
   NpyHeader kind = header(name);
   bool wide = kind.type == "<i8";
   if (!wide && kind.type != "<i4")
-    fail(fmt::format("has an array '{}' of type {} instead of integers", name, kind.type));
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-type-instead-integers",
+                                  "has an array '{}' of type {} instead of integers")
+             .with(name, kind.type));
   std::vector<std::int64_t> values;
   read(name, [&](std::uint64_t begin, std::uint64_t count, const char* items) {
     if (begin == 0) values.reserve(kind.count());
@@ -147,7 +162,10 @@ std::vector<std::int64_t> NpzReader::integers(const std::string& name) const {
 
 std::vector<float> NpzReader::floats(const std::string& name) const {
   NpyHeader kind = header(name);
-  if (kind.type != "<f4") fail(fmt::format("has an array '{}' of type {} instead of <f4", name, kind.type));
+  if (kind.type != "<f4")
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-type-instead-f4",
+                                  "has an array '{}' of type {} instead of <f4")
+             .with(name, kind.type));
   std::vector<float> values;
   read(name, [&](std::uint64_t begin, std::uint64_t count, const char* items) {
     values.resize(begin + count);
@@ -159,7 +177,7 @@ std::vector<float> NpzReader::floats(const std::string& name) const {
 std::string NpzReader::text(const std::string& name) const {
   NpyHeader kind = header(name);
   if (!kind.type.starts_with("|S") || kind.count() != 1)
-    fail(fmt::format("has an array '{}' that is no text", name));
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-no-text", "has an array '{}' that is no text").with(name));
   std::string text;
   read(name, [&](std::uint64_t, std::uint64_t, const char* items) { text.assign(items, kind.itemBytes()); });
   return text;

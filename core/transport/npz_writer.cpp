@@ -124,8 +124,10 @@ void NpzWriter::addText(const std::string& name, const std::string& ascii) {
 void NpzWriter::save(const std::filesystem::path& path) {
   writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
     auto failed = [&](const char* reason) {
-      return Error(ErrorKind::disk, fmt::format("cannot write ({})", reason),
-                   "check that the disk has room and that you may write there", path.string());
+      return Error(ErrorKind::disk, RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(reason),
+                   RELUCENT_ENGLISH_MESSAGE("transport.check-disk-room-you-may",
+                                            "check that the disk has room and that you may write there"),
+                   path.string());
     };
     // Read by libzip while it closes the archive.
     std::vector<std::unique_ptr<NpyStream>> streams;

@@ -56,18 +56,25 @@ float limitOfEnergy(const TransportMatrix& transport, const NodeTable& nodes, do
 
 void requireValid(const ThresholdSettings& settings) {
   if (auto found = problems(settings); !found.empty())
-    throw Error(ErrorKind::usage, found.front(), "choose another threshold", "threshold");
+    throw Error(ErrorKind::usage, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("transport.choose-another-threshold", "choose another threshold"),
+                "threshold");
 }
 
 }  // namespace
 
-std::vector<std::string> problems(const ThresholdSettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.absolute >= 0.0f)) found.push_back("the threshold must not be negative");
+std::vector<Message> problems(const ThresholdSettings& settings) {
+  std::vector<Message> found;
+  if (!(settings.absolute >= 0.0f))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.threshold-must-not-negative",
+                                             "the threshold must not be negative"));
   if (!(settings.shareOfRowMax >= 0.0f && settings.shareOfRowMax <= 1.0f))
-    found.push_back("the share of a row's strongest connection must lie between 0 and 1");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("transport.share-row-strongest-connection-must",
+                                 "the share of a row's strongest connection must lie between 0 and 1"));
   if (!(settings.energyKept >= 0.0 && settings.energyKept <= 1.0))
-    found.push_back("the share of the energy to keep must lie between 0 and 1");
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.share-energy-keep-must-lie",
+                                             "the share of the energy to keep must lie between 0 and 1"));
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "base/raster.h"
 #include "transport/block_sparse.h"
 #include "transport/node_layout.h"
@@ -55,7 +56,7 @@ struct ThresholdSettings {
   float shareOfRowMax = 0.0f;  // of the row's strongest single connection
   double energyKept = 1.0;     // of the light in all leaves: the strongest that hold at least this much stay
 };
-std::vector<std::string> problems(const ThresholdSettings& settings);
+std::vector<Message> problems(const ThresholdSettings& settings);
 
 /// Per row the least strength that stays. The row's strongest leaf always does: a camera pixel never leaves
 /// the matrix. Source: Wetzstein & Bimber 2007, section 3.

@@ -22,16 +22,19 @@ constexpr double brightSignalPerSecond = 60.0;
 /// To be raised when anything changes what is traced: scenes, materials, tracer.
 constexpr int traceVersion = 1;
 
-void checkSize(const char* device, Size size, std::vector<std::string>& found) {
+void checkSize(const char* device, Size size, std::vector<Message>& found) {
   auto impossible = [](int side) { return side < smallestSide || side > largestSide; };
   if (impossible(size.width) || impossible(size.height))
-    found.push_back(fmt::format("a simulated {} of {}x{} pixels is not possible: each side must be {} to {}",
-                                device, size.width, size.height, smallestSide, largestSide));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("venue.simulated-pixels-not-possible-each",
+                                 "a simulated {} of {} pixels is not possible: each side must be {} to {}")
+            .with(device, as::size(size), smallestSide, largestSide));
 }
 
-void checkRange(const char* name, double value, double low, double high, std::vector<std::string>& found) {
+void checkRange(const char* name, double value, double low, double high, std::vector<Message>& found) {
   if (!(value >= low && value <= high))
-    found.push_back(fmt::format("{} is {}, not between {} and {}", name, value, low, high));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.not-between", "{} is {}, not between {} and {}")
+                        .with(name, value, low, high));
 }
 
 std::string traceFingerprint(const VenueSettings& settings) {
@@ -60,7 +63,8 @@ TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene
   }
   TracerSettings tracer;
   tracer.pathsPerPixel = settings.pathsPerPixel;
-  Progress part = progress.part(1.0, "tracing the simulated venue");
+  Progress part =
+      progress.part(1.0, RELUCENT_MESSAGE("stage.tracing-simulated-venue", "tracing the simulated venue"));
   TracedTransport traced = traceTransport(scene, tracer, brightSignalPerSecond, part);
   if (!cache.empty()) writeTracedTransport(file, fingerprint, traced);
   return traced;
@@ -68,9 +72,12 @@ TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene
 
 std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const std::filesystem::path& cache,
                                           Progress& progress) {
-  std::vector<std::string> found = problems(settings);
+  std::vector<Message> found = problems(settings);
   if (!found.empty())
-    throw Error(ErrorKind::input, found.front(), "change the setting, then try again", "simulated venue");
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("venue.change-setting-try-again", "change the setting, then try again"),
+        "simulated venue");
   Scene scene = buildScene(settings);
   std::vector<Size> sizes(scene.projectors.size(), settings.projector);
   NodeLayout layout{Rasters(sizes)};
@@ -80,13 +87,15 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
 
 }  // namespace
 
-std::vector<std::string> problems(const VenueSettings& settings) {
-  std::vector<std::string> found;
+std::vector<Message> problems(const VenueSettings& settings) {
+  std::vector<Message> found;
   auto named = [&](const VenueDescription& venue) { return venue.name == settings.name; };
   if (std::none_of(venues().begin(), venues().end(), named)) {
     std::string names;
     for (const VenueDescription& venue : venues()) names += (names.empty() ? "" : ", ") + venue.name;
-    found.push_back(fmt::format("there is no simulated venue \"{}\"; there are {}", settings.name, names));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.there-no-simulated-venue-there",
+                                             "there is no simulated venue \"{}\"; there are {}")
+                        .with(settings.name, names));
   }
   checkSize("projector", settings.projector, found);
   checkSize("camera", settings.camera, found);

@@ -47,7 +47,7 @@ struct VenueSettings {
   int pathsPerPixel = 256;  // of the light tracer
   DeviceModelSettings devices{};
 };
-std::vector<std::string> problems(const VenueSettings& settings);
+std::vector<Message> problems(const VenueSettings& settings);
 
 class VenueLight;
 

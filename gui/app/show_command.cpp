@@ -11,9 +11,9 @@
 
 #include "app/language.h"
 #include "app/show_arguments.h"
-#include "desktop/termination.h"
 #include "base/error.h"
 #include "calibration/calibration_folder.h"
+#include "desktop/termination.h"
 #include "output/engine_renderer.h"
 #include "output/show.h"
 
@@ -48,7 +48,8 @@ int run(const PlayShow& play) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
         settings.calibration, settings.canvas, settings.adaptiveRange, quiet,
-        [warn](const std::string& sentence) { warn(QString::fromStdString(sentence)); }, settings.backend);
+        [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
+        settings.backend);
   });
   Termination termination;
   QObject::connect(&termination, &Termination::requested, &show, [&show] {

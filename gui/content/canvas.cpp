@@ -99,16 +99,22 @@ void readLine(const QImage& picture, int y, std::vector<float>& line) {
 QImage readContent(const QString& file) {
   if (isForCore(file)) return linearFrom(readLinearContent(file.toStdString()));
   if (QFile probe(file); !probe.open(QIODevice::ReadOnly))
-    throw Error(ErrorKind::disk, fmt::format("cannot read ({})", probe.errorString().toStdString()),
-                "check the path and the disk", file.toStdString());
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("disk.cannot-read", "cannot read ({})").with(probe.errorString().toStdString()),
+        RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk"), file.toStdString());
   QImageReader reader(file);
   reader.setAutoTransform(true);
   reader.setDecideFormatFromContent(true);
   QImage image = reader.read();
   if (image.isNull())
-    throw Error(ErrorKind::format,
-                fmt::format("not a picture that can be read ({})", reader.errorString().toStdString()),
-                "choose a PNG, JPEG, TIFF or EXR picture", file.toStdString());
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("content.not-picture-can-read", "not a picture that can be read ({})")
+            .with(reader.errorString().toStdString()),
+        RELUCENT_ENGLISH_MESSAGE("content.choose-png-jpeg-tiff-exr",
+                                 "choose a PNG, JPEG, TIFF or EXR picture"),
+        file.toStdString());
   return encodedFrom(image);
 }
 

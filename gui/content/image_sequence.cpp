@@ -17,14 +17,20 @@ constexpr qsizetype picturesAhead = 8;
 
 double checkedRate(double rate) {
   if (rate > 0.0 && rate <= 240.0) return rate;
-  throw Error(ErrorKind::input, fmt::format("{} pictures a second cannot be played", rate),
-              "choose a rate above 0 and at most 240");
+  throw Error(
+      ErrorKind::input,
+      RELUCENT_ENGLISH_MESSAGE("content.pictures-second-cannot-played",
+                               "{} pictures a second cannot be played")
+          .with(rate),
+      RELUCENT_ENGLISH_MESSAGE("content.choose-rate-above-0-most", "choose a rate above 0 and at most 240"));
 }
 
 const QStringList& checkedFiles(const QStringList& files) {
   if (!files.isEmpty()) return files;
-  throw Error(ErrorKind::input, "the sequence has no pictures",
-              "choose a folder with PNG, JPEG, TIFF or EXR files");
+  throw Error(ErrorKind::input,
+              RELUCENT_ENGLISH_MESSAGE("content.sequence-no-pictures", "the sequence has no pictures"),
+              RELUCENT_ENGLISH_MESSAGE("content.choose-folder-png-jpeg-tiff",
+                                       "choose a folder with PNG, JPEG, TIFF or EXR files"));
 }
 
 }  // namespace
@@ -58,8 +64,11 @@ QStringList picturesIn(const QString& folder) {
   QStringList names = directory.entryList(
       {"*.png", "*.jpg", "*.jpeg", "*.tif", "*.tiff", "*.exr", "*.bmp", "*.webp"}, QDir::Files);
   if (names.isEmpty())
-    throw Error(ErrorKind::input, "no pictures in this folder",
-                "choose a folder with PNG, JPEG, TIFF or EXR files", folder.toStdString());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("content.no-pictures-folder", "no pictures in this folder"),
+                RELUCENT_ENGLISH_MESSAGE("content.choose-folder-png-jpeg-tiff",
+                                         "choose a folder with PNG, JPEG, TIFF or EXR files"),
+                folder.toStdString());
   QCollator byNumber(QLocale(QLocale::English));
   byNumber.setNumericMode(true);
   std::sort(names.begin(), names.end(), byNumber);

@@ -67,8 +67,11 @@ LiveCamera::LiveCamera(const QString& which, const Canvas& canvas) : canvas_(can
   if (!session_->frames.waitForFirst(patience)) {
     QString reason = session_->frames.failure();
     throw Error(ErrorKind::device,
-                reason.isEmpty() ? "the capture device gives no picture" : reason.toStdString(),
-                "plug it in, close other programs that use it, and try again");
+                reason.isEmpty() ? RELUCENT_MESSAGE("content.capture-device-gives-no-picture",
+                                                    "the capture device gives no picture")
+                                 : Message::plain(reason.toStdString()),
+                RELUCENT_MESSAGE("content.plug-close-other-programs-use",
+                                 "plug it in, close other programs that use it, and try again"));
   }
   LiveCamera::at({});
 }

@@ -16,8 +16,11 @@ class LiveScreen::Grabber {
  public:
   Grabber(What what, QString which) : which_(std::move(which)) {
     if (!desktop_.isConnected())
-      throw Error(ErrorKind::device, "the live picture of a screen needs an X server, and none answers",
-                  "log in to a desktop on X (\"Xorg\" at the log-in), or play files");
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("content.live-picture-screen-needs-x",
+                                   "the live picture of a screen needs an X server, and none answers"),
+                  RELUCENT_MESSAGE("content.log-desktop-x-xorg-log",
+                                   "log in to a desktop on X (\"Xorg\" at the log-in), or play files"));
     what == What::screen ? findScreen() : findWindow();
   }
 
@@ -30,8 +33,11 @@ class LiveScreen::Grabber {
       if (screen.name == which_) return;
       if (!screen.place.isEmpty()) names.append(screen.name);
     }
-    throw Error(ErrorKind::input, fmt::format("there is no screen '{}'", which_.toStdString()),
-                fmt::format("choose one of {}", names.join(", ").toStdString()));
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("content.there-no-screen", "there is no screen '{}'")
+                    .with(which_.toStdString()),
+                RELUCENT_ENGLISH_MESSAGE("content.choose-one", "choose one of {}")
+                    .with(names.join(", ").toStdString()));
   }
 
   void findWindow() {
@@ -45,10 +51,13 @@ class LiveScreen::Grabber {
       }
       titles.append(title);
     }
-    throw Error(ErrorKind::input, fmt::format("there is no window '{}'", which_.toStdString()),
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("content.there-no-window", "there is no window '{}'")
+                    .with(which_.toStdString()),
                 titles.isEmpty()
-                    ? "open it first"
-                    : fmt::format("open it first; there are: {}", titles.join(", ").toStdString()));
+                    ? RELUCENT_ENGLISH_MESSAGE("content.open-first", "open it first")
+                    : RELUCENT_ENGLISH_MESSAGE("content.open-first-there", "open it first; there are: {}")
+                          .with(titles.join(", ").toStdString()));
   }
 
   ScreenCapture desktop_;

@@ -26,8 +26,11 @@ auto startedElsewhere(Work work) {
     } catch (const Error& error) {
       return error;
     } catch (const std::bad_alloc&) {
-      return Error(ErrorKind::memory, "not enough memory to open this",
-                   "close other programs or play smaller pictures");
+      return Error(
+          ErrorKind::memory,
+          RELUCENT_ENGLISH_MESSAGE("content.not-enough-memory-open", "not enough memory to open this"),
+          RELUCENT_ENGLISH_MESSAGE("content.close-other-programs-play-smaller",
+                                   "close other programs or play smaller pictures"));
     }
   });
 }

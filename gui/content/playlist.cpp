@@ -18,7 +18,7 @@
 namespace relucent {
 namespace {
 
-constexpr int mostSentences = 100;
+constexpr std::size_t mostSentences = 100;
 constexpr ContentTime betweenTries{1'000'000};
 
 std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canvas) {
@@ -26,8 +26,11 @@ std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canv
     return std::make_unique<TestChartContent>(*chart, canvas);
   QStringList known;
   for (TestChart chart : allTestCharts) known.append(nameOf(chart));
-  throw Error(ErrorKind::input, fmt::format("there is no test chart '{}'", name.toStdString()),
-              fmt::format("choose one of {}", known.join(", ").toStdString()));
+  throw Error(ErrorKind::input,
+              RELUCENT_ENGLISH_MESSAGE("content.there-no-test-chart", "there is no test chart '{}'")
+                  .with(name.toStdString()),
+              RELUCENT_ENGLISH_MESSAGE("content.choose-one", "choose one of {}")
+                  .with(known.join(", ").toStdString()));
 }
 
 ContentTime fromSeconds(double seconds) {
@@ -58,8 +61,9 @@ std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canva
 
 Playlist::Playlist(PlaylistSettings settings, Canvas canvas)
     : settings_(std::move(settings)), canvas_(canvas) {
-  if (QStringList wrong = problems(settings_); !wrong.isEmpty())
-    throw Error(ErrorKind::input, wrong.first().toStdString(), "change the playlist");
+  if (std::vector<Message> wrong = problems(settings_); !wrong.empty())
+    throw Error(ErrorKind::input, wrong.front(),
+                RELUCENT_ENGLISH_MESSAGE("content.change-playlist", "change the playlist"));
   openNext(-1);
 }
 
@@ -99,8 +103,9 @@ bool Playlist::nextIsReady(ContentTime now) {
     next_ = {openingIndex_, resultOf(opening_), now};
     return true;
   } catch (const Error& error) {
-    QString sentence = error.what();
-    if (!skipped_.contains(sentence) && skipped_.size() < mostSentences) skipped_.append(sentence);
+    const Message sentence = error.sentence();
+    const bool isNew = std::find(skipped_.begin(), skipped_.end(), sentence) == skipped_.end();
+    if (isNew && skipped_.size() < mostSentences) skipped_.push_back(sentence);
   }
   openNext(openingIndex_);
   return false;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/message.h"
 #include "content/canvas.h"
 #include "content/content_source.h"
 #include "content/outcome.h"
@@ -32,7 +33,7 @@ struct PlaylistSettings {
   bool operator==(const PlaylistSettings&) const = default;
 };
 /// What is wrong with the settings.
-QStringList problems(const PlaylistSettings& settings);
+std::vector<Message> problems(const PlaylistSettings& settings);
 
 /// A playlist's file, JSON; paths in it are relative to its folder.
 /// Throws: Error{disk}; Error{format} if it is invalid, or written by a newer version.
@@ -58,7 +59,8 @@ class Playlist : public ContentSource {
 
   struct Status {
     qsizetype playing = -1;  // which item; -1 before the first
-    QStringList skipped;     // the items that could not be read so far, one sentence each, the newest last
+    std::vector<Message>
+        skipped;  // the items that could not be read so far, one sentence each, the newest last
   };
   /// State after the last frame. May be called from any thread.
   Status status() const;
@@ -86,7 +88,7 @@ class Playlist : public ContentSource {
   bool ended_ = false;
   ContentTime last_{0};
   ContentTime tryAgain_{0};  // after nothing could be read
-  QStringList skipped_;
+  std::vector<Message> skipped_;
   mutable QMutex statusGuard_;
   Status status_;
 };

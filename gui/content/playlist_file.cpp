@@ -20,24 +20,34 @@ bool isFile(const QString& path) {
   return addressOf(path).kind == ContentAddress::Kind::file;
 }
 
-[[noreturn]] void refuse(const QString& file, const std::string& what) {
-  throw Error(ErrorKind::format, what, "open it with the program that wrote it, or make a new playlist",
+[[noreturn]] void refuse(const QString& file, const Message& what) {
+  throw Error(ErrorKind::format, what,
+              RELUCENT_ENGLISH_MESSAGE("content.open-program-wrote-make-new",
+                                       "open it with the program that wrote it, or make a new playlist"),
               file.toStdString());
 }
 
 }  // namespace
 
-QStringList problems(const PlaylistSettings& settings) {
-  QStringList found;
-  if (settings.items.isEmpty()) found.append("the playlist is empty");
+std::vector<Message> problems(const PlaylistSettings& settings) {
+  std::vector<Message> found;
+  if (settings.items.isEmpty())
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("content.playlist-empty", "the playlist is empty"));
   if (!(settings.fadeSeconds >= 0.0 && settings.fadeSeconds <= 60.0))
-    found.append("a cross-fade takes 0 to 60 seconds");
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("content.cross-fade-too-long", "a cross-fade takes 0 to 60 seconds"));
   for (const PlaylistItem& item : settings.items) {
-    if (item.path.isEmpty()) found.append("an item of the playlist names no file");
+    if (item.path.isEmpty())
+      found.push_back(
+          RELUCENT_ENGLISH_MESSAGE("content.item-without-file", "an item of the playlist names no file"));
     if (!(item.seconds > 0.0 && item.seconds <= 86400.0))
-      found.append(QString("%1: a picture stands more than 0 seconds and at most a day").arg(item.path));
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("content.picture-stands-too-long",
+                                               "{}: a picture stands more than 0 seconds and at most a day")
+                          .with(item.path.toStdString()));
     if (!(item.picturesPerSecond > 0.0 && item.picturesPerSecond <= 240.0))
-      found.append(QString("%1: a film has more than 0 and at most 240 pictures a second").arg(item.path));
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("content.film-too-fast",
+                                               "{}: a film has more than 0 and at most 240 pictures a second")
+                          .with(item.path.toStdString()));
   }
   return found;
 }
@@ -48,11 +58,14 @@ PlaylistSettings readPlaylist(const QString& file) {
   QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(text), &error);
   if (!document.isObject() || !document.object()["items"].isArray())
     refuse(file, error.error == QJsonParseError::NoError
-                     ? "this is no playlist"
-                     : fmt::format("this is no playlist ({})", error.errorString().toStdString()));
+                     ? RELUCENT_ENGLISH_MESSAGE("content.no-playlist", "this is no playlist")
+                     : RELUCENT_ENGLISH_MESSAGE("content.no-playlist-because", "this is no playlist ({})")
+                           .with(error.errorString().toStdString()));
   QJsonObject object = document.object();
   if (int written = object["version"].toInt(version); written > version)
-    refuse(file, fmt::format("a newer version of the program wrote this playlist (format {})", written));
+    refuse(file, RELUCENT_ENGLISH_MESSAGE("content.playlist-of-newer-version",
+                                          "a newer version of the program wrote this playlist (format {})")
+                     .with(as::label(written)));
 
   QDir folder = QFileInfo(file).absoluteDir();
   PlaylistSettings settings;
@@ -67,7 +80,7 @@ PlaylistSettings readPlaylist(const QString& file) {
     item.picturesPerSecond = entry["pictures_per_second"].toDouble(item.picturesPerSecond);
     settings.items.append(item);
   }
-  if (QStringList wrong = problems(settings); !wrong.isEmpty()) refuse(file, wrong.first().toStdString());
+  if (std::vector<Message> wrong = problems(settings); !wrong.empty()) refuse(file, wrong.front());
   return settings;
 }
 

@@ -26,14 +26,19 @@ struct Video::Playback {
 
 Video::Video(const QString& file, const Canvas& canvas) : canvas_(canvas) {
   if (QFile probe(file); !probe.open(QIODevice::ReadOnly))
-    throw Error(ErrorKind::disk, fmt::format("cannot read ({})", probe.errorString().toStdString()),
-                "check the path and the disk", file.toStdString());
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("disk.cannot-read", "cannot read ({})").with(probe.errorString().toStdString()),
+        RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk"), file.toStdString());
   chooseMediaBackend();
   playback_ = std::make_unique<Playback>(file);
   if (!playback_->frames.waitForFirst(patience))
-    throw Error(ErrorKind::format,
-                fmt::format("no film that can be played ({})", playback_->frames.failure().toStdString()),
-                "convert it to H.264 in an MP4 file", file.toStdString());
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("content.no-film-can-played", "no film that can be played ({})")
+            .with(playback_->frames.failure().toStdString()),
+        RELUCENT_ENGLISH_MESSAGE("content.convert-h-264-mp4-file", "convert it to H.264 in an MP4 file"),
+        file.toStdString());
   playback_->follower.with([this](VideoFollower& follower) { length_ = follower.length(); });
   show(playback_->frames.newest());  // what cannot be shown is refused now
 }

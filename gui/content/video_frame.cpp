@@ -17,8 +17,11 @@ class Mapped {
  public:
   explicit Mapped(const QVideoFrame& frame) : frame_(frame) {
     if (!frame_.map(QVideoFrame::ReadOnly))
-      throw Error(ErrorKind::format, "a frame of the video cannot be reached",
-                  "set QT_MEDIA_BACKEND=ffmpeg and start again");
+      throw Error(ErrorKind::format,
+                  RELUCENT_ENGLISH_MESSAGE("content.frame-video-cannot-reached",
+                                           "a frame of the video cannot be reached"),
+                  RELUCENT_ENGLISH_MESSAGE("content.set-qt-media-backend-ffmpeg",
+                                           "set QT_MEDIA_BACKEND=ffmpeg and start again"));
   }
   ~Mapped() { frame_.unmap(); }
   Mapped(const Mapped&) = delete;
@@ -75,8 +78,12 @@ QImage upright(const QImage& picture, const QVideoFrame& frame) {
 }
 
 [[noreturn]] void refuseRange(const char* what) {
-  throw Error(ErrorKind::input, fmt::format("the video is {}, which projectors cannot show", what),
-              "convert it to BT.709 of standard dynamic range");
+  throw Error(ErrorKind::input,
+              RELUCENT_ENGLISH_MESSAGE("content.video-projectors-cannot-show",
+                                       "the video is {}, which projectors cannot show")
+                  .with(what),
+              RELUCENT_ENGLISH_MESSAGE("content.convert-bt-709-standard-dynamic",
+                                       "convert it to BT.709 of standard dynamic range"));
 }
 
 }  // namespace
@@ -118,10 +125,12 @@ QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
   if (!samples) {
     QImage::Format known = Format::imageFormatFromPixelFormat(format.pixelFormat());
     if (known == QImage::Format_Invalid)
-      throw Error(ErrorKind::format,
-                  fmt::format("the video's samples are of an unknown kind ({})",
-                              Format::pixelFormatToString(format.pixelFormat()).toStdString()),
-                  "convert it to H.264 with 4:2:0 chroma");
+      throw Error(
+          ErrorKind::format,
+          RELUCENT_ENGLISH_MESSAGE("content.video-samples-unknown-kind",
+                                   "the video's samples are of an unknown kind ({})")
+              .with(Format::pixelFormatToString(format.pixelFormat()).toStdString()),
+          RELUCENT_ENGLISH_MESSAGE("content.convert-h-264-4-2", "convert it to H.264 with 4:2:0 chroma"));
     VideoSamples::Plane plane = mapped.plane(0);
     QImage there(static_cast<const uchar*>(plane.data), size.width(), size.height(),
                  static_cast<qsizetype>(plane.bytesPerLine), known);

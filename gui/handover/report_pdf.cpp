@@ -86,7 +86,10 @@ class Paper {
     QByteArray source = xml_.attributes().value("src").toString().section("base64,", 1).toLatin1();
     QImage picture = QImage::fromData(QByteArray::fromBase64(source));
     if (picture.isNull())
-      throw Error(ErrorKind::format, "the report holds a picture that cannot be read", "write it again", "");
+      throw Error(ErrorKind::format,
+                  RELUCENT_ENGLISH_MESSAGE("report.report-holds-picture-cannot-read",
+                                           "the report holds a picture that cannot be read"),
+                  RELUCENT_ENGLISH_MESSAGE("report.write-again", "write it again"), "");
     int factor = std::max(1, 640 / std::max(1, picture.width()));
     place(picture.scaled(picture.size() * factor, Qt::IgnoreAspectRatio, Qt::FastTransformation), 640.0);
   }
@@ -167,8 +170,10 @@ void writeReportPdf(const QString& html, const QString& file) {
   QXmlStreamReader xml(asXml(html));
   QString text = Paper(xml, document).text();
   if (xml.hasError())
-    throw Error(ErrorKind::format, "the report is not well-formed (" + xml.errorString().toStdString() + ")",
-                "write it again", "");
+    throw Error(ErrorKind::format,
+                RELUCENT_ENGLISH_MESSAGE("report.not-well-formed", "the report is not well-formed ({})")
+                    .with(xml.errorString().toStdString()),
+                RELUCENT_ENGLISH_MESSAGE("report.write-again", "write it again"), "");
   document.setHtml("<body>" + text + "</body>");
 
   writeFileAtomically(file.toStdString(), [&](const std::filesystem::path& temporary) {
@@ -180,7 +185,9 @@ void writeReportPdf(const QString& html, const QString& file) {
     document.print(&writer);
   });
   if (QFile(file).size() == 0)
-    throw Error(ErrorKind::disk, "the report cannot be written", "free some space", file.toStdString());
+    throw Error(ErrorKind::disk,
+                RELUCENT_MESSAGE("report.report-cannot-written", "the report cannot be written"),
+                RELUCENT_MESSAGE("report.free-some-space", "free some space"), file.toStdString());
 }
 
 }  // namespace relucent

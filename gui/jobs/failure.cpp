@@ -5,7 +5,7 @@
 #include <new>
 
 #include "devices/screen_proof.h"
-#include "jobs/core_sentences.h"
+#include "text/message_text.h"
 
 namespace relucent {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "jobs/stage_names.h"
+#include "text/message_text.h"
 
 namespace relucent {
 
@@ -12,7 +12,7 @@ class Job::Sink : public ProgressSink {
  public:
   explicit Sink(Job& job) : job_(job), reports_(job.reports_) {}
 
-  void progressed(double fraction, std::string_view stage) override {
+  void progressed(double fraction, const Message& stage) override {
     QMutexLocker lock(&reports_->guard);
     reports_->fraction = fraction;
     reports_->stage = stage;
@@ -90,7 +90,7 @@ void Job::takeReports() {
     QMutexLocker lock(&reports_->guard);
     reports_->posted = false;
     fraction_ = reports_->fraction;
-    stage_ = stageText(reports_->stage);
+    stage_ = text(reports_->stage);
     left = std::exchange(reports_->left, std::nullopt);
   }
   if (left) Q_EMIT expected(*left);

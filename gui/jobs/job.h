@@ -59,7 +59,7 @@ class Job : public QObject {
     QMutex guard;
     bool posted = false;
     double fraction = 0.0;
-    std::string stage;
+    Message stage;
     std::optional<WorkLeft> left;
   };
   std::shared_ptr<Reports> reports_;

@@ -52,7 +52,7 @@ class Refining {
 
  private:
   struct NoNews : ProgressSink {
-    void progressed(double, std::string_view) override {}
+    void progressed(double, const Message&) override {}
   };
   /// A request being computed.
   struct Round {

@@ -106,7 +106,8 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   }
   FrameReport report;
   if (!backend_->render(frame, wanted, words_, report))
-    throw Error(ErrorKind::device, "the engine lost its device", "start the show again",
+    throw Error(ErrorKind::device, RELUCENT_MESSAGE("show.engine-lost-device", "the engine lost its device"),
+                RELUCENT_MESSAGE("show.start-show-again", "start the show again"),
                 std::string(backend_->name()));
   if (request.compensated && !request.thorough) budget_->add(report);
 

@@ -49,8 +49,12 @@ QString desktopWord(const QString& word) {
   QString quoted = "\"";
   for (QChar c : word) {
     if (c.unicode() < 0x20)
-      throw Error(ErrorKind::input, "an autostart entry cannot name files with control characters",
-                  "rename it, or install the service instead", word.toStdString());
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("show.autostart-entry-cannot-name-files",
+                                           "an autostart entry cannot name files with control characters"),
+                  RELUCENT_ENGLISH_MESSAGE("show.rename-install-service-instead",
+                                           "rename it, or install the service instead"),
+                  word.toStdString());
     if (c == '\\')
       quoted += "\\\\\\\\";
     else if (c == '"' || c == '`' || c == '$')
@@ -72,16 +76,21 @@ void link(const QString& target, const QString& name) {
   fs::create_symlink(target.toStdString(), temporary, error);
   if (!error) fs::rename(temporary, name.toStdString(), error);
   if (error)
-    throw Error(ErrorKind::disk, fmt::format("the service cannot be switched on ({})", error.message()),
-                "check the folder's permissions", name.toStdString());
+    throw Error(ErrorKind::disk,
+                RELUCENT_MESSAGE("show.service-cannot-switched", "the service cannot be switched on ({})")
+                    .with(error.message()),
+                RELUCENT_MESSAGE("show.check-folder-permissions", "check the folder's permissions"),
+                name.toStdString());
 }
 
 bool removed(const QString& name) {
   std::error_code error;
   bool there = fs::remove(name.toStdString(), error);
   if (error)
-    throw Error(ErrorKind::disk, fmt::format("it cannot be removed ({})", error.message()),
-                "check the folder's permissions", name.toStdString());
+    throw Error(ErrorKind::disk,
+                RELUCENT_MESSAGE("show.cannot-removed", "it cannot be removed ({})").with(error.message()),
+                RELUCENT_MESSAGE("show.check-folder-permissions", "check the folder's permissions"),
+                name.toStdString());
   return there;
 }
 

@@ -3,6 +3,7 @@
 
 #include <QObject>
 
+#include "base/message.h"
 #include "content/playlist.h"
 
 namespace relucent {
@@ -23,7 +24,7 @@ class OutputPlaylist : public QObject {
 
   const PlaylistSettings& settings() const { return settings_; }
   /// Sentences of what stands against playing; empty: nothing.
-  QStringList problems() const { return relucent::problems(settings_); }
+  std::vector<Message> problems() const { return relucent::problems(settings_); }
   bool isEmpty() const { return settings_.items.isEmpty(); }
   /// Where it is kept.
   QString file() const { return folder_ + "/show.playlist"; }

@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "jobs/core_sentences.h"
 #include "output/output_playlist.h"
 #include "output/output_tap.h"
+#include "text/message_text.h"
 
 namespace relucent {
 namespace {
@@ -76,7 +76,8 @@ void OutputProjection::open(const Wanted& wanted) {
   screens_ = wanted.screens;
   made_ = std::make_shared<Made>();
   job_.start([made = made_, tap = tap_, wanted](Progress& progress) {
-    Progress preparing = progress.part(1.0, tr("Preparing the engine").toStdString());
+    Progress preparing =
+        progress.part(1.0, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
     Canvas canvas = canvasFor(wanted.list, wanted.fit);
     made->content = std::make_shared<Playlist>(wanted.list, canvas);
     made->renderer = std::make_unique<TappedRenderer>(
@@ -123,10 +124,10 @@ void OutputProjection::play() {
       if (key == Qt::Key_Escape) closeLater();
       Q_EMIT changed();
     });
-  connect(player_.get(), &Player::failed, this, [this, closeLater](const QString& sentence) {
+  connect(player_.get(), &Player::failed, this, [this, closeLater](const Message& sentence) {
     closeLater();
-    Q_EMIT failed(
-        {ErrorKind::device, fullSentence(sentence.toStdString()), tr("Open the output again."), sentence});
+    Q_EMIT failed({ErrorKind::device, fullSentence(sentence), tr("Open the output again."),
+                   QString::fromStdString(englishSentence(sentence))});
   });
   awake_.emplace(tr("Relucent is projecting"));
   awake_->wakeDisplays();
@@ -187,8 +188,8 @@ qsizetype OutputProjection::playing() const {
   return isOpen() && content_ ? content_->status().playing : -1;
 }
 
-QStringList OutputProjection::skipped() const {
-  return isOpen() && content_ ? content_->status().skipped : QStringList();
+std::vector<Message> OutputProjection::skipped() const {
+  return isOpen() && content_ ? content_->status().skipped : std::vector<Message>();
 }
 
 QImage OutputProjection::onProjector(std::size_t projector) const {

@@ -5,10 +5,11 @@
 #include <QTimer>
 #include <deque>
 
+#include "base/message.h"
 #include "content/playlist.h"
+#include "desktop/awake.h"
 #include "jobs/job.h"
 #include "jobs/latest.h"
-#include "desktop/awake.h"
 #include "output/engine_renderer.h"
 #include "output/player.h"
 
@@ -63,7 +64,7 @@ class OutputProjection : public QObject {
   /// Which item plays; -1: none.
   qsizetype playing() const;
   /// What of the list could not be read, the newest last.
-  QStringList skipped() const;
+  std::vector<Message> skipped() const;
 
   /// What a projector shows now, as far as this program knows; null while it is closed.
   QImage onProjector(std::size_t projector = 0) const;

@@ -119,7 +119,7 @@ void Player::frameReady() {
     }
   } catch (const Error& error) {
     stop();
-    Q_EMIT failed(error.what());
+    Q_EMIT failed(error.sentence());
     return;
   }
   next();

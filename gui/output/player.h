@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/message.h"
 #include "content/outcome.h"
 #include "output/content_clock.h"
 #include "output/frame_renderer.h"
@@ -64,7 +65,7 @@ class Player : public QObject {
   /// A new picture was passed to the windows.
   void shown();
   /// Rendering or reading failed permanently; the windows are black. `sentence` is for display.
-  void failed(const QString& sentence);
+  void failed(const relucent::Message& sentence);
 
  private:
   struct Frame {

@@ -42,7 +42,7 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       open();
       start();
     } catch (const Error& error) {
-      tryAgain(error.what());
+      tryAgain(error.sentence());
     }
   });
   open();
@@ -124,8 +124,8 @@ void Show::look() {
   tellHealth(state_);
 }
 
-void Show::tryAgain(const QString& sentence) {
-  log_.warn(sentence);
+void Show::tryAgain(const Message& sentence) {
+  log_.warn(QString::fromStdString(englishSentence(sentence)));
   int pause = std::min(longestPause, shortestPause << std::min(failures_, 10));
   ++failures_;
   log_.tell(QString("trying again in %1 s").arg(pause / 1000));
@@ -146,8 +146,9 @@ void Show::stop() {
 void Show::tellHealth(ShowState state) {
   state_ = state;
   Playlist::Status content = content_->status();
-  const QStringList& skipped = content.skipped;
-  for (; toldSkipped_ < skipped.size(); ++toldSkipped_) log_.warn("skipped: " + skipped[toldSkipped_]);
+  const std::vector<Message>& skipped = content.skipped;
+  for (; toldSkipped_ < skipped.size(); ++toldSkipped_)
+    log_.warn(QString::fromStdString("skipped: " + englishSentence(skipped[toldSkipped_])));
 
   QJsonArray displays;
   for (const auto& window : windows_)
@@ -165,7 +166,7 @@ void Show::tellHealth(ShowState state) {
                      {"clipped", statistics.clipped},
                      {"steps", statistics.steps},
                      {"item", static_cast<qint64>(content.playing)},
-                     {"skipped", skipped.size()},
+                     {"skipped", static_cast<qint64>(skipped.size())},
                      {"failures", failures_},
                      {"peak_memory_bytes", static_cast<qint64>(peakMemoryBytes())},
                      {"displays", displays}};

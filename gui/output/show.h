@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/message.h"
 #include "desktop/awake.h"
 #include "output/machine_clock.h"
 #include "output/player.h"
@@ -52,7 +53,7 @@ class Show : public QObject {
   void rest();
   void wakeDisplays();
   bool isTime() const;
-  void tryAgain(const QString& sentence);
+  void tryAgain(const relucent::Message& sentence);
   void tellHealth(ShowState state);
 
   ShowSettings settings_;

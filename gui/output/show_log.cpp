@@ -27,8 +27,10 @@ ShowLog::ShowLog(const QString& folder) {
         std::make_shared<spdlog::sinks::stderr_sink_mt>()};
     logger_ = std::make_shared<spdlog::logger>("show", sinks.begin(), sinks.end());
   } catch (const spdlog::spdlog_ex& error) {
-    throw Error(ErrorKind::disk, fmt::format("the log cannot be written ({})", error.what()),
-                "choose another folder with --log", file);
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("show.log-cannot-written", "the log cannot be written ({})").with(error.what()),
+        RELUCENT_MESSAGE("show.choose-another-folder-log", "choose another folder with --log"), file);
   }
   logger_->set_pattern("%Y-%m-%dT%H:%M:%S%z %l %v");
   // A log that stops at a power cut should hold what led to it.

@@ -30,9 +30,12 @@ QString allDescribed() {
 
 std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, const QStringList& named) {
   if (!named.isEmpty() && static_cast<std::size_t>(named.size()) != projectors.size())
-    throw Error(ErrorKind::input,
-                fmt::format("{} displays are named for {} projectors", named.size(), projectors.size()),
-                fmt::format("name one for each; there are: {}", allDescribed().toStdString()));
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("show.displays-named-projectors", "{} displays are named for {} projectors")
+            .with(named.size(), projectors.size()),
+        RELUCENT_ENGLISH_MESSAGE("show.name-one-each-there", "name one for each; there are: {}")
+            .with(allDescribed().toStdString()));
 
   QList<QScreen*> screens = QGuiApplication::screens();
   std::vector<ScreenIdentity> displays;
@@ -52,15 +55,21 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
     auto found = std::find_if(screens.begin(), screens.end(),
                               [&](const QScreen* screen) { return nativeSize(*screen) == projector; });
     if (found == screens.end())
-      throw Error(ErrorKind::input,
-                  projectors.size() == 1
-                      ? fmt::format("no display beside the operator's has the {}x{} pixels of the projector",
-                                    projector.width(), projector.height())
-                      : fmt::format("each of the {} projectors needs a display of its own beside the "
-                                    "operator's, and there is none of {}x{} pixels for projector {}",
-                                    projectors.size(), projector.width(), projector.height(), i + 1),
-                  fmt::format("plug it in, set it to that size, or name it with --screen; there are: {}",
-                              allDescribed().toStdString()));
+      throw Error(
+          ErrorKind::input,
+          projectors.size() == 1
+              ? RELUCENT_ENGLISH_MESSAGE(
+                    "show.no-display-beside-operator-pixels",
+                    "no display beside the operator's has the {} pixels of the projector")
+                    .with(as::size(projector.width(), projector.height()))
+              : RELUCENT_ENGLISH_MESSAGE("show.each-projectors-needs-display-own",
+                                         "each of the {} projectors needs a display of its own beside the "
+                                         "operator's, and there is none of {} pixels for projector {}")
+                    .with(projectors.size(), as::size(projector.width(), projector.height()),
+                          as::label(i + 1)),
+          RELUCENT_ENGLISH_MESSAGE("show.plug-set-size-name-screen",
+                                   "plug it in, set it to that size, or name it with --screen; there are: {}")
+              .with(allDescribed().toStdString()));
     displays.push_back(identityOf(**found));
     screens.erase(found);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/still_solver.h"
 
+#include "base/message.h"
 #include "image/colour.h"
 
 namespace relucent {
@@ -34,7 +35,7 @@ Image linearOf(const QImage& picture) {
 class Watch : public ProgressSink {
  public:
   Watch(const Outdated& outdated, StopRequest& stop) : outdated_(outdated), stop_(stop) {}
-  void progressed(double, std::string_view) override {
+  void progressed(double, const Message&) override {
     if (outdated_ && outdated_()) stop_.ask(StopRequest::Kind::cancel);
   }
 

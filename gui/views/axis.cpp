@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jobs/local_digits.h"
+#include "text/local_digits.h"
 #include "views/number_text.h"
 
 namespace relucent {

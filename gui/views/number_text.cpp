@@ -5,7 +5,7 @@
 #include <QLocale>
 #include <cmath>
 
-#include "jobs/local_digits.h"
+#include "text/local_digits.h"
 
 namespace relucent {
 namespace {

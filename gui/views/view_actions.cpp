@@ -26,17 +26,25 @@ void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
   if (path.endsWith(".exr", Qt::CaseInsensitive)) {
     Image numbers = values.values ? values.values() : Image();
     if (numbers.empty())
-      throw Error(ErrorKind::input, "there are no numbers to save yet", "wait until the view is complete",
-                  file.string());
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("view.there-no-numbers-save-yet", "there are no numbers to save yet"),
+          RELUCENT_ENGLISH_MESSAGE("view.wait-until-view-complete", "wait until the view is complete"),
+          file.string());
     std::map<std::string, ExrAttribute> attributes{{exr_attribute::units, values.units}};
     return writeExr(file, numbers, ExrType::floatType, std::move(attributes));
   }
   if (!path.endsWith(".png", Qt::CaseInsensitive))
-    throw Error(ErrorKind::input, "a view is saved as .png or .exr", "choose one of these endings",
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("view.view-saved-png-exr", "a view is saved as .png or .exr"),
+                RELUCENT_ENGLISH_MESSAGE("view.choose-one-endings", "choose one of these endings"),
                 file.string());
   if (!view.asSeen().save(path, "PNG"))
-    throw Error(ErrorKind::disk, "the picture could not be written",
-                "choose a folder that you may write to, with free space", file.string());
+    throw Error(ErrorKind::disk,
+                RELUCENT_MESSAGE("view.picture-could-not-written", "the picture could not be written"),
+                RELUCENT_MESSAGE("view.choose-folder-you-may-write",
+                                 "choose a folder that you may write to, with free space"),
+                file.string());
 }
 
 void addViewActions(Card& card, PlaneView& view, ViewValues values,

@@ -59,8 +59,7 @@ void print(const EngineBenchResult& result) {
         i + 1 < result.lines.size() ? "," : "]");
   }
   std::string notes;
-  for (const std::string& note : result.notes)
-    notes += fmt::format("{}\"{}\"", notes.empty() ? "" : ",", note);
+  for (const Message& note : result.notes) notes += fmt::format("{}\"{}\"", notes.empty() ? "" : ",", note);
   fmt::print("{}}}\n", notes.empty() ? "" : fmt::format(",\"notes\":[{}]", notes));
 }
 

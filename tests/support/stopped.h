@@ -7,7 +7,7 @@ namespace relucent {
 
 /// Hears progress and says nothing.
 struct SilentSink : ProgressSink {
-  void progressed(double, std::string_view) override {}
+  void progressed(double, const Message&) override {}
 };
 
 /// A progress whose user has asked to stop already.

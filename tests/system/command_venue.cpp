@@ -33,8 +33,8 @@ Image shownPicture(const fs::path& path) {
     read = png_image_finish_read(&header, nullptr, codes.data(), 0, nullptr) != 0;
   }
   if (!read || codes.empty())
-    throw Error(ErrorKind::format, "this is no PNG of 8 bits", "copy the file that was to be shown",
-                path.string());
+    throw Error(ErrorKind::format, Message::plain("this is no PNG of 8 bits"),
+                Message::plain("copy the file that was to be shown"), path.string());
   Image image({static_cast<int>(header.width), static_cast<int>(header.height)}, 3);
   for (std::size_t i = 0; i < codes.size(); ++i) image.data()[i] = static_cast<float>(codes[i]) / 255.0f;
   return image;

@@ -11,20 +11,23 @@ std::unique_ptr<Camera> openCommand(const std::string& command, const CameraWish
   settings.command = command;
   settings.size = wishes.size;
   settings.exposures = wishes.exposures;
-  const std::vector<std::string> found = problems(settings);
+  const std::vector<Message> found = problems(settings);
   if (!found.empty())
-    throw Error(ErrorKind::usage, found.front(), "write it so: command:./photograph {exposure} {output}");
+    throw Error(ErrorKind::usage, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("device.write-so-command-photograph-exposure",
+                                         "write it so: command:./photograph {exposure} {output}"));
   return std::make_unique<CommandCamera>(std::move(settings));
 }
 
 }  // namespace
 
 CameraKind commandKind() {
-  return {.prefix = CommandCamera::kind,
-          .place = "CMD",
-          .help = "a program that photographs {exposure} seconds into {output}",
-          .support = "anything that a program of yours can drive",
-          .open = openCommand};
+  return {
+      .prefix = CommandCamera::kind,
+      .place = "CMD",
+      .help = "a program that photographs {exposure} seconds into {output}",
+      .support = RELUCENT_ENGLISH_MESSAGE("device.commands", "anything that a program of yours can drive"),
+      .open = openCommand};
 }
 
 }  // namespace relucent

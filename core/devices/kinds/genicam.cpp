@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "base/message.h"
 #include "devices/camera_kind.h"
 #include "devices/genicam_driver.h"
 
@@ -17,8 +18,8 @@ std::vector<ListedCamera> listGenicam() {
   for (const GenicamCamera& found : findGenicamCameras()) {
     GenicamSettings settings;
     settings.camera = found.serial.empty() ? found.address : found.serial;
-    cameras.push_back(
-        judged("genicam:" + settings.camera, found.model, [&] { return makeGenicamDriver(settings); }, {}));
+    cameras.push_back(judged("genicam:" + settings.camera, Message::plain(found.model),
+                             [&] { return makeGenicamDriver(settings); }, {}));
   }
   return cameras;
 }
@@ -26,12 +27,13 @@ std::vector<ListedCamera> listGenicam() {
 }  // namespace
 
 CameraKind genicamKind() {
-  return {.prefix = "genicam",
-          .place = "SERIAL",
-          .help = "GigE Vision or USB3 Vision; also its network address",
-          .support = "GigE Vision and USB3 Vision cameras",
-          .open = openGenicam,
-          .list = listGenicam};
+  return {
+      .prefix = "genicam",
+      .place = "SERIAL",
+      .help = "GigE Vision or USB3 Vision; also its network address",
+      .support = RELUCENT_ENGLISH_MESSAGE("device.genicam-cameras", "GigE Vision and USB3 Vision cameras"),
+      .open = openGenicam,
+      .list = listGenicam};
 }
 
 }  // namespace relucent

@@ -7,8 +7,13 @@ namespace relucent {
 namespace {
 
 std::unique_ptr<Camera> openGenicam(const std::string& place, const CameraWishes&) {
-  throw Error(ErrorKind::device, "this build of Relucent does not know GenICam cameras",
-              "install Aravis (libaravis-dev) and build again, or use another kind of camera", place);
+  throw Error(
+      ErrorKind::device,
+      RELUCENT_MESSAGE("device.build-relucent-not-know-genicam",
+                       "this build of Relucent does not know GenICam cameras"),
+      RELUCENT_MESSAGE("device.install-aravis-libaravis-dev-build",
+                       "install Aravis (libaravis-dev) and build again, or use another kind of camera"),
+      place);
 }
 
 }  // namespace
@@ -17,9 +22,9 @@ CameraKind genicamKind() {
   return {.prefix = "genicam",
           .place = "SERIAL",
           .help = "GigE Vision or USB3 Vision; not in this build",
-          .support =
-              "GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build "
-              "again",
+          .support = RELUCENT_MESSAGE("device.genicam-missing",
+                                      "GigE Vision and USB3 Vision cameras: this build lacks Aravis; install "
+                                      "libaravis-dev and build again"),
           .isBuiltIn = false,
           .open = openGenicam};
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "base/message.h"
 #include "devices/camera_kind.h"
 #include "devices/gphoto_driver.h"
 
@@ -20,7 +21,7 @@ std::vector<ListedCamera> listGphoto() {
     GphotoCameraSettings settings;
     settings.camera = places[i];
     cameras.push_back(judged(
-        "gphoto2:" + settings.camera, found[i].model,
+        "gphoto2:" + settings.camera, Message::plain(found[i].model),
         [&] { return makeGphotoDriver(makeGphotoPort(), settings); }, gphotoPatience()));
   }
   return cameras;
@@ -32,7 +33,8 @@ CameraKind gphoto2Kind() {
   return {.prefix = "gphoto2",
           .place = "MODEL",
           .help = "DSLR or mirrorless camera; also the port it is plugged in at",
-          .support = "DSLR and mirrorless cameras with raw files",
+          .support =
+              RELUCENT_ENGLISH_MESSAGE("device.gphoto-cameras", "DSLR and mirrorless cameras with raw files"),
           .open = openGphoto,
           .list = listGphoto};
 }

@@ -7,9 +7,14 @@ namespace relucent {
 namespace {
 
 std::unique_ptr<Camera> openGphoto(const std::string& place, const CameraWishes&) {
-  throw Error(ErrorKind::device, "this build of Relucent does not know DSLR and mirrorless cameras",
-              "install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command",
-              place);
+  throw Error(
+      ErrorKind::device,
+      RELUCENT_MESSAGE("device.build-relucent-not-know-dslr",
+                       "this build of Relucent does not know DSLR and mirrorless cameras"),
+      RELUCENT_MESSAGE(
+          "device.install-libgphoto2-libraw-libgphoto2-dev",
+          "install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command"),
+      place);
 }
 
 }  // namespace
@@ -18,9 +23,9 @@ CameraKind gphoto2Kind() {
   return {.prefix = "gphoto2",
           .place = "MODEL",
           .help = "DSLR or mirrorless camera; not in this build",
-          .support =
-              "DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; install libgphoto2-dev "
-              "and libraw-dev and build again",
+          .support = RELUCENT_MESSAGE("device.gphoto-missing",
+                                      "DSLR and mirrorless cameras: this build lacks libgphoto2 or LibRaw; "
+                                      "install libgphoto2-dev and libraw-dev and build again"),
           .isBuiltIn = false,
           .open = openGphoto};
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 
+#include "base/message.h"
 #include "devices/camera_kind.h"
 #include "devices/video_driver.h"
 
@@ -41,12 +42,12 @@ std::vector<fs::path> videoDevices() {
   return paths;
 }
 
-std::string videoModel(const fs::path& path) {
+Message videoModel(const fs::path& path) {
   std::error_code code;
   std::ifstream file("/sys/class/video4linux/" + fs::canonical(path, code).filename().string() + "/name");
   std::string name;
   std::getline(file, name);
-  return name.empty() ? "video device" : name;
+  return name.empty() ? RELUCENT_MESSAGE("device.video-device", "video device") : Message::plain(name);
 }
 
 std::unique_ptr<CameraDriver> driverFor(const std::string& path, std::optional<Size> size) {
@@ -72,7 +73,7 @@ CameraKind v4l2Kind() {
   return {.prefix = "v4l2",
           .place = "PATH",
           .help = "a webcam with manual exposure, /dev/v4l/by-id/...",
-          .support = "webcams with manual exposure",
+          .support = RELUCENT_ENGLISH_MESSAGE("device.webcams", "webcams with manual exposure"),
           .open = openVideo,
           .list = listVideo};
 }

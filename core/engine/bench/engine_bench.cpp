@@ -104,7 +104,10 @@ void timeFrames(Bench& bench, EngineBackend& backend, const EngineVenue& engine,
     bench.time(fmt::format("{}: frame, K = {}", backend.name(), steps),
                2 * windows + (1 + steps) * transportBytes, [&] {
                  if (!backend.render(content.frame(), {true, steps, 1.0f, 0.0f}, words, report))
-                   throw Error(ErrorKind::device, "the device was lost while it was timed", "try again");
+                   throw Error(ErrorKind::device,
+                               RELUCENT_ENGLISH_MESSAGE("engine.device-lost-while-timed",
+                                                        "the device was lost while it was timed"),
+                               RELUCENT_ENGLISH_MESSAGE("engine.try-again", "try again"));
                });
 }
 
@@ -200,12 +203,13 @@ std::unique_ptr<GlContext> contextFor(BackendChoice choice) {
 
 }  // namespace
 
-std::vector<std::string> problems(const EngineBenchSettings& settings) {
+std::vector<Message> problems(const EngineBenchSettings& settings) {
   constexpr int least = 8;
-  std::vector<std::string> found;
+  std::vector<Message> found;
   for (Size size : {settings.projector, settings.camera, settings.content})
     if (size.width < least || size.height < least)
-      found.push_back(fmt::format("{}x{} is too small to be timed", size.width, size.height));
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.too-small-timed", "{} is too small to be timed")
+                          .with(as::size(size)));
   return found;
 }
 
@@ -229,10 +233,10 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   std::unique_ptr<GlContext> context = contextFor(settings.backend);
   const bool oneThread = settings.oneThread && context == nullptr;
 
-  Progress preparing = progress.part(0.5, "Preparing the engine");
+  Progress preparing = progress.part(0.5, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
   const MeasuredVenue venue = venueOf(settings);
   preparing.report(0.3);
-  Progress computing = preparing.part(0.6, "Windows");
+  Progress computing = preparing.part(0.6, RELUCENT_MESSAGE("stage.windows", "Windows"));
   const WindowInverse inverse = computeWindows(venue.transport, venue.usable, {}, computing);
   EngineSettings plan;
   plan.patchSide = settings.patchSide;
@@ -240,7 +244,7 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   const EngineVenue engine = prepareVenue(venue, inverse, responses, plan);
   const EngineContent content = prepareContent(engine, settings.content);
 
-  Progress timing = progress.part(0.5, "Timing the engine");
+  Progress timing = progress.part(0.5, RELUCENT_MESSAGE("stage.timing-engine", "Timing the engine"));
   Bench bench(oneThread ? threadClock : wallClock, timing);
   bench.result.threads = oneThread ? 1 : static_cast<int>(std::thread::hardware_concurrency());
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -22,7 +22,7 @@ struct EngineBenchSettings {
   bool references = true;  // also time the products of the pipeline, Eigen and SciPy
   bool oneThread = false;  // of the processor: CPU seconds of one core, for shared machines
 };
-std::vector<std::string> problems(const EngineBenchSettings& settings);
+std::vector<Message> problems(const EngineBenchSettings& settings);
 
 /// Speed relative to another program's product with the same operator.
 struct EngineBenchRatio {
@@ -44,7 +44,7 @@ struct EngineBenchResult {
   int threads = 0;     // of the processor
   double copyBytesPerSecond = 0.0;
   std::vector<EngineBenchLine> lines;
-  std::vector<std::string> notes;  // measurements that were not possible, and why
+  std::vector<Message> notes;  // measurements that were not possible, and why
 };
 
 /// Times the engine: M, one step, whole frames with K = 0, 1 and 2. Takes minutes of preparation at large

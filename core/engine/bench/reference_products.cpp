@@ -85,7 +85,9 @@ void benchReferences(const EngineVenue& engine, bool oneThread, const std::funct
   };
   timeBoth(windowsPlane(engine, 0), ReferenceProduct::there, "M");
   timeBoth(transportPlane(engine, 0), ReferenceProduct::both, "step");
-  if (sciPyMissing) result.notes.emplace_back("SciPy was not timed: no python3 of this machine has it");
+  if (sciPyMissing)
+    result.notes.emplace_back(RELUCENT_ENGLISH_MESSAGE(
+        "engine.scipy-not-timed-no-python3", "SciPy was not timed: no python3 of this machine has it"));
 }
 
 }  // namespace relucent

@@ -36,8 +36,11 @@ class Folder {
 
  private:
   [[noreturn]] static void fail() {
-    throw Error(ErrorKind::disk, "an operator could not be written for SciPy",
-                "make room among the temporary files, or time without references");
+    throw Error(ErrorKind::disk,
+                RELUCENT_ENGLISH_MESSAGE("engine.operator-could-not-written-scipy",
+                                         "an operator could not be written for SciPy"),
+                RELUCENT_ENGLISH_MESSAGE("engine.make-room-among-temporary-files",
+                                         "make room among the temporary files, or time without references"));
   }
   std::filesystem::path path_;
 };

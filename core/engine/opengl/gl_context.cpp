@@ -12,7 +12,8 @@ namespace relucent {
 namespace {
 
 constexpr int leastVersion = 43;
-constexpr const char* advice = "install the graphics card's driver, or let the processor do the work";
+constexpr auto advice = RELUCENT_MESSAGE(
+    "engine.install-driver", "install the graphics card's driver, or let the processor do the work");
 
 }  // namespace
 
@@ -27,15 +28,21 @@ bool isSoftwareRenderer(const std::string& name) {
 
 GlContext::GlContext(Device wanted) {
   if (!HeadlessGl::isInstalled())
-    throw Error(ErrorKind::device,
-                "there is no libEGL or no libOpenGL, which open graphics cards without a display", advice);
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("engine.there-no-libegl-no-libopengl",
+                         "there is no libEGL or no libOpenGL, which open graphics cards without a display"),
+        advice);
   std::string found;
   context_ = HeadlessGl::open({leastVersion, wanted == Device::any}, [&] { return accepts(wanted, found); });
   if (!context_)
-    throw Error(ErrorKind::device,
-                wanted == Device::graphics ? "there is no graphics card with OpenGL 4.3 and compute shaders"
-                                           : "there is no OpenGL 4.3 with compute shaders",
-                advice, found.empty() ? "" : "found only" + found);
+    throw Error(
+        ErrorKind::device,
+        wanted == Device::graphics
+            ? RELUCENT_MESSAGE("engine.there-no-graphics-card-opengl",
+                               "there is no graphics card with OpenGL 4.3 and compute shaders")
+            : RELUCENT_MESSAGE("engine.there-no-opengl-4-3", "there is no OpenGL 4.3 with compute shaders"),
+        advice, found.empty() ? "" : "found only" + found);
 }
 
 /// Whether the context that is current may become this one. `found`: names of those that did not.

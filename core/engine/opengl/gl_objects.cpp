@@ -10,7 +10,7 @@
 namespace relucent {
 namespace {
 
-constexpr const char* advice = "let the processor do the work";
+constexpr auto advice = RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work");
 
 GLint limitOf(GLenum name) {
   GLint value = 0;
@@ -31,7 +31,10 @@ std::string logOf(GLuint shader, bool program) {
 }
 
 [[noreturn]] void refuse(const std::string& log) {
-  throw Error(ErrorKind::device, "the graphics driver does not compile the engine's programs", advice, log);
+  throw Error(ErrorKind::device,
+              RELUCENT_ENGLISH_MESSAGE("engine.graphics-driver-not-compile-engine",
+                                       "the graphics driver does not compile the engine's programs"),
+              advice, log);
 }
 
 }  // namespace
@@ -48,8 +51,9 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
     : bytes_(std::max<std::size_t>((bytes + 15) / 16 * 16, 16)) {
   if (!inParts && bytes_ > largest())
     throw Error(ErrorKind::device,
-                fmt::format("the graphics card reaches {} MB at once where {} MB are needed", largest() >> 20,
-                            bytes_ >> 20),
+                RELUCENT_MESSAGE("engine.graphics-card-reaches-mb-once",
+                                 "the graphics card reaches {} MB at once where {} MB are needed")
+                    .with(as::megabytes(largest()), as::megabytes(bytes_)),
                 advice);
   while (glGetError() != GL_NO_ERROR) {
   }
@@ -58,8 +62,11 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes_), nullptr, GL_DYNAMIC_COPY);
   if (glGetError() != GL_NO_ERROR) {
     glDeleteBuffers(1, &name_);
-    throw Error(ErrorKind::device, fmt::format("the graphics card has no {} MB of memory left", bytes_ >> 20),
-                advice);
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("engine.graphics-card-no-mb-memory", "the graphics card has no {} MB of memory left")
+            .with(as::megabytes(bytes_)),
+        advice);
   }
   if (data == nullptr || bytes < bytes_) clear();
   if (data != nullptr) write(0, data, bytes);

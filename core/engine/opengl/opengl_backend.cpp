@@ -165,7 +165,9 @@ OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContex
     : context_(std::move(context)), name_(fmt::format("OpenGL, {}", context_->renderer())) {
   GlContext::Current current(*context_);
   if (!current)
-    throw Error(ErrorKind::device, "the graphics card cannot be used", "let the processor do the work",
+    throw Error(ErrorKind::device,
+                RELUCENT_MESSAGE("engine.graphics-card-cannot-used", "the graphics card cannot be used"),
+                RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work"),
                 context_->renderer());
   objects_ = std::make_unique<Objects>(engine);
 }
@@ -181,7 +183,8 @@ void OpenGlBackend::setContent(const EngineContent& content) {
     objects_->setContent(content);
     if (!context_->failed()) return;
   }
-  throw Error(ErrorKind::device, "the graphics card was lost", "let the processor do the work", name_);
+  throw Error(ErrorKind::device, RELUCENT_MESSAGE("engine.graphics-card-lost", "the graphics card was lost"),
+              RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work"), name_);
 }
 
 bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& request,

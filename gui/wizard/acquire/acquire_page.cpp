@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "acquisition/forecast.h"
+#include "base/message.h"
 #include "calibration/results.h"
-#include "jobs/core_sentences.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stored_settings.h"
+#include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/acquire/retrying.h"
 #include "wizard/devices/missing_screen.h"
@@ -252,7 +253,7 @@ std::optional<double> AcquirePage::verificationError() const {
 QStringList AcquirePage::findings() const {
   QStringList sentences;
   if (const auto& measured = session_.figures<Stage::acquisition>())
-    for (const std::string& finding : measured->findings) sentences << fullSentence(finding);
+    for (const Message& finding : measured->findings) sentences << fullSentence(finding);
   return sentences;
 }
 
@@ -321,12 +322,13 @@ void AcquirePage::begin() {
     return asking->wait();
   };
   job_.start([work = workOf(session_), handler, retrying](Progress& progress) {
-    Progress opening = progress.part(0.05, tr("Opening the devices").toStdString());
+    Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     Rig& rig = work.devices->open(opening);
     CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
-    Progress reading = progress.part(0.0, tr("Reading the response").toStdString());
+    Progress reading = progress.part(0.0, RELUCENT_MESSAGE("stage.reading-response", "Reading the response"));
     Linearization linearization = measureLinearization(folder, rig, reading);
-    Progress measuring = progress.part(0.95, tr("Measuring the light transport").toStdString());
+    Progress measuring = progress.part(
+        0.95, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
     measureAcquisition(folder, rig, linearization, handler, *retrying, measuring);
   });
   tellProgress();
@@ -342,7 +344,8 @@ void AcquirePage::finish() {
 
 void AcquirePage::askAbout(const Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
-                  QString::fromStdString(alarm.sentence()), AcquisitionTrace::headingOf(alarm.kind)};
+                  QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
+                  AcquisitionTrace::headingOf(alarm.kind)};
   Command* goOn = isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
   Q_EMIT failed({failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn});
   Q_EMIT asks();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/camera/camera_choice_view.h"
 
-#include "jobs/core_sentences.h"
+#include "base/message.h"
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -26,12 +27,12 @@ class CameraRow : public QFrame {
     row->addSpacing(8);
     auto* texts = new QVBoxLayout;
     texts->setSpacing(2);
-    const QString name = coreSentence(camera.model);  // "video device", or its maker's
+    const QString name = text(camera.model);
     texts->addWidget(labelOf(name, "strong"));
     texts->addWidget(labelOf(QString::fromStdString(camera.address), "note"));
     if (camera.usable) {
       texts->addWidget(labelOf(factsOf(camera.traits), "note"));
-      for (const std::string& remark : camera.traits.remarks)
+      for (const Message& remark : camera.traits.remarks)
         texts->addWidget(labelOf(fullSentence(remark), "note"));
     } else {
       texts->addWidget(

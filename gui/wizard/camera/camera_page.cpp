@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/message.h"
 #include "linearization/test_light.h"
 #include "views/number_text.h"
 
@@ -220,17 +221,19 @@ void CameraPage::start() {
   shared_->area = area_;
   lease_ = session_.leaseDevices(stepName);
   job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
-    Progress opening = progress.part(0.4, tr("Opening the devices").toStdString());
+    Progress opening = progress.part(0.4, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     Rig& rig = work.devices->open(opening);
     if (work.devices->hasScreen()) {
-      Progress checking = progress.part(0.3, tr("Checking projector and camera").toStdString());
+      Progress checking = progress.part(
+          0.3, RELUCENT_MESSAGE("stage.checking-projector-camera", "Checking projector and camera"));
       RigCheck check = work.devices->check(checking);
       QMutexLocker lock(&shared->guard);
       shared->check = std::move(check);
     }
     NoShotLog nothing;
     ShotTaker shots(rig, nothing, "camera");
-    Progress exposing = progress.part(0.3, tr("Finding the exposures").toStdString());
+    Progress exposing =
+        progress.part(0.3, RELUCENT_MESSAGE("stage.finding-exposures", "Finding the exposures"));
     ExposureChoice choice = chooseExposures(shots, exposing);
     {
       QMutexLocker lock(&shared->guard);
@@ -239,7 +242,8 @@ void CameraPage::start() {
       shared->exposure = choice.seconds.size() / 2;
       if (shared->area == Region{}) shared->area = centre(rig.cameras[0]->size());
     }
-    Progress looking = progress.part(0.0, tr("Looking through the camera").toStdString());
+    Progress looking =
+        progress.part(0.0, RELUCENT_MESSAGE("stage.looking-through-camera", "Looking through the camera"));
     showEven(rig, {1, 1, 1});
     for (int number = shots.shots();; ++number) {
       looking.checkpoint();
@@ -312,7 +316,7 @@ void CameraPage::keepLook() {
   kept.exposures = exposures_.seconds;
   if (check_) {
     kept.latencySeconds = check_->latency.seconds;
-    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept.verdicts.push_back(sentence(verdict));
+    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept.verdicts.push_back(messageOf(verdict));
   }
   try {
     session_.decide(kept);

@@ -5,13 +5,13 @@
 #include <QProgressBar>
 #include <QStackedWidget>
 
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
 #include "wizard/camera/camera_choice_view.h"
-#include "wizard/camera/verdict_text.h"
 
 namespace relucent {
 namespace {
@@ -67,7 +67,7 @@ double tallest(const PhotographCheck& check) {
 QString verdictLines(const std::optional<RigCheck>& check) {
   QStringList lines;
   if (check)
-    for (const CheckVerdict& verdict : verdictsOf(*check)) lines << verdictText(verdict);
+    for (const CheckVerdict& verdict : verdictsOf(*check)) lines << text(messageOf(verdict));
   return lines.join('\n');
 }
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/message.h"
 #include "clustering/cluster_map.h"
 #include "clustering/grouping.h"
 #include "pipeline/pictures.h"
@@ -126,12 +127,13 @@ void ClusterPage::compute() {
   if (prepared_)
     computing_.ask([prepared = prepared_, settings = settings_, camera = camera()](Progress& progress,
                                                                                    const auto& tellSoon) {
-      Progress grouping = progress.part(0.4, "Joining clusters");
+      Progress grouping = progress.part(0.4, RELUCENT_MESSAGE("stage.joining-clusters", "Joining clusters"));
       const Grouping& groups = prepared->grouper->group(settings, grouping);
       const Rasters& cameras = prepared->transport.cameras();
       std::shared_ptr<const ClusterResult> map = mapOf(groups, cameras, camera, prepared->surfaces[camera]);
       tellSoon(map);
-      Progress scaling = progress.part(0.6, "Scaling to the flood image");
+      Progress scaling =
+          progress.part(0.6, RELUCENT_MESSAGE("stage.scaling-to-flood-image", "Scaling to the flood image"));
       return withErrors(*map, cameras, errorOf(*prepared->graph, groups, settings, scaling));
     });
   tellSettings();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/message.h"
 #include "calibration/results.h"
 #include "jobs/time_left.h"
 #include "pipeline/measuring.h"
@@ -153,7 +154,7 @@ void LinearizePage::measure(bool again) {
   lease_ = session_.leaseDevices(stepName);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again](Progress& progress) {
-    Progress opening = progress.part(0.2, tr("Opening the devices").toStdString());
+    Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     Rig& rig = work.devices->open(opening);
     CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
     if (again) {
@@ -162,7 +163,8 @@ void LinearizePage::measure(bool again) {
       setShotsAside(folder, Stage::linearization);
       changeSettings(folder, settings);
     }
-    Progress measuring = progress.part(0.8, tr("Measuring the response").toStdString());
+    Progress measuring =
+        progress.part(0.8, RELUCENT_MESSAGE("stage.measuring-response", "Measuring the response"));
     measureLinearization(folder, rig, measuring);
   });
   tellResult();

@@ -4,7 +4,8 @@
 #include <QComboBox>
 #include <QStackedWidget>
 
-#include "jobs/core_sentences.h"
+#include "base/message.h"
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
@@ -195,7 +196,7 @@ QWidget* inspectorOf(LinearizePage& model) {
     rises->show(Kind::good, LinearizePage::tr("Curves rise everywhere"),
                 LinearizePage::tr("No level is darker than the one below it."));
     QStringList sentences, times;
-    for (const std::string& finding : result.findings) sentences << fullSentence(finding);
+    for (const Message& finding : result.findings) sentences << fullSentence(finding);
     findings->setText(LinearizePage::tr("Found while measuring"), sentences.join("\n\n"));
     for (double seconds : result.exposures) times << exposureText(seconds);
     exposures->setValue(times.join(", "));

@@ -102,32 +102,33 @@ void OutputProof::start(Work work, Job::Work job) {
 void OutputProof::photograph(const QString& picture) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
-  start(Work::photograph,
-        [found = found_, work = workOf(session_), picture, content = session_.settings().content,
-         measured = measurementOf(session_)](Progress& progress) {
-          ProveSettings settings;
-          settings.out = proofFolder(work.path);
-          settings.image = fileOf(picture, settings.out);
-          settings.method = content.method;
-          settings.target = targetOf(content);
-          Progress opening = progress.part(0.2, tr("Opening the devices").toStdString());
-          Rig& rig = work.devices->open(opening);
-          Progress proving = progress.part(0.8, tr("Taking the verification photograph").toStdString());
-          auto proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
-          proof->content = content;
-          proof->measured = measured;
-          saveProof(*proof, settings.out);
-          found->proof = proof;
-        });
+  start(Work::photograph, [found = found_, work = workOf(session_), picture,
+                           content = session_.settings().content,
+                           measured = measurementOf(session_)](Progress& progress) {
+    ProveSettings settings;
+    settings.out = proofFolder(work.path);
+    settings.image = fileOf(picture, settings.out);
+    settings.method = content.method;
+    settings.target = targetOf(content);
+    Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
+    Rig& rig = work.devices->open(opening);
+    Progress proving = progress.part(
+        0.8, RELUCENT_MESSAGE("stage.taking-verification-photograph", "Taking the verification photograph"));
+    auto proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
+    proof->content = content;
+    proof->measured = measured;
+    saveProof(*proof, settings.out);
+    found->proof = proof;
+  });
 }
 
 void OutputProof::checkDrift() {
   if (!isPossible() || !mayFlash()) return;
   found_ = std::make_shared<Found>();
   start(Work::drift, [found = found_, work = workOf(session_)](Progress& progress) {
-    Progress opening = progress.part(0.3, tr("Opening the devices").toStdString());
+    Progress opening = progress.part(0.3, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     Rig& rig = work.devices->open(opening);
-    Progress verifying = progress.part(0.7, tr("Checking for drift").toStdString());
+    Progress verifying = progress.part(0.7, RELUCENT_MESSAGE("stage.checking-drift", "Checking for drift"));
     found->drift = verifyCalibration(work.path, {}, rig, verifying);
     found->drift->found.residual.clear();  // large, and not shown
   });
@@ -144,7 +145,7 @@ void OutputProof::report(const QString& picture) {
     settings.bundle = path / "support.zip";
     settings.attachments = logs;
     settings.evaluate = false;  // what was measured, not what a simulation knows
-    Progress writing = progress.part(1.0, tr("Writing the report").toStdString());
+    Progress writing = progress.part(1.0, RELUCENT_MESSAGE("stage.writing-report", "Writing the report"));
     WrittenFiles written = relucent::report(path, settings, cache, writing);
     found->report = QString::fromStdString(written.files.front().string());
     writeReportPdf(QString::fromStdString(readFile(settings.out)),

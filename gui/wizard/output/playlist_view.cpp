@@ -10,7 +10,8 @@
 #include <QUrl>
 #include <cmath>
 
-#include "jobs/core_sentences.h"
+#include "base/message.h"
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -172,10 +173,9 @@ QWidget* playlistPart(OutputPage& page) {
     for (QToolButton* button : {up, down}) button->setEnabled(several);
     for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow}) widget->setVisible(several);
     remove->setEnabled(!settings.items.isEmpty());
-    QStringList wrong = page.projection().skipped();
-    skipped->setVisible(!wrong.isEmpty());
-    if (!wrong.isEmpty())
-      skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.last().toStdString())));
+    const std::vector<Message> wrong = page.projection().skipped();
+    skipped->setVisible(!wrong.empty());
+    if (!wrong.empty()) skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.back())));
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::progressChanged);
   return part;

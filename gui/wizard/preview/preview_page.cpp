@@ -3,6 +3,7 @@
 
 #include <QFileInfo>
 
+#include "base/message.h"
 #include "output/own_picture.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stored_settings.h"
@@ -93,13 +94,16 @@ void PreviewPage::prepare() {
   job_.start([made = made_, path = session_.path()](Progress& progress) {
     {
       CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
-      Progress reading = progress.part(0.2, tr("Reading the light transport").toStdString());
+      Progress reading = progress.part(
+          0.2, RELUCENT_MESSAGE("stage.reading-light-transport", "Reading the light transport"));
       MeasuredVenue venue = loadMeasuredVenue(folder, reading);
-      Progress inverting = progress.part(0.5, tr("Inverting the light transport").toStdString());
+      Progress inverting = progress.part(
+          0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
       measureInverse(folder, venue, inverting);
     }
     CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
-    Progress loading = progress.part(0.3, tr("Preparing the preview").toStdString());
+    Progress loading =
+        progress.part(0.3, RELUCENT_MESSAGE("stage.preparing-preview", "Preparing the preview"));
     made->measured = loadCalibration(folder, loading);
     CompensatorSettings settings;
     settings.clustering = settingsOf(folder).clustering;

@@ -39,7 +39,8 @@ struct ProjectorSize {
 Rig& SessionDevices::open(Progress& progress) {
   std::scoped_lock lock(guard_);
   if (!opened_) {
-    Progress opening = progress.part(hasScreen() ? 0.3 : 1.0, "Preparing the devices");
+    Progress opening = progress.part(hasScreen() ? 0.3 : 1.0,
+                                     RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
     OpenedRig opened = openRig(settings_, cache_, screens_, opening);
     opened.rig = watched(std::move(opened.rig), live_);
     {
@@ -55,7 +56,8 @@ Rig& SessionDevices::open(Progress& progress) {
 }
 
 void SessionDevices::prove(Progress& progress) {
-  Progress proving = progress.part(0.7, "Looking for the projector's picture");
+  Progress proving = progress.part(
+      0.7, RELUCENT_MESSAGE("stage.looking-projector-picture", "Looking for the projector's picture"));
   Projector& projector = *opened_->rig.projectors.front();
   Camera& camera = *opened_->rig.cameras.front();
   LatencySettings settling;
@@ -82,7 +84,8 @@ RigCheck SessionDevices::check(Progress& progress) {
   RigCheck check;
   check.proof = proof_;
 
-  Progress measuring = progress.part(0.6, "Measuring the latency");
+  Progress measuring =
+      progress.part(0.6, RELUCENT_MESSAGE("stage.measuring-latency", "Measuring the latency"));
   LatencySettings latency;
   latency.frame = frame;
   latency.mostFrames = patience_.mostFrames;
@@ -95,7 +98,7 @@ RigCheck SessionDevices::check(Progress& progress) {
   }
   setLatency(check.latency.seconds);
 
-  Progress judging = progress.part(0.4, "Judging the light");
+  Progress judging = progress.part(0.4, RELUCENT_MESSAGE("stage.judging-light", "Judging the light"));
   LightCheckSettings light;
   light.frame = frame;
   light.photographs = patience_.photographs;

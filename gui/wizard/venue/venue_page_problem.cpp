@@ -5,8 +5,9 @@
 #include <QGuiApplication>
 
 #include "acquisition/forecast.h"
-#include "jobs/core_sentences.h"
+#include "base/message.h"
 #include "jobs/free_space.h"
+#include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/venue/venue_page.h"
 
@@ -81,8 +82,7 @@ VenuePage::Problem VenuePage::firstProblem() const {
                 ? tr("Only your own screen is there. Plug the projector in, and extend the desktop to it.")
                 : tr("Choose the screen that shines on the surface."),
             Remedy::screen};
-  if (std::vector<std::string> found = problems(wanted()); !found.empty())
-    return {fullSentence(found.front())};
+  if (std::vector<Message> found = problems(wanted()); !found.empty()) return {fullSentence(found.front())};
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)
     return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), Remedy::folder};

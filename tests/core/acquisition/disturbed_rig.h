@@ -46,7 +46,7 @@ class DisturbedDriver : public CameraDriver {
     if (venue_->strikes(Fault::lostPackets)) {
       DriverFrame& frame = underWay_.back();
       std::fill(frame.frame.bytes.begin() + std::ssize(frame.frame.bytes) / 3, frame.frame.bytes.end(), 0);
-      frame.damage = "parts of the photograph were lost";
+      frame.damage = Message::plain("parts of the photograph were lost");
     } else if (venue_->strikes(Fault::noFrame)) {
       underWay_.clear();
     } else if (venue_->strikes(Fault::otherSize)) {
@@ -85,7 +85,7 @@ class DisturbedDriver : public CameraDriver {
     return std::chrono::round<std::chrono::microseconds>(std::chrono::duration<double>(seconds));
   }
   void answer() const {
-    if (clock_ < goneUntil_) throw CameraLost("the cable was pulled");
+    if (clock_ < goneUntil_) throw CameraLost(Message::plain("the cable was pulled"));
   }
   /// The photograph before, once more.
   void arriveFirst(std::chrono::microseconds arrived, std::uint64_t id) {

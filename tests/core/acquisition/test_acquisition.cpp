@@ -4,6 +4,7 @@
 #include <QtTest>
 
 #include "acquisition_run.h"
+#include "base/message.h"
 #include "support/stopped.h"
 
 using namespace relucent;
@@ -144,9 +145,8 @@ class TestAcquisition : public QObject {
     Acquisition whole = run();
 
     struct Sink : ProgressSink {
-      void progressed(double fraction, std::string_view name) override {
-        if (QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).startsWith(stage))
-          stop->ask(StopRequest::Kind::keep);
+      void progressed(double fraction, const Message& name) override {
+        if (QString::fromStdString(english(name)).startsWith(stage)) stop->ask(StopRequest::Kind::keep);
         ordered = ordered && fraction >= last;
         last = fraction;
       }
@@ -192,7 +192,7 @@ class TestAcquisition : public QObject {
     }
     QVERIFY(empty > 0 && empty < a.flagged.size());
     QVERIFY(!a.findings.empty());
-    QVERIFY(QString::fromStdString(a.findings.front()).contains("overexposed"));
+    QVERIFY(QString::fromStdString(english(a.findings.front())).contains("overexposed"));
   }
 
   void driftIsFound() {
@@ -200,8 +200,8 @@ class TestAcquisition : public QObject {
     venue.drift = -0.3;
     Acquisition a = Run(venue)();
     QVERIFY(!a.findings.empty());
-    QVERIFY2(QString::fromStdString(a.findings.front()).contains("light changed"),
-             a.findings.front().c_str());
+    QVERIFY2(QString::fromStdString(english(a.findings.front())).contains("light changed"),
+             english(a.findings.front()).c_str());
   }
 
   void settingsAreChecked() {

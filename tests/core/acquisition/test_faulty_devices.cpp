@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "acquisition_run.h"
+#include "base/message.h"
 #include "calibration/shot_journal.h"
 #include "disturbed_rig.h"
 #include "support/sentences.h"
@@ -229,7 +230,8 @@ class TestFaultyDevices : public QObject {
     DisturbedRig rig = measurements_->rig(CameraKind::network, boasting);
     QCOMPARE(rig.camera().exposures().longest, 0.1);
     QCOMPARE(rig.camera().traits().remarks.size(), std::size_t{1});
-    QVERIFY(mentions(rig.camera().traits().remarks.front(), "claims exposures up to 4 s but keeps to 0.1 s"));
+    QVERIFY(mentions(english(rig.camera().traits().remarks.front()),
+                     "claims exposures up to 4 s but keeps to 0.1 s"));
     const auto expected = measurements_->run(modest, log);
     QVERIFY2(expected.measured, expected.said.c_str());
     QVERIFY(!isSame(expected, measurements_->sound(CameraKind::network)));

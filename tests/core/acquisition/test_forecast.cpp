@@ -4,6 +4,7 @@
 
 #include "acquisition/forecast.h"
 #include "acquisition_run.h"
+#include "base/message.h"
 
 using namespace relucent;
 using namespace relucent::test;
@@ -13,9 +14,9 @@ namespace {
 /// Keeps every expectation, and where the measurement stood when it was told.
 class Listener : public ProgressSink {
  public:
-  void progressed(double, std::string_view stage) override {
-    if (stage.substr(0, 5) == "level" && (levels.empty() || levels.back() != stage))
-      levels.emplace_back(stage);
+  void progressed(double, const Message& stage) override {
+    const std::string name = english(stage);
+    if (name.starts_with("level") && (levels.empty() || levels.back() != name)) levels.push_back(name);
   }
   void expected(const WorkLeft& work) override { told.push_back(work); }
 

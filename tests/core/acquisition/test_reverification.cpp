@@ -2,6 +2,7 @@
 #include <QtTest>
 
 #include "acquisition/reverification.h"
+#include "base/message.h"
 #include "venue/device_faults.h"
 #include "venue/venue.h"
 
@@ -140,9 +141,10 @@ class TestReverification : public QObject {
     MeasuredVenue& measured = *venues_[venue];
     Reverification found = measured.lookAgain(faults);
     Judgement judgement = judge(found, measured.errorThen());
-    QByteArray figures = (shown(found) + "; " + QString::fromStdString(judgement.sentence)).toLocal8Bit();
+    QByteArray figures =
+        (shown(found) + "; " + QString::fromStdString(english(judgement.sentence))).toLocal8Bit();
     QVERIFY2(judgement.verdict == verdict, figures.constData());
-    QVERIFY2(QString::fromStdString(judgement.sentence).contains(says), figures.constData());
+    QVERIFY2(QString::fromStdString(english(judgement.sentence)).contains(says), figures.constData());
   }
 
   /// Law: another seed is other noise, not another venue: the error stays what it was. Twice 8 patterns of
@@ -174,7 +176,8 @@ class TestReverification : public QObject {
     rig.cameras[0] = std::make_unique<DimmedCamera>(std::move(rig.cameras[0]), power);
     Reverification found = measured.lookAgain(std::move(rig));
     Judgement judgement = judge(found, measured.errorThen());
-    QByteArray figures = (shown(found) + "; " + QString::fromStdString(judgement.sentence)).toLocal8Bit();
+    QByteArray figures =
+        (shown(found) + "; " + QString::fromStdString(english(judgement.sentence))).toLocal8Bit();
     QVERIFY2(judgement.verdict == verdict, figures.constData());
     // Saturated pixels are left out; the least squares of 8 patterns over 1200 pixels is known to a per
     // mille.

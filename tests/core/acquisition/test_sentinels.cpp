@@ -147,7 +147,7 @@ class TestSentinels : public QObject {
         },
         log);
     QCOMPARE(alarms.size(), std::size_t{1});
-    QVERIFY2(alarms[0].kind == kind, alarms[0].sentence().c_str());
+    QVERIFY2(alarms[0].kind == kind, english(alarms[0].what).c_str());
     QVERIFY(!alarms[0].what.empty() && !alarms[0].safe.empty() && !alarms[0].advice.empty());
     QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
     QVERIFY(a.black == venue_->sound().black && a.flagged == venue_->sound().flagged);
@@ -318,8 +318,9 @@ class TestSentinels : public QObject {
     // Put up with once, what is there now is expected from then on; and it is on record.
     QCOMPARE(alarms.size(), std::size_t{1});
     QVERIFY(isAcceptable(alarms[0].kind));
-    auto names = [&](const std::string& finding) {
-      return finding.starts_with("put up with before pattern ") && finding.ends_with(alarms[0].what);
+    auto names = [&](const Message& finding) {
+      const std::string text = english(finding);
+      return text.starts_with("put up with before pattern ") && text.ends_with(english(alarms[0].what));
     };
     QCOMPARE(std::count_if(a.findings.begin(), a.findings.end(), names), 1);
     QVERIFY(a.transport.leaves().blocks() > 0);

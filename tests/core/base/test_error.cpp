@@ -28,20 +28,24 @@ class TestError : public QObject {
     QFETCH(QString, advice);
     QFETCH(QString, context);
     QFETCH(QString, line);
-    const Error error(ErrorKind::device, "it is gone", advice.toStdString(), context.toStdString());
+    const Error error(ErrorKind::device, Message::plain("it is gone"), Message::plain(advice.toStdString()),
+                      context.toStdString());
     QCOMPARE(QString(error.what()), line);
     QVERIFY(error.kind() == ErrorKind::device);
-    QCOMPARE(error.summary(), std::string("it is gone"));
-    QCOMPARE(QString::fromStdString(error.advice()), advice);
+    QVERIFY(error.summary() == Message::plain("it is gone"));
+    QCOMPARE(QString::fromStdString(english(error.advice())), advice);
+    QCOMPARE(QString::fromStdString(englishSentence(error.sentence())), line);
     QCOMPARE(QString::fromStdString(error.context()), context);
   }
 
   void contextsNestFromTheOutside() {
-    const Error inner(ErrorKind::format, "it is cut short", "copy it again", "a.exr");
+    const Error inner(ErrorKind::format, Message::plain("it is cut short"), Message::plain("copy it again"),
+                      "a.exr");
     const Error outer = inner.within("shot 3").within("resume");
     QCOMPARE(QString(outer.what()), QString("resume: shot 3: a.exr: it is cut short; copy it again."));
     QVERIFY(outer.kind() == ErrorKind::format);
-    QCOMPARE(QString(Error(ErrorKind::disk, "it is full", "").within("x").what()), QString("x: it is full."));
+    QCOMPARE(QString(Error(ErrorKind::disk, Message::plain("it is full"), {}).within("x").what()),
+             QString("x: it is full."));
   }
 
   void everyKindHasItsOwnName() {

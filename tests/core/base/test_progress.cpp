@@ -12,9 +12,9 @@ struct Recorder : ProgressSink {
   std::vector<double> fractions;
   std::vector<std::string> stages;
   std::vector<std::string> previews;
-  void progressed(double fraction, std::string_view stage) override {
+  void progressed(double fraction, const Message& stage) override {
     fractions.push_back(fraction);
-    stages.emplace_back(stage);
+    stages.push_back(english(stage));
   }
   void previewed(const Preview& preview) override { previews.push_back(preview.name); }
   bool ascends() const { return std::is_sorted(fractions.begin(), fractions.end()); }
@@ -25,7 +25,7 @@ void wander(Progress& progress, Random& random, int depth) {
   const std::uint64_t parts = random.below(4);
   for (std::uint64_t i = 0; i < parts; ++i) {
     progress.report(random.uniform());
-    Progress part = progress.part(random.uniform(), "depth " + std::to_string(depth));
+    Progress part = progress.part(random.uniform(), Message::plain("depth " + std::to_string(depth)));
     if (depth > 0) wander(part, random, depth - 1);
     if (random.below(2) == 0) part.report(1.0);
   }
@@ -42,13 +42,13 @@ class TestProgress : public QObject {
     StopRequest stop;
     Progress whole(sink, stop);
     {
-      Progress first = whole.part(0.25, "first");
+      Progress first = whole.part(0.25, Message::plain("first"));
       first.report(0.5);
-      Progress inner = first.part(0.5, "inner");
+      Progress inner = first.part(0.5, Message::plain("inner"));
       inner.report(0.5);
-      QCOMPARE(inner.stage(), std::string("inner"));
+      QCOMPARE(english(inner.stage()), std::string("inner"));
     }
-    Progress second = whole.part(0.75, "second");
+    Progress second = whole.part(0.75, Message::plain("second"));
     second.report(1.0);
     QCOMPARE(sink.fractions, (std::vector<double>{0.0, 0.125, 0.125, 0.1875, 0.25, 1.0}));
     QCOMPARE(sink.stages, (std::vector<std::string>{"first", "first", "inner", "inner", "second", "second"}));
@@ -81,21 +81,21 @@ class TestProgress : public QObject {
     whole.report(0.2);
     whole.report(7.0);
     QCOMPARE(sink.fractions, (std::vector<double>{0.0, 0.5, 0.5, 1.0}));
-    QVERIFY_THROWS_EXCEPTION(std::logic_error, whole.part(1.5, "too much"));
-    QVERIFY_THROWS_EXCEPTION(std::logic_error, whole.part(-0.1, "too little"));
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, whole.part(1.5, Message::plain("too much")));
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, whole.part(-0.1, Message::plain("too little")));
   }
 
   void cancellingReachesEveryPart() {
     Recorder sink;
     StopRequest stop;
     Progress whole(sink, stop);
-    Progress part = whole.part(0.5, "part");
-    Progress inner = part.part(0.5, "inner");
+    Progress part = whole.part(0.5, Message::plain("part"));
+    Progress inner = part.part(0.5, Message::plain("inner"));
     inner.checkpoint();
     stop.ask(StopRequest::Kind::cancel);
     QVERIFY_THROWS_EXCEPTION(Cancelled, inner.checkpoint());
     QVERIFY_THROWS_EXCEPTION(Cancelled, inner.report(0.5));
-    QVERIFY_THROWS_EXCEPTION(Cancelled, whole.part(0.1, "next"));
+    QVERIFY_THROWS_EXCEPTION(Cancelled, whole.part(0.1, Message::plain("next")));
     QVERIFY(!inner.stopAndKeep());
   }
 
@@ -115,7 +115,7 @@ class TestProgress : public QObject {
 
   void nobodyHasToListen() {
     Progress nobody;
-    nobody.part(0.5, "x").report(0.7);
+    nobody.part(0.5, Message::plain("x")).report(0.7);
     nobody.preview({"p", {1, 1}, {0, 0, 0}});
     nobody.checkpoint();
     QVERIFY(!nobody.stopAndKeep());
@@ -125,7 +125,7 @@ class TestProgress : public QObject {
     Recorder sink;
     StopRequest stop;
     Progress whole(sink, stop);
-    whole.part(0.1, "x").preview({"flood", {1, 1}, {0, 0, 0}});
+    whole.part(0.1, Message::plain("x")).preview({"flood", {1, 1}, {0, 0, 0}});
     QCOMPARE(sink.previews, std::vector<std::string>{"flood"});
   }
 };

@@ -237,7 +237,7 @@ class TestCalibrationFolder : public QObject {
     std::string manifest = readFile(root_ / "c/calibration.relucent");
     auto fail = [](const fs::path& in) {
       writeFileAtomically(in / "a", "half");
-      throw Error(ErrorKind::disk, "the disk is full", "free some space");
+      throw Error(ErrorKind::disk, Message::plain("the disk is full"), Message::plain("free some space"));
     };
     QVERIFY(kindOf([&] { folder.store(Stage::threshold, "f2", {}, fail); }) == ErrorKind::disk);
     QCOMPARE(readFile(root_ / "c/calibration.relucent"), manifest);

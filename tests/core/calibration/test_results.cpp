@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/random.h"
 #include "calibration/json.h"
 #include "calibration/results.h"
@@ -31,8 +32,20 @@ Linearization someLinearization() {
   linearization.cameras = {camera, CameraModel()};
   linearization.exposures = {0.5, 1.0 / 24.0};
   linearization.additivityError = {0.01, 0.02};
-  linearization.findings = {"White is 18 % too bright"};
+  linearization.findings = {RELUCENT_ENGLISH_MESSAGE("test.white", "White is {} % too bright")
+                                .with(as::share(0.18, as::decimals(0)))};
   return linearization;
+}
+
+/// Where the list ends that begins at `open`; no brackets are within its texts.
+std::size_t closingBracket(const std::string& text, std::size_t open) {
+  int depth = 0;
+  std::size_t at = open;
+  do {
+    if (text[at] == '[') ++depth;
+    if (text[at] == ']') --depth;
+  } while (depth > 0 && ++at < text.size());
+  return at;
 }
 
 Stack randomStack(std::size_t pixels, std::uint64_t seed) {
@@ -57,6 +70,23 @@ class TestResults : public QObject {
     root_ = temporary_.path().toStdString();
   }
 
+  /// As calibrations hold them that were made before findings were messages.
+  void findingsThatAreSentencesAreRead() {
+    {
+      CalibrationFolder made = CalibrationFolder::create(root_ / "c", {}, {});
+      storeLinearization(made, "f", someLinearization(), {1.5});
+    }
+    const fs::path manifest = root_ / "c" / "calibration.relucent";
+    std::string text = readFile(manifest);
+    const std::size_t begin = text.find('[', text.find("\"findings\""));
+    text.replace(begin, closingBracket(text, begin) + 1 - begin, R"(["White is 18 % too bright."])");
+    writeFileAtomically(manifest, text);
+    CalibrationFolder folder = CalibrationFolder::open(root_ / "c", CalibrationFolder::Access::read);
+    const Linearization read = loadLinearization(folder.find(Stage::linearization, "f").value());
+    QCOMPARE(read.findings.size(), std::size_t{1});
+    QCOMPARE(english(read.findings.front()), std::string("White is 18 % too bright."));
+  }
+
   void linearizationComesBackNumberForNumber() {
     Linearization before = someLinearization();
     {
@@ -66,7 +96,7 @@ class TestResults : public QObject {
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", CalibrationFolder::Access::read);
     Linearization after = loadLinearization(folder.find(Stage::linearization, "f").value());
     QCOMPARE(after.exposures, before.exposures);
-    QCOMPARE(after.findings, before.findings);
+    QVERIFY(after.findings == before.findings);
     QCOMPARE(after.cameras[0].times, before.cameras[0].times);
     QCOMPARE(after.cameras[0].readNoise, before.cameras[0].readNoise);
     QVERIFY(after.projectors[0].channels[1].isIdentity());
@@ -121,7 +151,7 @@ class TestResults : public QObject {
     before.verificationError = 0.01;
     before.patterns = 805;
     before.exposures = 1551;
-    before.findings = {"the room light changed"};
+    before.findings = {RELUCENT_ENGLISH_MESSAGE("test.room", "the room light changed")};
 
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
     StageResult result = storeAcquisition(folder, "f", before, {});
@@ -140,7 +170,7 @@ class TestResults : public QObject {
     QCOMPARE(after.verificationError, before.verificationError);
     QCOMPARE(after.patterns, before.patterns);
     QCOMPARE(after.exposures, before.exposures);
-    QCOMPARE(after.findings, before.findings);
+    QVERIFY(after.findings == before.findings);
 
     fs::resize_file(result.folder / "flood-2.exr", 20);
     QVERIFY_EXCEPTION_THROWN(loadAcquisition(result), Error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
+#include "base/message.h"
 #include "cli/devices_document.h"
 
 using namespace relucent;
@@ -9,14 +10,17 @@ namespace {
 
 CameraList twoCameras() {
   CameraList devices;
-  devices.support = {{"genicam", true, "cameras of machines"}, {"v4l2", false, "not built in"}};
-  ListedCamera good{"genicam:7", "Maker Model", true};
+  devices.support = {{"genicam", true, Message::plain("cameras of machines")},
+                     {"v4l2", false, Message::plain("not built in")}};
+  ListedCamera good{"genicam:7", Message::plain("Maker Model"), true};
   good.traits.size = {1024, 768};
   good.traits.format = {SensorLayout::bayerRG, 12};
   good.traits.exposures = {0.0001, 2.0};
   good.traits.triggered = true;
-  good.traits.remarks = {"claims exposures up to 10 s but keeps to 2 s"};
-  devices.cameras = {good, {"v4l2:/dev/video0", "Webcam", false, "it is in use; close the other program"}};
+  good.traits.remarks = {Message::plain("claims exposures up to 10 s but keeps to 2 s")};
+  devices.cameras = {good,
+                     {"v4l2:/dev/video0", Message::plain("Webcam"), false,
+                      Message::plain("it is in use; close the other program")}};
   return devices;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Percolation, and the cap that holds clusters to a size.
+#include "base/message.h"
 #include "clustering/clustering.h"
 
 #include <QtTest>
@@ -61,11 +62,11 @@ class TestSizeCap : public QObject {
     ClusteringSettings settings = asPrinted(8.0, 0.3);
     Clustering printed = clustered(graph, settings, quiet);
     QVERIFY(printed.statistics.percolated && !printed.statistics.capped);
-    QVERIFY(QString::fromStdString(printed.statistics.finding).contains("allow a cap"));
+    QVERIFY(QString::fromStdString(english(printed.statistics.finding)).contains("allow a cap"));
     settings.cap = SizeCap::whenPercolated;
     Clustering capped = clustered(graph, settings, quiet);
     QVERIFY(capped.statistics.capped && capped.statistics.largest <= 256);
-    QVERIFY(QString::fromStdString(capped.statistics.finding).contains("held to 256"));
+    QVERIFY(QString::fromStdString(english(capped.statistics.finding)).contains("held to 256"));
     QCOMPARE(capped.statistics.largestBeforeCap, printed.statistics.largest);
   }
 };

@@ -17,7 +17,7 @@ namespace {
 Progress quiet;
 
 struct Sink : ProgressSink {
-  void progressed(double fraction, std::string_view) override { QVERIFY(fraction >= 0.0 && fraction <= 1.0); }
+  void progressed(double fraction, const Message&) override { QVERIFY(fraction >= 0.0 && fraction <= 1.0); }
 };
 
 Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {

@@ -226,7 +226,7 @@ class TestTarget : public QObject {
     for (int i = 0; i < 8; ++i)
       (*settings.corners)[static_cast<std::size_t>(i / 2)][static_cast<std::size_t>(i % 2)] = corners[i];
     QString sentence;
-    for (const std::string& problem : problems(settings)) sentence = QString::fromStdString(problem);
+    for (const Message& problem : problems(settings)) sentence = QString::fromStdString(english(problem));
     if (sentence.isEmpty()) {
       try {
         fitTarget(Image({4, 3}, 3, 1.0f), venueOf(makeScene({})), settings);

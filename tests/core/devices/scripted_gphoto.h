@@ -253,7 +253,8 @@ class ScriptedPort : public GphotoPort {
 /// What stands in for raw files: a value, and what is wrong with the file.
 inline RawPhotograph scriptedRaw(const std::vector<std::uint8_t>& bytes, const std::string& name) {
   if (bytes.at(1) == 1)
-    throw Error(ErrorKind::format, "the raw file cannot be read (cut short)", "take it again", name);
+    throw Error(ErrorKind::format, Message::plain("the raw file cannot be read (cut short)"),
+                Message::plain("take it again"), name);
   const Size size = bytes.at(1) == 2 ? Size{4, 4} : Size{12, 8};
   RawPhotograph photograph;
   photograph.frame = {size, {SensorLayout::bayerRG, 8}, {}, SensorLevels{{10, 10, 10, 10}, 110.0f}};

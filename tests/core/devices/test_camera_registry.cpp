@@ -28,14 +28,14 @@ CameraKind darkKind() {
   return {.prefix = "dark",
           .place = "ROOM",
           .help = "a camera in the dark",
-          .support = "cameras in the dark",
+          .support = Message::plain("cameras in the dark"),
           .open =
               [](const std::string& place, const CameraWishes& wishes) {
                 return std::make_unique<DarkCamera>(place, wishes.size.value_or(Size{8, 6}));
               },
           .list =
               [] {
-                return std::vector<ListedCamera>{{"dark:cellar", "Dark", true}};
+                return std::vector<ListedCamera>{{"dark:cellar", Message::plain("Dark"), true}};
               }};
 }
 
@@ -44,10 +44,11 @@ CameraKind missingKind() {
   return {.prefix = "light",
           .place = "LAMP",
           .help = "a camera in the light; not in this build",
-          .support = "cameras in the light: this build lacks them",
+          .support = Message::plain("cameras in the light: this build lacks them"),
           .isBuiltIn = false,
           .open = [](const std::string&, const CameraWishes&) -> std::unique_ptr<Camera> {
-            throw Error(ErrorKind::device, "this build does not know light", "build again");
+            throw Error(ErrorKind::device, Message::plain("this build does not know light"),
+                        Message::plain("build again"));
           }};
 }
 
@@ -137,11 +138,12 @@ class TestCameraRegistry : public QObject {
 
   void aListTellsWhatIsWrong() {
     const ListedCamera camera = judged(
-        "v4l2:/dev/null", "a hole",
+        "v4l2:/dev/null", Message::plain("a hole"),
         [] { return makeVideoDriver(openCvVideoSource("/dev/null"), "v4l2:/dev/null", std::nullopt); },
         videoPatience());
     QVERIFY(!camera.usable);
-    QVERIFY(mentions(camera.problem, "cannot be opened: another program may be using it; check its cable"));
+    QVERIFY(mentions(english(camera.problem),
+                     "cannot be opened: another program may be using it; check its cable"));
   }
 
   void aKindOfOnesOwnIsOpenedAndListed() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "base/message.h"
 #include "devices/check_verdict.h"
 
 #include <QtTest>
@@ -60,12 +61,12 @@ class TestCheckVerdict : public QObject {
   void sentencesStayAsTheyAre() {
     QFETCH(CheckVerdict, verdict);
     QFETCH(QString, text);
-    QCOMPARE(QString::fromStdString(sentence(verdict)), text);
+    QCOMPARE(QString::fromStdString(english(messageOf(verdict))), text);
   }
 
   void everyFindingHasASentenceOfItsOwn() {
     std::set<std::string> sentences;
-    for (Finding finding : allFindings) sentences.insert(sentence({finding}));
+    for (Finding finding : allFindings) sentences.insert(english(messageOf({finding})));
     QCOMPARE(sentences.size(), allFindings.size());
     QVERIFY(!sentences.contains(""));
   }

@@ -45,7 +45,7 @@ class ScriptedDriver : public CameraDriver {
   std::string name() const override { return "scripted"; }
   CameraTraits connect() override {
     script_->diary.push_back("connect");
-    if (script_->connectsThatFail-- > 0) throw CameraLost("nobody answers");
+    if (script_->connectsThatFail-- > 0) throw CameraLost(Message::plain("nobody answers"));
     script_->connectsThatFail = 0;
     script_->isConnected = true;
     script_->underWay.clear();
@@ -74,12 +74,12 @@ class ScriptedDriver : public CameraDriver {
     switch (answer) {
       case Answer::gone:
         script_->isConnected = false;
-        throw CameraLost("the cable was pulled");
+        throw CameraLost(Message::plain("the cable was pulled"));
       case Answer::nothing:
         return;
       case Answer::damaged:
         send(end);
-        script_->underWay.back().damage = "parts of the photograph were lost";
+        script_->underWay.back().damage = Message::plain("parts of the photograph were lost");
         return;
       case Answer::small:
         send(end);
@@ -270,7 +270,8 @@ class TestDrivenCamera : public QObject {
     QCOMPARE(venue.camera->exposures().shortest, 0.002);
     QCOMPARE(venue.camera->exposures().longest, 0.05);
     QCOMPARE(venue.camera->traits().remarks.size(), std::size_t{2});
-    QVERIFY(mentions(venue.camera->traits().remarks[0], "claims exposures up to 5 s but keeps to 0.05 s"));
+    QVERIFY(mentions(english(venue.camera->traits().remarks[0]),
+                     "claims exposures up to 5 s but keeps to 0.05 s"));
     // Whoever asks for more all the same is told.
     const std::string sentence = sentenceOf([&] { venue.photograph(1.0); }, ErrorKind::device);
     QVERIFY(mentions(sentence, "was asked to expose 1 s and keeps to 0.05 s"));

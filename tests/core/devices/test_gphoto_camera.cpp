@@ -2,6 +2,7 @@
 // DSLR and mirrorless cameras, against scripted ones of three makers.
 #include <QtTest>
 
+#include "base/message.h"
 #include "core/devices/scripted_gphoto.h"
 #include "devices/gphoto_failure.h"
 #include "devices/gphoto_setup.h"
@@ -46,9 +47,9 @@ StillScript ofMaker(const QString& maker) {
 }
 
 bool isRemarked(const Venue& venue, const std::string& part) {
-  const std::vector<std::string>& remarks = venue.camera->traits().remarks;
+  const std::vector<Message>& remarks = venue.camera->traits().remarks;
   return std::any_of(remarks.begin(), remarks.end(),
-                     [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
+                     [&](const Message& remark) { return english(remark).find(part) != std::string::npos; });
 }
 
 }  // namespace
@@ -428,12 +429,14 @@ class TestGphotoCamera : public QObject {
     auto open = [&] {
       return makeGphotoDriver(std::make_unique<ScriptedPort>(script), settings, scriptedRaw);
     };
-    const ListedCamera good = judged("gphoto2:Canon EOS 80D", "Canon EOS 80D", open, gphotoPatience());
-    QVERIFY2(good.usable, good.problem.c_str());
+    const ListedCamera good =
+        judged("gphoto2:Canon EOS 80D", Message::plain("Canon EOS 80D"), open, gphotoPatience());
+    QVERIFY2(good.usable, english(good.problem).c_str());
     script->be(Trouble::claimed, 1h);
-    const ListedCamera held = judged("gphoto2:Canon EOS 80D", "Canon EOS 80D", open, gphotoPatience());
+    const ListedCamera held =
+        judged("gphoto2:Canon EOS 80D", Message::plain("Canon EOS 80D"), open, gphotoPatience());
     QVERIFY(!held.usable);
-    QVERIFY(mentions(held.problem, "gio mount -s gphoto2"));
+    QVERIFY(mentions(english(held.problem), "gio mount -s gphoto2"));
     const auto places = gphotoPlaces({{"A", "usb:1"}, {"B", "usb:2"}, {"a", "usb:3"}});
     QVERIFY((places == std::vector<std::string>{"usb:1", "B", "usb:3"}));
   }

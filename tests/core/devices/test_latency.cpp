@@ -112,7 +112,7 @@ class TestLatency : public QObject {
     const Latency latency = measured(stage, exposure);
     // A picture is out after `delay` to `delay` + 1 frames, as it happens to be sent late or early in one.
     QVERIFY(latency.frames == delay || latency.frames == delay + 1);
-    QVERIFY(mentions(sentence(latency.verdicts.front()),
+    QVERIFY(mentions(english(messageOf(latency.verdicts.front())),
                      "A picture is out " + std::to_string(latency.frames) + " frame"));
 
     // Whoever waits so long sees nothing older, whenever it begins.
@@ -154,7 +154,7 @@ class TestLatency : public QObject {
     const Latency latency = measured(stage, 0.002, settings);
     QVERIFY(latency.flicker > 0.02);
     QCOMPARE(latency.verdicts.size(), std::size_t{2});
-    QVERIFY(mentions(sentence(latency.verdicts[1]),
+    QVERIFY(mentions(english(messageOf(latency.verdicts[1])),
                      "expose whole frames of the projector, multiples of 16.67 ms"));
     Stage steady;
     QCOMPARE(measured(steady, 0.002).verdicts.size(), std::size_t{1});

@@ -150,7 +150,7 @@ class TestLightCheck : public QObject {
     const LightCheck check = checked(faults, silent);
     QString all;
     for (const CheckVerdict& verdict : check.verdicts)
-      all += QString::fromStdString(sentence(verdict)) + "\n";
+      all += QString::fromStdString(english(messageOf(verdict))) + "\n";
     qInfo("unsteady %.3f, flicker %.3f, colours %.3f, bands %.3f, dither %.3f", check.unsteady, check.flicker,
           check.colours, check.bands, check.dither);
     for (const char* word : {"lamp flickers", "through a colour wheel", "rolling shutter", "mixes greys",
@@ -165,7 +165,7 @@ class TestLightCheck : public QObject {
     Progress silent;
     const LightCheck check = checked(faults, silent);
     QCOMPARE(check.brief, 0.0);
-    QVERIFY(mentions(sentence(check.verdicts.back()), "cannot be told"));
+    QVERIFY(mentions(english(messageOf(check.verdicts.back())), "cannot be told"));
   }
 
   void whatSeesNothingIsTold() {

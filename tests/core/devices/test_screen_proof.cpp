@@ -126,7 +126,7 @@ class TestScreenProof : public QObject {
       QCOMPARE(proof.isSeen, seen);
       QCOMPARE(proof.sight.mirrored, mirrored);
       QCOMPARE(proof.instead, instead.toStdString());
-      QCOMPARE(mentions(sentence(proof.verdicts.back()), "mirrored"), mirrored);
+      QCOMPARE(mentions(english(messageOf(proof.verdicts.back())), "mirrored"), mirrored);
       if (seen) {
         requireSeen(proof, *rig.projectors[0], *rig.cameras[0]);
         continue;
@@ -150,7 +150,7 @@ class TestScreenProof : public QObject {
     const ScreenProof proof = proved(rig, settings);
     QVERIFY(proof.isSeen);
     QCOMPARE(proof.sight.late, late);
-    QCOMPARE(mentions(sentence(proof.verdicts.back()), "come late"), late > 0);
+    QCOMPARE(mentions(english(messageOf(proof.verdicts.back())), "come late"), late > 0);
   }
 
   /// A camera that sees no light is given the longest exposure: so few of these as can be. Another screen has

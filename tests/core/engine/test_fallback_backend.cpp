@@ -17,7 +17,8 @@ class FailingBackend : public EngineBackend {
       : cpu_(engine), frames_(frames), takesContent_(takesContent) {}
   std::string_view name() const override { return "scripted"; }
   void setContent(const EngineContent& content) override {
-    if (!takesContent_) throw Error(ErrorKind::device, "no memory left", "try again");
+    if (!takesContent_)
+      throw Error(ErrorKind::device, Message::plain("no memory left"), Message::plain("try again"));
     cpu_.setContent(content);
   }
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
@@ -60,7 +61,7 @@ class TestFallbackBackend : public QObject {
     FallbackBackend backend(
         std::make_unique<FailingBackend>(engine, goodFrames, takesContent),
         [&] { return std::make_unique<CpuBackend>(engine); },
-        [&](const std::string& sentence) { told.push_back(sentence); });
+        [&](const Message& sentence) { told.push_back(english(sentence)); });
     backend.setContent(placed);
     for (int frame = 0; frame < 5; ++frame) {
       const FrameRequest request{true, frame % 3, 1.0f, 0.0f};
@@ -89,9 +90,12 @@ class TestFallbackBackend : public QObject {
     QVERIFY(backend.render(frameOf(content), {}, words, report));
     QVERIFY(!backend.render(frameOf(content), {}, words, report));
 
-    FallbackBackend helpless(
-        std::make_unique<FailingBackend>(engine, 0),
-        []() -> std::unique_ptr<EngineBackend> { throw Error(ErrorKind::memory, "none", "buy some"); }, {});
+    FallbackBackend helpless(std::make_unique<FailingBackend>(engine, 0),
+                             []() -> std::unique_ptr<EngineBackend> {
+                               throw Error(ErrorKind::memory, Message::plain("none"),
+                                           Message::plain("buy some"));
+                             },
+                             {});
     helpless.setContent(placed);
     QVERIFY(!helpless.render(frameOf(content), {}, words, report));
     QVERIFY(!helpless.render(frameOf(content), {}, words, report));
@@ -110,7 +114,7 @@ class TestFallbackBackend : public QObject {
     int told = 0;
     FallbackBackend backend(
         std::move(first), [&] { return std::make_unique<CpuBackend>(engine); },
-        [&](const std::string&) { ++told; });
+        [&](const Message&) { ++told; });
     backend.setContent(placed);
     std::vector<std::uint32_t> before(engine.brightest.size()), after(before.size());
     FrameReport report;

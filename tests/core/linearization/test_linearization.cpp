@@ -57,10 +57,10 @@ class MemoryLog : public ShotLog {
 
 class Watcher : public ProgressSink {
  public:
-  void progressed(double fraction, std::string_view stage) override {
+  void progressed(double fraction, const Message& stage) override {
     ascends_ = ascends_ && fraction >= last_ - 1e-12;
     last_ = fraction;
-    if (stages_.empty() || stages_.back() != stage) stages_.emplace_back(stage);
+    if (stages_.empty() || stages_.back() != english(stage)) stages_.push_back(english(stage));
   }
   bool ascends_ = true;
   double last_ = 0.0;
@@ -135,7 +135,7 @@ class TestLinearization : public QObject {
       double error = worstError(found.projectors[0].channels[c], projector.curves[c]);
       QVERIFY2(error < (kinks ? 0.015 : 0.003), qPrintable(QString("channel %1: %2").arg(c).arg(error)));
     }
-    QVERIFY2(found.findings.empty(), found.findings.empty() ? "" : found.findings.front().c_str());
+    QVERIFY2(found.findings.empty(), found.findings.empty() ? "" : english(found.findings.front()).c_str());
     QVERIFY(found.additivityError[0] < setup.settings.additivityLimit);
   }
 
@@ -204,7 +204,7 @@ class TestLinearization : public QObject {
     QCOMPARE(!found.findings.empty(), finding);
     QVERIFY2(std::abs(found.additivityError[0] - whiteSegment) < 0.005,
              qPrintable(QString::number(found.additivityError[0])));
-    if (finding) QVERIFY(QString::fromStdString(found.findings.front()).contains("white segment"));
+    if (finding) QVERIFY(QString::fromStdString(english(found.findings.front())).contains("white segment"));
   }
 
   void flickerIsFound() {
@@ -213,8 +213,8 @@ class TestLinearization : public QObject {
     setup.settings.levels = 9;
     Linearization found = run(setup.venue(), setup.settings);
     bool said = false;
-    for (const std::string& finding : found.findings)
-      said = said || QString::fromStdString(finding).contains("from one photograph to the next");
+    for (const Message& finding : found.findings)
+      said = said || QString::fromStdString(english(finding)).contains("from one photograph to the next");
     QVERIFY(said);
   }
 

@@ -2,6 +2,7 @@
 #include <QTest>
 #include <limits>
 
+#include "base/message.h"
 #include "pipeline/json.h"
 
 using namespace relucent;
@@ -12,8 +13,8 @@ class TestJson : public QObject {
 
  private slots:
   void calibrateDocument() {
-    CalibrateResult result{805,  1551, {1.0, 2.0, 3.0}, 30000000, 2000000, 0.01,
-                           0.02, 0.03, 4000000000,      {"a"}};
+    CalibrateResult result{805,  1551,       {1.0, 2.0, 3.0},      30000000, 2000000, 0.01, 0.02,
+                           0.03, 4000000000, {Message::plain("a")}};
     QCOMPARE(
         toJson(result).dump(),
         std::string(R"({"patterns":805,"exposures":1551,"seconds":{"linearization":1.0,"acquisition":2.0,)"

@@ -46,7 +46,7 @@ CalibrateSettings smallVenue(const std::string& name, std::uint64_t seed = 1) {
 class StopAt : public ProgressSink {
  public:
   StopAt(double fraction, StopRequest& stop) : fraction_(fraction), stop_(stop) {}
-  void progressed(double fraction, std::string_view) override {
+  void progressed(double fraction, const Message&) override {
     if (fraction >= fraction_) stop_.ask(StopRequest::Kind::cancel);
   }
 
@@ -138,7 +138,8 @@ class TestPipeline : public QObject {
     settings.out = root() / "verified";
     Progress silent;
     VerifyResult result = verifyCalibration(root() / "plain", settings, cache(), silent);
-    QVERIFY2(static_cast<int>(result.judgement.verdict) == verdict, result.judgement.sentence.c_str());
+    QVERIFY2(static_cast<int>(result.judgement.verdict) == verdict,
+             english(result.judgement.sentence).c_str());
     QVERIFY(result.errorThen > 0.0 && result.found.exposures >= result.found.patterns);
     QCOMPARE(result.files.size(), std::size_t{5});
     for (const fs::path& file : result.files) QVERIFY((readRgbExr(file).size() == Size{28, 21}));

@@ -156,7 +156,8 @@ class TestShotTaker : public QObject {
       ShotTaker shots(rig_, log, "acquisition");
       shots.take({pattern(0), pattern(0)}, {0.5}, Progress());
       cameras_[1]->beforeCapture = [] {
-        throw Error(ErrorKind::device, "the cable is out", "plug it in", "camera 1");
+        throw Error(ErrorKind::device, Message::plain("the cable is out"), Message::plain("plug it in"),
+                    "camera 1");
       };
       QVERIFY_THROWS_EXCEPTION(Error, shots.take({pattern(1), pattern(0)}, {0.5}, Progress()));
       QCOMPARE(log.shots.size(), std::size_t{1});  // no half shot is kept

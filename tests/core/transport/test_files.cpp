@@ -271,7 +271,7 @@ class TestFiles : public QObject {
     QCOMPARE(expansion.side(), side);
     QVERIFY(expansion.blocks() <= blocks);
     QVERIFY(expansion.sampledShare() > 0.0 && expansion.sampledShare() < 1.0);
-    QVERIFY(QString::fromStdString(expansion.summary()).contains("sample"));
+    QVERIFY(QString::fromStdString(english(expansion.summary())).contains("sample"));
     Stack white(3 * transport.projectors().count(), 1.0f);
     Stack expected = transport.floodlight(), seen = applied(expansion, white);
     for (std::size_t i = 0; i < seen.size(); ++i) QVERIFY(std::abs(seen[i] - expected[i]) < 1e-4f);

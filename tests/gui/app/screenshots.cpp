@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "app/wizard_window.h"
+#include "base/message.h"
 #include "theme/theme.h"
 #include "views/map_view.h"
 #include "wizard/acquire/acquire_page.h"
@@ -71,21 +72,21 @@ class Photographs {
 CameraList someCameras() {
   ListedCamera industrial, webcam, taken;
   industrial.address = "genicam:40012345";
-  industrial.model = "Industrial camera, 12 bit";
+  industrial.model = Message::plain("Industrial camera, 12 bit");
   industrial.usable = true;
   industrial.traits.size = {1632, 1224};
   industrial.traits.format.bits = 12;
   industrial.traits.exposures = {1e-4, 4.0};
   webcam.address = "v4l2:/dev/video0";
-  webcam.model = "Webcam";
+  webcam.model = Message::plain("Webcam");
   webcam.usable = true;
   webcam.traits.size = {1280, 720};
   webcam.traits.format.bits = 8;
   webcam.traits.exposures = {1e-3, 0.3};
-  webcam.traits.remarks = {"its exposure times are believed as far as they can be read back"};
+  webcam.traits.remarks = {Message::plain("its exposure times are believed as far as they can be read back")};
   taken.address = "gphoto2:usb:001,012";
-  taken.model = "Photo camera";
-  taken.problem = "the desktop's file manager holds it; unmount it there, then look again";
+  taken.model = Message::plain("Photo camera");
+  taken.problem = Message::plain("the desktop's file manager holds it; unmount it there, then look again");
   return {{}, {industrial, webcam, taken}};
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/help_window.h"
 #include "app/wizard_window.h"
+#include "base/message.h"
 #include "gui/app/layout_faults.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
@@ -212,7 +213,8 @@ class TestLayouts : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<AcquirePage>().isPaused(), patience);
     page("paused");
     wizard_->page<AcquirePage>().resume();
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
+                             patience);
     // Whoever measured in many languages says in the last that the devices are free.
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().areDevicesFree(), patience);
     wizard_->page<AcquirePage>().primary()->trigger();
@@ -272,10 +274,10 @@ class TestLayouts : public QObject {
   void realDevices() {
     ListedCamera good, bad;
     good.address = "gige:192.0.2.17";
-    good.model = "A camera";
+    good.model = Message::plain("A camera");
     good.usable = true;
-    bad.model = "Another camera";
-    bad.problem = "it sends no frames";
+    bad.model = Message::plain("Another camera");
+    bad.problem = Message::plain("it sends no frames");
     wizard_->page<CameraPage>().setLister([good, bad] { return CameraList{{}, {good, bad}}; });
     CalibrateSettings settings;
     ScreenRigSettings rig;

@@ -8,7 +8,11 @@
 #include <QtTest>
 
 #include "app/language.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "devices/check_verdict.h"
 #include "gui/app/translation_file.h"
+#include "text/message_text.h"
 #include "views/number_text.h"
 
 using namespace relucent;
@@ -28,7 +32,7 @@ bool runs(const QString& program, const QStringList& arguments) {
 }
 
 TranslatedSentence sentence(const QString& source, const QStringList& forms, bool finished = true) {
-  return {"Context", source, {}, forms.size() > 1, finished, forms};
+  return {source.contains("{}") ? "area.name" : "Context", source, {}, forms.size() > 1, finished, forms};
 }
 
 }  // namespace
@@ -59,7 +63,11 @@ class TestTranslations : public QObject {
  private slots:
   void initTestCase() {
     QString all = own_.filePath("all.ts");
-    QVERIFY(runs(RELUCENT_LUPDATE, {RELUCENT_SOURCE "/gui", "-locations", "none", "-silent", "-ts", all}));
+    QVERIFY(runs(
+        RELUCENT_LUPDATE,
+        {RELUCENT_SOURCE "/core", RELUCENT_SOURCE "/gui", "-locations", "none", "-silent",
+         "-tr-function-alias",
+         "QT_TRANSLATE_NOOP+=RELUCENT_MESSAGE,QT_TRANSLATE_N_NOOP+=RELUCENT_PLURAL_MESSAGE", "-ts", all}));
     sources_ = sentencesOf(all);
     QVERIFY(sources_.size() > 500);
     qInfo("%d sentences are to be translated", static_cast<int>(sources_.size()));
@@ -77,8 +85,49 @@ class TestTranslations : public QObject {
       while (matches.hasNext()) known.insert(matches.next().captured(1));
     }
     for (const TranslatedSentence& sentence : sources_)
-      QVERIFY2(sentence.context.startsWith("relucent::") || known.contains(sentence.context),
+      QVERIFY2(sentence.context.startsWith("relucent::") || known.contains(sentence.context) ||
+                   isMessage(sentence),
                qPrintable(sentence.context + ": " + sentence.source));
+  }
+
+  /// Messages are told apart by their ids: one pattern each.
+  void everyMessageHasAnIdOfItsOwn() {
+    QMap<QString, QString> patterns;
+    for (const TranslatedSentence& sentence : sources_) {
+      if (!isMessage(sentence)) continue;
+      QVERIFY2(patterns.value(sentence.context, sentence.source) == sentence.source,
+               qPrintable(sentence.context));
+      patterns[sentence.context] = sentence.source;
+    }
+    QVERIFY2(patterns.size() > 250, qPrintable(QString::number(patterns.size())));
+  }
+
+  /// What core says is in the user's language, with numbers by the locale and words by the number.
+  void messagesOfCoreAreTranslated() {
+    Language language("de");
+    try {
+      readFile("/nowhere/at-all");
+      QFAIL("there is no such file");
+    } catch (const Error& error) {
+      QVERIFY2(fullSentence(error.summary()).startsWith("Kann nicht ge"),
+               qPrintable(fullSentence(error.summary())));
+    }
+    CheckVerdict changes;
+    changes.finding = Finding::whiteChanges;
+    changes.share = 0.123;
+    changes.frame = 0.02;
+    const QString white = text(messageOf(changes));
+    QVERIFY2(white.contains(QString::fromUtf8("12,3\u202F%")) &&
+                 white.contains(QString::fromUtf8("20,00\u202Fms")),
+             qPrintable(white));
+    auto late = [](int count) {
+      CheckVerdict verdict;
+      verdict.finding = Finding::picturesLate;
+      verdict.count = count;
+      return text(messageOf(verdict));
+    };
+    QVERIFY2(late(1) != late(2).replace('2', '1') && late(1234).contains(QString::fromUtf8("1\u202F234")),
+             qPrintable(late(1) + late(2) + late(1234)));
   }
 
   void everyLanguageIsComplete_data() {
@@ -126,6 +175,12 @@ class TestTranslations : public QObject {
     QTest::newRow("an ampersand is none") << "Black && white" << QStringList{"Schwarz und weiß"} << true << 0;
     QTest::newRow("file pattern") << "Films (*.mp4)" << QStringList{"Filme"} << true << 1;
     QTest::newRow("one in words") << "%n item(s)" << QStringList{"ein Ding", "%n Dinge"} << true << 0;
+    QTest::newRow("message: one in words")
+        << "{} files of {}" << QStringList{"eine Datei von {1}", "{0} Dateien von {1}"} << true << 0;
+    QTest::newRow("message: many without number")
+        << "{} files of {}" << QStringList{"eine Datei von {1}", "Dateien von {1}"} << true << 1;
+    QTest::newRow("message: one twice")
+        << "{} files of {}" << QStringList{"{1} Datei von {1}", "{0} Dateien von {1}"} << true << 1;
     QTest::newRow("many without number") << "%n item(s)" << QStringList{"%n Ding", "Dinge"} << true << 1;
   }
   void faultsAreFound() {

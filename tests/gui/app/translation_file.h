@@ -65,8 +65,14 @@ inline QString withoutOrder(QString text) {
   return text;
 }
 
-/// How often each %1, {}, file pattern and keyboard accelerator stands in a text. `%n` counts apart: a form
-/// for one or two may say it in a word.
+/// Whether it is core's: its context is a message's id, "disk.cannot-open".
+inline bool isMessage(const TranslatedSentence& sentence) {
+  static const QRegularExpression id("^[a-z0-9]+(?:-[a-z0-9]+)*(?:\\.[a-z0-9]+(?:-[a-z0-9]+)*)+$");
+  return id.match(sentence.context).hasMatch();
+}
+
+/// How often each %1, {}, file pattern and keyboard accelerator stands in a text. What counts, `%n` and a gap
+/// of a message, counts apart: a form for one or two may say it in a word.
 inline QMap<QString, int> marksOf(const QString& text) {
   static const QRegularExpression mark(R"(%L?[0-9]+|\{[a-z0-9]*\}|\*\.[a-z0-9]+|&&|&(?=\S))");
   QMap<QString, int> marks;
@@ -75,6 +81,14 @@ inline QMap<QString, int> marksOf(const QString& text) {
     if (found != "&&") ++marks[found];
   }
   return marks;
+}
+
+/// Of a form for a number that may leave a gap out: whether one stands there twice.
+inline bool hasGapsTwice(const QString& form) {
+  const QMap<QString, int> marks = marksOf(form);
+  for (auto mark = marks.cbegin(); mark != marks.cend(); ++mark)
+    if (mark.key() != "{}" && mark.value() > 1) return true;
+  return false;
 }
 
 /// What is wrong with a translated sentence; empty: nothing.
@@ -88,11 +102,14 @@ inline QStringList faultsOf(const TranslatedSentence& sentence) {
   for (const QString& form : sentence.forms) {
     if (form.trimmed().isEmpty())
       fault("empty");
-    else if (marksOf(withoutOrder(form)) != marksOf(sentence.source))
+    else if (!isMessage(sentence) || !sentence.numerus || form == sentence.forms.last()
+                 ? marksOf(withoutOrder(form)) != marksOf(sentence.source)
+                 : hasGapsTwice(form))
       fault("a placeholder or accelerator is lost or too many in \"" + form + "\"");
   }
   // The last form is the one for many.
-  if (sentence.numerus && !sentence.forms.isEmpty() && !sentence.forms.last().contains("%n"))
+  if (sentence.numerus && !isMessage(sentence) && !sentence.forms.isEmpty() &&
+      !sentence.forms.last().contains("%n"))
     fault("%n is lost in \"" + sentence.forms.last() + "\"");
   return faults;
 }

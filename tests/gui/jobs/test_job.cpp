@@ -36,11 +36,14 @@ class TestJob : public QObject {
   /// Only what stopped answering is called so.
   void aCameraThatSeesSomethingElseIsNoDeviceThatStopped() {
     const auto told = [](const auto& error) { return failureOf(std::make_exception_ptr(error)); };
-    const Failure unseen = told(ScreenNotSeen(ErrorKind::device, "the camera sees DP-1, not DP-2", "aim it"));
+    const Failure unseen = told(ScreenNotSeen(
+        ErrorKind::device, Message::plain("the camera sees DP-1, not DP-2"), Message::plain("aim it")));
     QVERIFY(!unseen.heading.isEmpty());
     QCOMPARE(unseen.what, QString("The camera sees DP-1, not DP-2."));
     QVERIFY(unseen.kind == ErrorKind::device);
-    QVERIFY(told(Error(ErrorKind::device, "the camera does not answer", "plug it in")).heading.isEmpty());
+    QVERIFY(told(Error(ErrorKind::device, Message::plain("the camera does not answer"),
+                       Message::plain("plug it in")))
+                .heading.isEmpty());
   }
 
   void endsInOneWay_data() {
@@ -59,7 +62,8 @@ class TestJob : public QObject {
     job.start([ending](Progress& progress) {
       progress.report(0.5);
       if (ending == 1) throw Cancelled();
-      if (ending == 2) throw Error(ErrorKind::device, "the camera is gone", "plug it in");
+      if (ending == 2)
+        throw Error(ErrorKind::device, Message::plain("the camera is gone"), Message::plain("plug it in"));
       if (ending == 3) throw std::logic_error("1 is not 2");
     });
     QVERIFY(job.isRunning());
@@ -102,7 +106,7 @@ class TestJob : public QObject {
     Job job;
     QSignalSpy progressed(&job, &Job::progressed), expected(&job, &Job::expected);
     job.start([](Progress& progress) {
-      Progress part = progress.part(1.0, "counting");
+      Progress part = progress.part(1.0, Message::plain("counting"));
       for (int i = 0; i <= 100000; ++i) part.report(i / 100000.0);
       WorkLeft left;
       left.shots = 7;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Work that answers soon and then exactly.
+#include "base/message.h"
 #include "jobs/refining.h"
 
 #include <QSemaphore>
@@ -116,7 +117,7 @@ class TestRefining : public QObject {
   void aFailureIsToldAndTheNextRequestIsAnswered() {
     Refining<QString> refining(answered(), failed());
     refining.ask([](Progress&, const auto&) -> QString {
-      throw Error(ErrorKind::input, "it is wrong", "do it again", {});
+      throw Error(ErrorKind::input, Message::plain("it is wrong"), Message::plain("do it again"), {});
     });
     QTRY_COMPARE(failures_, QStringList({"It is wrong."}));
     QVERIFY(!refining.isBusy() && answers_.isEmpty());

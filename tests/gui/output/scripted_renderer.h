@@ -27,7 +27,9 @@ class ScriptedRenderer : public FrameRenderer {
       while (!outdated() && !interrupted) std::this_thread::yield();
       interrupted = false;
     }
-    if (broken) throw Error(ErrorKind::device, "the graphics card is gone", "start again");
+    if (broken)
+      throw Error(ErrorKind::device, Message::plain("the graphics card is gone"),
+                  Message::plain("start again"));
     QImage drive = content.image.copy();
     if (!request.compensated) drive.invertPixels();
     return {{drive}, 0.25, 2, 0.001, !restless};

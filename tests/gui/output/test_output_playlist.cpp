@@ -94,7 +94,7 @@ class TestOutputPlaylist : public QObject {
     QCOMPARE(list.without(-1).items.size(), 1);
     list.set(list.without(0));
     QVERIFY(list.isEmpty());
-    QVERIFY(!list.problems().isEmpty());
+    QVERIFY(!list.problems().empty());
   }
 
   void aDamagedListIsToldAndBegunAnew() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs on two screens that can be unplugged, see tests/support/with-two-screens.
+#include "base/message.h"
 #include "output/player.h"
 
 #include <QSignalSpy>
@@ -288,7 +289,7 @@ class TestPlayer : public QObject {
     renderer_->broken = true;
     hand_.now += 1s;
     QTRY_COMPARE(failed.count(), 1);
-    QVERIFY(failed[0][0].toString().contains("the graphics card is gone"));
+    QVERIFY(english(failed[0][0].value<Message>()).find("the graphics card is gone") != std::string::npos);
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
     QVERIFY(!player->isPlaying());
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs on two screens that can be unplugged, see tests/support/with-two-screens.
+#include "base/message.h"
 #include "output/show.h"
 
 #include <QJsonArray>
@@ -44,7 +45,9 @@ class TestShow : public QObject {
         settings,
         [this](const std::function<void(const QString&)>& warn) {
           warn_ = warn;
-          if (cannotBeMade_) throw Error(ErrorKind::input, "the calibration is gone", "bring it back");
+          if (cannotBeMade_)
+            throw Error(ErrorKind::input, Message::plain("the calibration is gone"),
+                        Message::plain("bring it back"));
           auto renderer = std::make_unique<ScriptedRenderer>();
           renderer->broken = broken_;
           ++made_;

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "base/file.h"
+#include "base/message.h"
 #include "devices/camera_registry.h"
 #include "gui/output/two_screens.h"
 #include "output/window_projector.h"
@@ -387,10 +388,11 @@ class TestRealDevices : public QObject {
     camera.enter();
     QTRY_VERIFY_WITH_TIMEOUT(!camera.cameras().cameras.empty(), 10000);
     const ListedCamera& found = camera.cameras().cameras.front();
-    QVERIFY2(found.usable, found.problem.c_str());
+    QVERIFY2(found.usable, english(found.problem).c_str());
     camera.chooseCamera(found.address, wantedSizes().camera);
     QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value() && camera.check().has_value(), 30000);
-    for (const CheckVerdict& verdict : verdictsOf(*camera.check())) qInfo("%s", sentence(verdict).c_str());
+    for (const CheckVerdict& verdict : verdictsOf(*camera.check()))
+      qInfo("%s", english(messageOf(verdict)).c_str());
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
     QVERIFY(camera.primary()->isEnabled());
     camera.primary()->trigger();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "jobs/local_digits.h"
+#include "text/local_digits.h"
 
 #include <QLocale>
 #include <QRegularExpression>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "wizard/camera/verdict_text.h"
-
 #include <QTranslator>
 #include <QtTest>
+
+#include "base/message.h"
+#include "devices/check_verdict.h"
+#include "text/message_text.h"
 
 using namespace relucent;
 
@@ -12,17 +14,16 @@ CheckVerdict verdictOf(Finding finding) {
   return {finding, 0.123, 7, 0.0456, 1.0 / 50.0, "Stage (HDMI-1)", "Foyer (HDMI-2)"};
 }
 
-/// Spaces that break no line, and the two forms of a number, are the interface's alone.
+/// Spaces that break no line are the interface's alone.
 QString plain(QString text) {
-  return text.replace(QChar(0x202F), ' ').replace("(s)", "s");
+  return text.replace(QChar(0x202F), ' ');
 }
 
 class Shouting : public QTranslator {
  public:
   bool isEmpty() const override { return false; }
   QString translate(const char* context, const char* text, const char*, int) const override {
-    return qstrcmp(context, "CheckVerdict") == 0 ? QString::fromUtf8(text).toUpper().replace("%N", "%n")
-                                                 : QString();
+    return QString(context).startsWith("check.") ? QString::fromUtf8(text).toUpper() : QString();
   }
 };
 
@@ -41,9 +42,9 @@ class TestVerdictText : public QObject {
   }
   void inEnglishItIsCoresSentence() {
     QFETCH(int, number);
-    const CheckVerdict verdict = verdictOf(static_cast<Finding>(number));
-    QVERIFY(!verdictText(verdict).isEmpty());
-    QCOMPARE(plain(verdictText(verdict)), QString::fromStdString(sentence(verdict)));
+    const Message message = messageOf(verdictOf(static_cast<Finding>(number)));
+    QVERIFY(!message.empty());
+    QCOMPARE(plain(text(message)), QString::fromStdString(english(message)));
   }
 
   /// What was measured is told in every language.
@@ -57,12 +58,12 @@ class TestVerdictText : public QObject {
     row(Finding::picturesLate, {"7"});
     row(Finding::otherScreenSeen, {"Stage (HDMI-1)", "Foyer (HDMI-2)"});
     row(Finding::screenNotSeen, {"Stage (HDMI-1)"});
-    row(Finding::pictureOut, {"7", "46 ms"});
-    row(Finding::whiteChanges, {"12,3 %", "20,00 ms"});
+    row(Finding::pictureOut, {"7", "46 MS"});
+    row(Finding::whiteChanges, {"12,3 %", "20,00 MS"});
     row(Finding::lightUnsteady, {"12,3 %"});
-    row(Finding::lampFlickers, {"12 %", "45,6 ms", "20,00 ms"});
-    row(Finding::colourWheel, {"12 %", "45,6 ms", "20,00 ms"});
-    row(Finding::rollingShutter, {"12 %", "20,00 ms"});
+    row(Finding::lampFlickers, {"12 %", "45,6 MS", "20,00 MS"});
+    row(Finding::colourWheel, {"12 %", "45,6 MS", "20,00 MS"});
+    row(Finding::rollingShutter, {"12 %", "20,00 MS"});
     row(Finding::dithering, {"12 %"});
   }
   void numbersAndNamesSurviveTranslation() {
@@ -71,11 +72,12 @@ class TestVerdictText : public QObject {
     QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
     Shouting translator;
     QCoreApplication::installTranslator(&translator);
-    const QString text = plain(verdictText(verdictOf(static_cast<Finding>(number))));
+    const QString shown = plain(text(messageOf(verdictOf(static_cast<Finding>(number)))));
     QCoreApplication::removeTranslator(&translator);
-    QVERIFY2(text.contains("CAMERA") || text.contains("PICTURE") || text.contains("FRAMES"),
-             qPrintable(text));
-    for (const QString& part : told) QVERIFY2(text.contains(part), qPrintable(part + " is not in: " + text));
+    QVERIFY2(shown.contains("CAMERA") || shown.contains("PICTURE") || shown.contains("FRAMES"),
+             qPrintable(shown));
+    for (const QString& part : told)
+      QVERIFY2(shown.contains(part), qPrintable(part + " is not in: " + shown));
   }
 };
 

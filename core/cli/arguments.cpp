@@ -35,25 +35,23 @@ struct Subcommand {
 
 constexpr Subcommand subcommands[] = {
     {"venues", "List the simulated venues", addVenuesOptions},
-    {"devices", "List the cameras that are there, what each can do and what is wrong with it",
-     addDevicesOptions},
+    {"devices", "List the connected cameras, their abilities and their problems", addDevicesOptions},
     {"check", "Measure how projector and camera work together", addCheckOptions},
     {"calibrate", "Measure a venue into a new calibration", addCalibrateOptions},
-    {"resume", "Go on with an interrupted calibration", addResumeOptions},
-    {"verify", "Photograph test patterns and say whether a calibration still holds", addVerifyOptions},
-    {"prove", "Project a picture, photograph it, and compare it with what was wanted and predicted",
-     addProveOptions},
-    {"import", "Make a calibration out of patterns and photographs taken elsewhere", addImportOptions},
-    {"plan", "Write patterns to be photographed without a connection, for import", addPlanOptions},
+    {"resume", "Continue an interrupted calibration", addResumeOptions},
+    {"verify", "Photograph test patterns and decide whether a calibration is still valid", addVerifyOptions},
+    {"prove", "Project a picture, photograph it, and compare it with target and prediction", addProveOptions},
+    {"import", "Make a calibration from patterns and photographs taken elsewhere", addImportOptions},
+    {"plan", "Write patterns to photograph without a connection, for import", addPlanOptions},
     {"compensate", "Compute the pattern that makes the surface look like an image", addCompensateOptions},
     {"evaluate", "Compare the methods through the true transport of a simulated venue", addEvaluateOptions},
     {"export", "Write the measurement for other programs", addExportOptions},
     {"relight", "Predict what the camera sees under a pattern", addRelightOptions},
     {"dual", "Show the venue as the projector sees it, lit from the camera", addDualOptions},
-    {"separate", "Tell direct from indirect light", addSeparateOptions},
+    {"separate", "Separate direct and indirect light", addSeparateOptions},
     {"difference", "Show how two pictures differ, with enhanced contrast", addDifferenceOptions},
     {"report", "Write one HTML file about a calibration", addReportOptions},
-    {"bench", "Time the parts that decide how fast everything is", addBenchOptions}};
+    {"bench", "Time the parts that determine the speed", addBenchOptions}};
 
 class Parser {
  public:
@@ -66,7 +64,7 @@ class Parser {
     app_.add_flag("--json", json_, "Print one JSON document on standard output and nothing else");
     app_.footer(
         "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n"
-        "Try it with no devices at all:  relucent-cli calibrate demo --venue corner");
+        "To try it without devices:  relucent-cli calibrate demo --venue corner");
     for (const Subcommand& subcommand : subcommands) {
       CLI::App* sub = app_.add_subcommand(subcommand.name, subcommand.sentence);
       sub->callback([this, make = subcommand.addOptions(sub)] { make_ = make; });

@@ -7,12 +7,12 @@ namespace relucent {
 namespace {
 
 void addAcquisition(CLI::App* sub, AcquisitionBenchSettings& settings) {
-  CLI::Option_group* group = sub->add_option_group("acquisition", "What `acquisition` measures");
-  group->add_option("--venue", settings.venues, "A simulated venue; may be given several times; all")
+  CLI::Option_group* group = sub->add_option_group("acquisition", "Options of `acquisition`");
+  group->add_option("--venue", settings.venues, "A simulated venue; may be given several times; default: all")
       ->type_name("NAME");
   addSize(group, "--projector", settings.projector, "Size of the projector")->default_str("256x192");
   addSize(group, "--camera", settings.camera, "Size of the camera")->default_str("160x120");
-  addNamed(group, "--acquisition", "Only this way to measure; may be given several times", settings.modes)
+  addNamed(group, "--acquisition", "Only this scheme; may be given several times", settings.modes)
       ->type_name("MODE");
   group->add_option("--threshold", settings.thresholds, "Only at this threshold; may be given several times")
       ->type_name("SHARE");
@@ -24,10 +24,11 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
   auto command = std::make_shared<Bench>();
   sub->add_option(
       "NAME", command->name,
-      "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all ways to "
-      "invert, and how well each compensates, beside the paper's figures; `acquisition` (an hour): every "
-      "way to measure, what it costs and how near it comes to the truth");
-  addNamed(sub, "--backend", "What `engine` runs on", command->backend);
+      "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all "
+      "inverses "
+      "and how well they compensate, beside the paper's figures; `acquisition` (an hour): every scheme, its "
+      "cost and its error against the true transport");
+  addNamed(sub, "--backend", "Device of `engine`", command->backend);
   addAcquisition(sub, command->acquisition);
   addCache(sub, command->cache);
   return [command] {

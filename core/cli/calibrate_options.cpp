@@ -7,7 +7,7 @@ namespace relucent {
 namespace {
 
 /// A folder as it is known from everywhere: `resume` may be called elsewhere.
-std::string absolutely(const std::string& folder) {
+std::string absolutePath(const std::string& folder) {
   return std::filesystem::absolute(folder).string();
 }
 
@@ -36,9 +36,9 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       "--camera", [places](const std::string& text) { readCamera(text, places->commands, places->camera); },
       "A real camera by its address, see `devices`; or the size of the camera");
   camera->type_name("KIND:PLACE|WxH")->default_str("160x120");
-  CLI::Option* cameraSize = addSize(sub, "--camera-size", places->camera,
-                                    "Size of the photographs, where the camera has its address");
-  sub->add_option("--seed", places->seed, "Seed of everything random: the same seed gives the same bits")
+  CLI::Option* cameraSize =
+      addSize(sub, "--camera-size", places->camera, "Size of the photographs, if --camera is an address");
+  sub->add_option("--seed", places->seed, "Seed of all random numbers: the same seed gives the same bits")
       ->type_name("N")
       ->capture_default_str();
   // Before all that changes single settings: a mode sets all of them.
@@ -48,13 +48,13 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->type_name("MODE")
       ->default_str("adaptive");
   addNamed<LitColours>(sub, "--colour",
-                       "Colours that are lit: " + listOfNames<LitColours>() + "; fast lights white",
+                       "Colours of the patterns: " + listOfNames<LitColours>() + "; fast uses white",
                        [&settings](LitColours colours) { settings.acquisition.colours = colours; })
       ->type_name("MODE");
   sub->add_flag("--mirrored", settings.acquisition.mayBeMirrored,
-                "Pictures are meant to appear mirrored: rear projection, a mirror");
+                "Pictures appear mirrored on purpose: rear projection, a mirror");
   sub->add_option("--threshold", settings.acquisition.relativeThreshold,
-                  "Faintest light that is followed, as a share of the flood image: 0.006 fine, 0.02 fast")
+                  "Faintest light to resolve, as a share of the flood image: 0.006 fine, 0.02 fast")
       ->type_name("SHARE")
       ->capture_default_str();
   sub->add_option("--levels", settings.linearization.levels, "Levels measured per projector colour")
@@ -65,7 +65,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   CLI::Option_group* real = sub->add_option_group("External programs", "Any projector and camera by script");
   CLI::Option* show =
       real->add_option("--projector-command", places->commands.projectorCommand,
-                       "Command that shows the file {image} and returns when the light is out");
+                       "Command that shows the file {image} and returns when the picture is lit");
   CLI::Option* photograph =
       real->add_option("--camera-command", places->commands.cameraCommand,
                        "Command that photographs {exposure} seconds into the file {output}");
@@ -79,37 +79,38 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->capture_default_str();
 
   real->add_option("--latency", places->commands.latency,
-                   "Time until a picture is out, as `check` measures it")
+                   "Time until a picture is displayed, as measured by `check`")
       ->type_name("SECONDS")
       ->capture_default_str();
   CLI::Option* frameRate =
       real->add_option("--frame-rate", places->commands.frameRate,
-                       "Pictures a second of the projector: exposures become whole pictures")
+                       "Frame rate of the projector: exposures become multiples of a frame")
           ->type_name("HZ");
   CLI::Option* record =
       real->add_option_function<std::string>(
               "--record",
-              [places](const std::string& folder) { places->commands.record = absolutely(folder); },
-              "Folder in which all that is shown and photographed is kept, for --replay")
+              [places](const std::string& folder) { places->commands.record = absolutePath(folder); },
+              "Folder for a recording of all patterns and photographs, for --replay")
           ->type_name("DIR");
   CLI::Option* replay =
       real->add_option_function<std::string>(
-              "--replay", [places](const std::string& folder) { places->replay.folder = absolutely(folder); },
-              "A recording in place of projector and camera")
+              "--replay",
+              [places](const std::string& folder) { places->replay.folder = absolutePath(folder); },
+              "A recording to use instead of projector and camera")
           ->type_name("DIR");
 
   DeviceModelSettings& devices = places->venue.devices;
-  CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Imperfections to rehearse with");
+  CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Simulated imperfections");
   auto simulate = [&](const char* name, auto& value, const char* what) {
     simulated->add_option(name, value, what)->capture_default_str();
   };
   simulate("--paths", places->venue.pathsPerPixel, "Light paths traced for each camera pixel");
   simulate("--projector-bits", devices.projectorBits, "Bits of the projector's drive values");
   simulate("--camera-bits", devices.cameraBits, "Bits of the camera");
-  simulate("--contrast", devices.contrast, "White of the projector over its black");
+  simulate("--contrast", devices.contrast, "White of the projector divided by its black");
   simulate("--ambient", devices.ambient, "Room light, as a share of the mean flood image");
   simulate("--drift", devices.drift, "Relative change of the lamp over 1000 photographs");
-  simulate("--flicker", devices.flicker, "Relative deviation of the lamp between photographs");
+  simulate("--flicker", devices.flicker, "Relative standard deviation of the lamp between photographs");
   simulate("--camera-gamma", devices.cameraGamma, "Response of the camera; 1 is linear");
   simulated->add_flag("--white-segment", devices.whiteSegment, "White is brighter than red + green + blue");
 
@@ -122,7 +123,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
     for (const CLI::Option* other : {show, photograph, camera, projector, record, frameRate})
       if (other->count() > 0)
         throw WrongUsage(other->get_name() +
-                         " has no place beside --replay: the recording knows its devices");
+                         " cannot be used with --replay: the recording contains its devices");
     refuseSimulation();
   };
   auto external = [=] {
@@ -132,7 +133,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
     if (addressed && photograph->count() > 0)
       throw WrongUsage("give a camera's address or --camera-command, not both");
     if (addressed && (show->count() == 0 || projector->count() == 0))
-      throw WrongUsage("a real camera needs --projector-command and --projector beside it");
+      throw WrongUsage("a real camera also needs --projector-command and --projector");
     if (show->count() + photograph->count() == 0) {
       for (const CLI::Option* other : {record, frameRate})
         if (other->count() > 0) throw WrongUsage(other->get_name() + " is for real devices");

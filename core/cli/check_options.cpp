@@ -35,7 +35,7 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
              [places](const std::string& text) { readCamera(text, places->commands, places->size); },
              "A camera by its address, see `devices`")
           ->type_name("KIND:PLACE");
-  sub->add_option("--frame-rate", places->frameRate, "Pictures a second of the projector")
+  sub->add_option("--frame-rate", places->frameRate, "Frame rate of the projector")
       ->type_name("HZ")
       ->capture_default_str();
   CLI::Option* venue =
@@ -48,7 +48,7 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
     const bool real = show->count() + photograph->count() + camera->count() > 0;
     if (real && venue->count() > 0) throw WrongUsage("give --venue or real devices, not both");
     if (!real && venue->count() == 0)
-      throw WrongUsage("say what to check: --projector-command, --projector and --camera, or --venue");
+      throw WrongUsage("nothing to check: give --projector-command, --projector and --camera, or --venue");
     if (!real) {
       command->settings.rig = places->venue;
       return Command(*command);
@@ -68,7 +68,7 @@ std::function<Command()> addVerifyOptions(CLI::App* sub) {
   sub->add_option("--out", command->settings.out, "Folder for maps of what has changed, OpenEXR; created")
       ->type_name("DIR");
   addCache(sub, command->cache);
-  sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as ever.");
+  sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as usual.");
   return [command] { return Command(*command); };
 }
 

@@ -15,10 +15,10 @@ void addTarget(CLI::App* sub, TargetSettings& target) {
          "Corners of the content in the camera's view, pixels: x y, clockwise from top left")
       ->expected(8)
       ->type_name("X Y ...");
-  addNamed(sub, "--fit", "Content in corners of another shape: " + listOfNames<Fit>(), target.fit)
+  addNamed(sub, "--fit", "Content of another aspect ratio: " + listOfNames<Fit>(), target.fit)
       ->type_name("FIT");
   sub->add_option("--dark-share", target.reachablePercentile,
-                  "Percent of the pixels that may be too dark to show white: more is brighter")
+                  "Percent of the pixels that may be too dark to show white: more makes the picture brighter")
       ->type_name("PERCENT")
       ->capture_default_str();
   sub->add_option("--black-lift", target.blackLift, "Share of white added to black")
@@ -30,7 +30,7 @@ void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, Method& meth
   sub->add_option("--image", image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
       ->type_name("FILE")
       ->required();
-  addNamed(sub, "--method", "How to compensate", method)->type_name("METHOD");
+  addNamed(sub, "--method", "Method of compensation", method)->type_name("METHOD");
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ std::function<Command()> addCompensateOptions(CLI::App* sub) {
   CompensateSettings& settings = command->settings;
   addFolder(sub, command->calibration, "Folder of the calibration");
   addImageAndMethod(sub, settings.image, settings.method);
-  addNamed(sub, "--solver", "How optimum is found: " + listOfNames<SolverSettings::Algorithm>(),
+  addNamed(sub, "--solver", "Algorithm of optimum: " + listOfNames<SolverSettings::Algorithm>(),
            settings.solver)
       ->type_name("SOLVER");
   sub->add_option("--out", settings.out, "Folder for pattern.png, pattern.exr, target.exr, predicted.exr")
@@ -56,7 +56,7 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration");
   addImageAndMethod(sub, settings.image, settings.method);
   sub->add_option("--shown", settings.shown,
-                  "Prove this instead, one picture a projector: what stands on its display, pixel by pixel")
+                  "Verify these instead, one picture per projector: the pixels of its display")
       ->type_name("FILE");
   sub->add_option("--out", settings.out, "Folder for the photographs, before and after, and comparison.png")
       ->type_name("DIR")

@@ -9,7 +9,7 @@ std::function<Command()> addImportOptions(CLI::App* sub) {
   auto command = std::make_shared<ImportPictures>();
   addFolder(sub, command->calibration, "Folder of the calibration; created");
   sub->add_option("--patterns", command->settings.patterns,
-                  "Folder of what was projected, in the projector's own pixels")
+                  "Folder of the projected patterns, in the projector's resolution")
       ->type_name("DIR")
       ->required();
   sub->add_option("--photographs", command->settings.photographs,
@@ -17,7 +17,7 @@ std::function<Command()> addImportOptions(CLI::App* sub) {
       ->type_name("DIR")
       ->required();
   sub->add_option("--hold-out", command->settings.import.holdOutEvery,
-                  "Every so manieth pattern is kept out of the fit and predicted instead")
+                  "Hold out one of every N patterns from the fit and predict it instead")
       ->type_name("N")
       ->capture_default_str();
   return [command] { return Command(*command); };

@@ -20,7 +20,7 @@ inline CLI::Option* addFolder(CLI::App* sub, std::filesystem::path& folder, cons
 
 inline void addCache(CLI::App* sub, std::filesystem::path& cache) {
   cache = defaultCache();
-  sub->add_option("--cache", cache, "Folder where simulated venues are kept once they are traced")
+  sub->add_option("--cache", cache, "Folder where traced simulated venues are cached")
       ->type_name("DIR")
       ->capture_default_str();
 }

@@ -33,9 +33,9 @@ std::function<Command()> addExportOptions(CLI::App* sub) {
                   "T for scipy.sparse.load_npz: BSR, 3x3 blocks, rows = camera pixels")
       ->type_name("FILE.npz");
   sub->add_option("--leaves", command->settings.leaves,
-                  "T as it is kept: a column for every node of the projector's mean pyramid")
+                  "T as stored: a column for every node of the projector's mean pyramid")
       ->type_name("FILE.npz");
-  sub->add_option("--inverse", command->settings.inverse, "Its inverse, in the same form")
+  sub->add_option("--inverse", command->settings.inverse, "The inverse of T, in the same format")
       ->type_name("FILE.npz");
   sub->add_option("--maps", command->settings.maps, "Black level, flood image and masks as OpenEXR")
       ->type_name("DIR");
@@ -58,7 +58,7 @@ std::function<Command()> addDualOptions(CLI::App* sub) {
   auto command = std::make_shared<Relight>();
   command->dual = true;
   addFolder(sub, command->calibration, "Folder of the calibration");
-  sub->add_option("--image", command->settings.image, "Light from the camera; all white if it is left out")
+  sub->add_option("--image", command->settings.image, "Light from the camera; default: white")
       ->type_name("FILE");
   addPicture(sub, command->settings.out);
   return [command] { return Command(*command); };
@@ -67,10 +67,9 @@ std::function<Command()> addDualOptions(CLI::App* sub) {
 std::function<Command()> addSeparateOptions(CLI::App* sub) {
   auto command = std::make_shared<Separate>();
   addFolder(sub, command->calibration, "Folder of the calibration");
-  sub->add_option("--image", command->settings.image, "The pattern; all white if it is left out")
-      ->type_name("FILE");
+  sub->add_option("--image", command->settings.image, "The pattern; default: white")->type_name("FILE");
   sub->add_option("--reach", command->settings.direct.reach,
-                  "How far direct light spreads, as a share of the projector's larger side")
+                  "Reach of direct light, as a share of the projector's larger side")
       ->type_name("SHARE")
       ->capture_default_str();
   sub->add_option("--out", command->settings.out, "Folder for direct and indirect, .exr and .png")
@@ -83,13 +82,13 @@ std::function<Command()> addDifferenceOptions(CLI::App* sub) {
   auto command = std::make_shared<Difference>();
   DifferenceSettings& settings = command->settings;
   sub->add_option("A", settings.first, "A picture: PNG, JPEG or TIFF (sRGB), or EXR (linear)")->required();
-  sub->add_option("B", settings.second, "What is subtracted from it; of the same size")->required();
+  sub->add_option("B", settings.second, "The picture to subtract, of the same size")->required();
   sub->add_option_function<std::string>(
          "--gain", [&settings](const std::string& text) { settings.gain = parseGain(text); },
          "Factor of the difference; auto uses the whole contrast of a .png")
       ->type_name("auto|N")
       ->default_str("auto");
-  sub->add_option("--out", settings.out, "Result: .exr (gain * (A - B)) or .png (that around grey)")
+  sub->add_option("--out", settings.out, "Result: .exr (gain * (A - B)) or .png (the same around mid-grey)")
       ->type_name("FILE")
       ->required();
   return [command] { return Command(*command); };

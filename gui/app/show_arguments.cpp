@@ -35,28 +35,28 @@ const QCommandLineOption content(
     "What to play: a picture, a film, a folder of numbered pictures, a playlist, "
     "chart:NAME, screen:CONNECTOR, window:TITLE or camera:NAME.",
     "PATH");
-const QCommandLineOption loop("loop", "Begin again when it has ended.");
-const QCommandLineOption schedule("schedule", "Play at these hours of the day only; black between them.",
+const QCommandLineOption loop("loop", "Repeat the content.");
+const QCommandLineOption schedule("schedule", "Play during these hours of the day only; black outside them.",
                                   "HH:MM-HH:MM");
 const QCommandLineOption display("screen",
-                                 "Connector of a projector's display, one for each; else chosen by size.",
+                                 "Connector of a projector's display, one for each; default: chosen by size.",
                                  "NAME");
-const QCommandLineOption canvas("canvas", "Size that content is brought to.", "WxH", "1920x1080");
-const QCommandLineOption adaptive("adaptive-range", "Brightness and black follow what the content demands.");
-const QCommandLineOption backend(
-    "backend",
-    "What computes: cpu, opengl (also one in software), or automatic, a graphics "
-    "card where there is one.",
-    "NAME", "automatic");
+const QCommandLineOption canvas("canvas", "Size to which content is scaled.", "WxH", "1920x1080");
+const QCommandLineOption adaptive("adaptive-range", "Adapt brightness and black level to the content.");
+const QCommandLineOption backend("backend",
+                                 "Device for computing: cpu, opengl (including software renderers), or "
+                                 "automatic, a graphics card if there is one.",
+                                 "NAME", "automatic");
 const QCommandLineOption installService(
-    "install-service", "Start this show at every log-in, and again when it fails: a systemd unit of yours.");
+    "install-service",
+    "Start this show at every log-in and restart it after a failure: a systemd user unit.");
 const QCommandLineOption installAutostart("install-autostart",
-                                          "The same through the desktop, where systemd does not start it.");
-const QCommandLineOption removeService("remove-service", "Take the systemd unit away.");
-const QCommandLineOption removeAutostart("remove-autostart", "Take the desktop's autostart entry away.");
+                                          "The same through the desktop's autostart, without systemd.");
+const QCommandLineOption removeService("remove-service", "Remove the systemd unit.");
+const QCommandLineOption removeAutostart("remove-autostart", "Remove the desktop's autostart entry.");
 
 /// Everything that was said, with paths from the root.
-QStringList saidAgain(const QCommandLineParser& parser, const ShowSettings& settings) {
+QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettings& settings) {
   QStringList again{"show",      fromRoot(parser.positionalArguments()[1]),
                     "--content", contentFromRoot(parser.value(content)),
                     "--log",     fromRoot(settings.folder)};
@@ -96,7 +96,7 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
 ShowArguments parseShowArguments(const QStringList& arguments) {
   QCommandLineParser parser;
   parser.setApplicationDescription(
-      "Plays content in a calibrated venue, compensated, until it is asked to end.\n"
+      "Plays content in a calibrated venue, with compensation, until it is terminated.\n"
       "Keys at the projector: C compensation on and off, space freeze, B black, T test charts,\n"
       "O overlay.");
   QCommandLineOption help = parser.addHelpOption(), version = parser.addVersionOption();
@@ -119,9 +119,10 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   if (words.size() != 2 || words[0] != "show")
     throw WrongArguments("usage: relucent show CALIBRATION --content PATH");
   ShowSettings settings = settingsOf(parser, parser.value(log));
-  if (parser.isSet(installService)) return InstallShow{Start::service, saidAgain(parser, settings), settings};
+  if (parser.isSet(installService))
+    return InstallShow{Start::service, repeatedArguments(parser, settings), settings};
   if (parser.isSet(installAutostart))
-    return InstallShow{Start::autostart, saidAgain(parser, settings), settings};
+    return InstallShow{Start::autostart, repeatedArguments(parser, settings), settings};
   return PlayShow{settings};
 }
 

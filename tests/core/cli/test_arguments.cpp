@@ -250,10 +250,10 @@ class TestArguments : public QObject {
     QTest::newRow("size without an address")
         << QByteArray("calibrate d --camera-size 8x8") << QByteArray("write --camera WxH");
     QTest::newRow("recording and devices") << QByteArray("calibrate d --replay t --projector-command a")
-                                           << QByteArray("--projector-command has no place beside --replay");
+                                           << QByteArray("--projector-command cannot be used with --replay");
     QTest::newRow("recording and venue")
         << QByteArray("calibrate d --replay t --venue corner") << QByteArray("not both");
-    QTest::newRow("nothing to check") << QByteArray("check") << QByteArray("say what to check");
+    QTest::newRow("nothing to check") << QByteArray("check") << QByteArray("nothing to check");
     QTest::newRow("half to check") << QByteArray("check --camera genicam:7")
                                    << QByteArray("real devices need --projector-command");
     QTest::newRow("two to check") << QByteArray("check --camera genicam:7 --venue dome")

@@ -13,15 +13,15 @@
 
 namespace relucent {
 
-/// What kind of failure of the world an Error reports; decides icon and exit status, never control flow.
+/// Kind of failure that an Error reports; decides icon and exit status, never control flow.
 enum class ErrorKind { usage, input, format, disk, memory, device, numerics };
 
 std::string_view toString(ErrorKind kind);
 
-/// A failure of the world outside the program: a file, a device, a setting, data that cannot be used.
-/// `what` is one sentence without a full stop that says what is wrong, `advice` one that says what to do,
-/// possibly none, `context` where it happened (a file, a device, a stage), possibly empty. A breach of a
-/// function's contract is no Error: see require().
+/// A failure outside the program: a file, a device, a setting, data that cannot be used. `what` is one
+/// sentence without a full stop that says what is wrong, `advice` one that says what to do, possibly none,
+/// `context` where it happened (a file, a device, a stage), possibly empty.
+/// A broken contract is not an Error: see require().
 class Error : public std::exception {
  public:
   Error(ErrorKind kind, Message what, Message advice, std::string context = {});
@@ -36,7 +36,7 @@ class Error : public std::exception {
   /// The same in English, with a full stop.
   const char* what() const noexcept override { return line_.c_str(); }
 
-  /// The same failure seen from one level further out; an existing context is kept behind the new one.
+  /// The same failure with an outer context; an existing context follows the new one.
   Error within(std::string_view context) const;
 
  private:
@@ -60,7 +60,7 @@ struct RequireMessage {
 }  // namespace detail
 
 /// Checks a contract: `require(a == b, "{} rows must equal {} pixels", a, b)`.
-/// Throws: std::logic_error with the values and the place, if `condition` is false.
+/// Throws: std::logic_error with the values and the source location if `condition` is false.
 template <typename... Args>
 void require(bool condition, const detail::RequireMessage& message, const Args&... args) {
   if (condition) [[likely]]

@@ -11,12 +11,13 @@ namespace relucent {
 /// The whole file. Throws: Error{disk} if it is missing or unreadable.
 std::string readFile(const std::filesystem::path& path);
 
-/// Replaces `path` by `content` in one step: temporary name beside it, fsync, rename, fsync of the folder.
-/// After a crash the old or the new file is there, never a part. Throws: Error{disk}; `path` is untouched.
+/// Replaces `path` by `content` atomically: temporary name in the same folder, fsync, rename, fsync of the
+/// folder. After a crash either the old or the new file is there, never a part of one. Throws: Error{disk};
+/// `path` is untouched.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
-/// The same for libraries that write files themselves: `write` is given the temporary name (same folder,
-/// same extension). Whatever it throws is passed on after the temporary file has been removed.
+/// The same for libraries that write files themselves: `write` gets the temporary name (same folder, same
+/// extension). Its exceptions are rethrown after the temporary file has been removed.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write);
 

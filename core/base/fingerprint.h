@@ -11,7 +11,7 @@
 
 namespace relucent {
 
-/// A 128-bit fingerprint of data, to tell whether a result still belongs to its inputs. Not for security.
+/// A 128-bit fingerprint of data, to decide whether a result still belongs to its inputs. Not for security.
 /// Everything added is preceded by its length, so ("ab", "c") and ("a", "bc") differ.
 class Fingerprint {
  public:

@@ -10,9 +10,9 @@
 
 namespace relucent {
 
-/// Runs body(i) for every i in [begin, end) on all cores. Bodies must not write to shared places; then
+/// Runs body(i) for every i in [begin, end) on all cores. Bodies must not write to shared memory; then
 /// the result does not depend on the number of threads. An exception from a body is rethrown here.
-/// `grain`: the least number of items worth a task.
+/// `grain`: the least number of items per task.
 template <typename Body>
 void parallelFor(std::size_t begin, std::size_t end, std::size_t grain, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
@@ -35,9 +35,9 @@ void parallelChunks(std::size_t begin, std::size_t end, std::size_t chunks, cons
       tbb::simple_partitioner());
 }
 
-/// Runs foreground() on this thread, as devices want it, and background() on whatever other core is free;
-/// returns what the first returns when both are done. They must not touch the same data. An exception is
-/// rethrown here, that of the foreground if both throw. No background: just the foreground.
+/// Runs foreground() on this thread, as devices require, and background() on another core; returns the result
+/// of the first when both are done. They must not touch the same data. An exception is rethrown here, that of
+/// the foreground if both throw. An empty background is skipped.
 template <typename Foreground>
 auto besides(const std::function<void()>& background, const Foreground& foreground) {
   if (!background) return foreground();

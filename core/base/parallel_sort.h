@@ -5,8 +5,8 @@
 
 namespace relucent {
 
-/// Sorts on all cores. Contract: `less` leaves no two items equal; then the result does not depend on the
-/// number of threads.
+/// Sorts on all cores. Contract: `less` is a total order; then the result does not depend on the number of
+/// threads.
 template <typename Items, typename Less>
 void parallelSort(Items& items, const Less& less) {
   tbb::parallel_sort(items.begin(), items.end(), less);

@@ -20,11 +20,11 @@ class Cancelled : public std::exception {
   const char* what() const noexcept override { return "stopped on request"; }
 };
 
-/// A request to stop, shared between whoever may ask (a button, a signal handler) and the work.
+/// A request to stop, shared between its source (a button, a signal handler) and the work.
 class StopRequest {
  public:
   enum class Kind { none, keep, cancel };
-  /// Safe to call from a signal handler. A cancel is never weakened to a keep.
+  /// Safe to call from a signal handler. A later request to keep does not replace one to cancel.
   void ask(Kind kind) noexcept;
   Kind asked() const noexcept { return static_cast<Kind>(state_.load(std::memory_order_relaxed)); }
 
@@ -33,14 +33,14 @@ class StopRequest {
   std::atomic<int> state_{0};
 };
 
-/// A small picture of work under way, linear RGB.
+/// A small preview of work in progress, linear RGB.
 struct Preview {
   std::string name;
   Size size;
   std::vector<float> rgb;
 };
 
-/// What a measurement has still to do, as far as can be told.
+/// Forecast of the remaining part of a measurement.
 struct WorkLeft {
   int shots = 0;  // patterns to be photographed
   int leastShots = 0, mostShots = 0;
@@ -50,35 +50,35 @@ struct WorkLeft {
   std::uint64_t memoryBytes = 0;  // at its peak
 };
 
-/// Where progress goes: a terminal, a log, a Qt signal. Called from the thread that does the work.
+/// Receives progress: a terminal, a log, a Qt signal. Called from the thread that does the work.
 class ProgressSink {
  public:
   virtual ~ProgressSink() = default;
-  /// `fraction` of the whole, 0 to 1, never going back; `stage` names the innermost part under way.
+  /// `fraction` of the whole, 0 to 1, never decreasing; `stage` names the innermost active part.
   virtual void progressed(double fraction, const Message& stage) = 0;
   virtual void previewed(const Preview&) {}
-  /// Better and better known while a measurement goes on.
+  /// Called repeatedly, more precise as a measurement proceeds.
   virtual void expected(const WorkLeft&) {}
 };
 
 /// A stage's share of a longer job. Pass by reference, last parameter; split with part().
 class Progress {
  public:
-  /// For callers that do not care.
+  /// Ignores all reports.
   Progress();
   Progress(ProgressSink& sink, StopRequest& stop);
 
-  /// The next `share` (0 to 1) of this progress, as a progress of its own named `stage`. Its reports
-  /// move this one from where it stands; when the part ends, this one stands `share` further.
+  /// The next `share` (0 to 1) of this progress, as a Progress named `stage`. Its reports
+  /// advance this one from its present position; when the part ends, this one has advanced by `share`.
   Progress part(double share, Message stage);
 
-  /// Says how far this part is, 0 to 1; smaller values than before are ignored. Then checkpoint().
+  /// Reports the progress of this part, 0 to 1; decreasing values are ignored. Then calls checkpoint().
   void report(double fraction);
 
   /// Throws: Cancelled if the user asked to cancel.
   void checkpoint() const;
 
-  /// True when the user asked to stop and keep what there is: the stage ends early with a valid result.
+  /// True if the user asked to stop and keep: the stage then ends early with a valid result.
   bool stopAndKeep() const;
 
   void preview(Preview preview) const;
@@ -86,8 +86,7 @@ class Progress {
   const Message& stage() const { return stage_; }
 
  private:
-  /// Where `done_` stands in the whole. Exact at both ends, so that a part ends on the bit where the next
-  /// begins.
+  /// Position of `done_` in the whole. Exact at both ends, so that a part ends exactly where the next begins.
   double place() const;
   Progress(ProgressSink* sink, StopRequest* stop, double begin, double end, Message stage);
 

@@ -9,8 +9,8 @@
 namespace relucent {
 
 /// Seeded random numbers that are the same on every platform and for every number of threads.
-/// A generator is made from a list of keys (seed, shot, row, ...): work that runs in parallel takes one
-/// generator per item, so that the order of execution does not matter.
+/// A generator is made from a list of keys (seed, shot, row, ...): parallel work uses one generator per item,
+/// so that the order of execution does not matter.
 /// Source: SplitMix64, Steele, Lea & Flood, "Fast splittable pseudorandom number generators", 2014.
 class Random {
  public:

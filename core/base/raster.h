@@ -17,7 +17,7 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-/// A pixel's place in its raster; index = y * width + x everywhere.
+/// A pixel's position in its raster; index = y * width + x everywhere.
 struct Pixel {
   int x = 0;
   int y = 0;
@@ -33,8 +33,9 @@ inline Pixel pixelAt(Size size, std::size_t index) {
           static_cast<int>(index / static_cast<std::size_t>(size.width))};
 }
 
-/// The rasters of several devices of one kind, numbered through: device d's pixels start at offset(d).
-/// This is how the rows of T hold all cameras' pixels and its columns all projectors' (paper, appendix).
+/// The rasters of several devices of one kind, numbered consecutively: device d's pixels start at offset(d).
+/// The rows of T are the pixels of all cameras in this order, the columns those of all projectors (paper,
+/// appendix).
 class Rasters {
  public:
   Rasters() = default;
@@ -51,7 +52,7 @@ class Rasters {
 
  private:
   std::vector<Size> sizes_;
-  std::vector<std::size_t> offsets_;  // one more than sizes
+  std::vector<std::size_t> offsets_;  // one element more than sizes
 };
 
 /// Values of all pixels of a Rasters, three channels interleaved: value(pixel, c) = stack[3 * pixel + c].

@@ -5,7 +5,7 @@
 
 namespace relucent {
 
-/// Wall time since it was made.
+/// Wall-clock time since construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

@@ -11,7 +11,7 @@
 
 namespace relucent {
 
-/// What an exposure time that a camera reports is worth: true seconds = scale * reported.
+/// True value of an exposure time that a camera reports: true seconds = scale * reported.
 struct ExposureTime {
   double reported = 0.0;
   double scale = 1.0;
@@ -27,15 +27,15 @@ struct CameraModel {
   std::array<ResponseCurve, 3> response;  // identity for linear sensors
   double readNoise = 2e-3;                // standard deviation at black, rounding included
   double gain = 1e-4;                     // photon noise: variance per linear signal
-  double saturation = 0.97;               // signals at or above this tell only a lower bound
-  std::vector<ExposureTime> times;        // measured, reported times ascending; empty: the camera is believed
+  double saturation = 0.97;               // signals at or above this are only a lower bound
+  std::vector<ExposureTime> times;  // measured, reported times ascending; empty: reported times are used
 };
 
 /// The true exposure time: exact at the measured ones, scale interpolated over log time between them,
 /// that of the nearest beyond them.
 double trueSeconds(const CameraModel& camera, double reported);
 
-/// Variance of the linear signal, without what a response curve does to rounding.
+/// Variance of the linear signal, without the effect of a response curve on rounding.
 inline double linearVariance(const CameraModel& camera, double linear) {
   return camera.readNoise * camera.readNoise + camera.gain * (linear > 0.0 ? linear : 0.0);
 }
@@ -50,23 +50,23 @@ struct HdrFrame {
 /// Inverse-variance weighted mean of the unsaturated exposures,
 ///   L = sum_k w_k z_k / t_k / sum_k w_k,   w_k = s_k t_k^2 / var(z_k).
 /// z_k in the variance is predicted from the current L, so that the weights do not follow the noise. For the
-/// same reason the trust s_k does not break off at saturation, where only the darker half of a noisy signal
-/// would count: it falls from 1 at 0.7 of saturation to 0 there.
+/// same reason the weight s_k falls linearly from 1 at 0.7 of saturation to 0 at saturation: with a sharp
+/// limit only the darker half of a noisy signal would count.
 /// t_k = trueSeconds(camera, time that the frame reports), z_k = response(signal).
-/// Where every exposure is saturated: valid = 0, radiance = the lower bound that the shortest gives,
-/// variance = its square.
+/// Where every exposure is saturated: valid = 0, radiance = the lower bound given by the shortest, variance =
+/// its square.
 /// Shapes: all cameras' pixels, see Rasters.  Source: core/hdr/README.md, [GRA], [AGU].
 HdrFrame mergeBracket(const Shot& shot, const std::vector<CameraModel>& cameras, const Rasters& rasters);
 
-/// The mean of several frames of the same light; variances of the mean. Values count where valid; where no
-/// frame is, the largest lower bound stands.
+/// The mean of several frames of the same light; variances of the mean. Only valid values count; where none
+/// is valid, the result is the largest lower bound.
 HdrFrame meanOf(const std::vector<HdrFrame>& frames);
 
-/// True times of a shot's exposures relative to the first one's, from the light that they share:
+/// True times of a shot's exposures relative to the first one's, from the same light:
 /// between neighbours in time the median, over pixels well exposed in the longer and not dark in the
 /// shorter, of their signals' ratio, then the ratio of sums over what lies close to it.
-/// Where fewer than 50 values can be compared, the reported times are believed.
-/// Shapes: one ratio for each exposure.  Law: scaling all light leaves them as they are.
+/// Where fewer than 50 values can be compared, the reported times are used.
+/// Shapes: one ratio for each exposure.  Law: invariant under scaling of all light.
 std::vector<double> exposureRatios(const Shot& shot, std::size_t camera, const CameraModel& model);
 
 }  // namespace relucent

@@ -12,14 +12,14 @@ namespace relucent {
 std::vector<double> isotonic(const std::vector<double>& values, const std::vector<double>& weights);
 
 /// A curve from a measured ramp, normalised to 0 -> 0 and 1 -> 1: isotonic regression, then monotone cubic.
-/// `x` ascends from 0 to 1. Samples that the regression pools in mid-ramp become one sample at their
-/// weighted mean, so noise leaves no steps. Plateaus at black and white (crushed shadows, clipped lights)
-/// stay where they are and get the slope `leastSlope`, so that the curve can be inverted.
+/// `x` ascends from 0 to 1. Samples that the regression pools within the ramp become one sample at their
+/// weighted mean, so noise leaves no steps. Plateaus at black and white (crushed shadows, clipped lights) are
+/// kept and get the slope `leastSlope`, so that the curve can be inverted.
 /// Throws: Error{numerics} if the ramp does not rise at all.
 ResponseCurve curveFromRamp(const std::vector<double>& x, const std::vector<double>& y,
                             const std::vector<double>& weights);
 
-/// Least slope of a curve from a ramp, in units of the mean slope: below what any display resolves.
+/// Least slope of a curve from a ramp, in units of the mean slope: below the resolution of any display.
 inline constexpr double leastSlope = 1e-6;
 
 }  // namespace relucent

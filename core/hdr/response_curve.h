@@ -5,15 +5,15 @@
 
 namespace relucent {
 
-/// A strictly increasing curve on [0, 1], monotone cubic between samples (Fritsch & Carlson 1980).
-/// Projector channels: drive -> relative radiance, 0 -> 0, 1 -> 1. Cameras: signal -> linear signal.
-/// Outside [0, 1] it goes on straight, so that noise around black is not cut off.
+/// A strictly increasing curve on [0, 1], monotone cubic between samples (Fritsch & Carlson 1980). Projector
+/// channels: drive -> relative radiance, 0 -> 0, 1 -> 1. Cameras: signal -> linear signal. Outside [0, 1] it
+/// continues linearly, so that noise around black is not clipped.
 class ResponseCurve {
  public:
   /// The identity.
   ResponseCurve();
-  /// Through (x, y), x ascending from 0 to 1, y ascending. x() and y() are all that is needed to make the
-  /// same curve again, to the bit.
+  /// Through (x, y), x ascending from 0 to 1, y ascending. x() and y() are sufficient to construct a
+  /// bit-identical curve.
   /// Throws: Error{numerics} if the samples do not ascend or are not finite.
   ResponseCurve(std::vector<double> x, std::vector<double> y);
 

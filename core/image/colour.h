@@ -9,10 +9,10 @@
 
 namespace relucent {
 
-/// Three values of a colour in whatever space the name of the variable says.
+/// Three values of a colour; the name of the variable states the colour space.
 using Colour = std::array<double, 3>;
 
-/// The sRGB transfer function, exact and piecewise; odd beyond 0, so that negative values survive.
+/// The sRGB transfer function, exact and piecewise; an odd function, so that negative values are preserved.
 /// Source: IEC 61966-2-1.
 double srgbEncode(double linear);
 double srgbDecode(double encoded);
@@ -37,7 +37,7 @@ Colour labFromXyz(const Colour& xyz);
 double ciede2000(const Colour& lab1, const Colour& lab2);
 
 /// What a viewer adapted to `white` sees, as sRGB: encode(clamp(linear / white, 0, 1)) per channel.
-/// The common ground of meanDeltaE() and ssim().
+/// Used by meanDeltaE() and ssim().
 Image viewed(const Image& linear, const std::array<float, 3>& white);
 
 /// Mean CIEDE2000 between two sRGB-encoded images over the pixels where `mask` is not 0 (empty: all).

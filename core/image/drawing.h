@@ -5,11 +5,10 @@
 
 #include "image/image.h"
 
-/// What drawn pictures have in common. OpenCV's types: for the .cpp files of drawn pictures alone.
+/// Shared by synthetic pictures. Uses OpenCV's types: only for the .cpp files of these pictures.
 namespace relucent::drawing {
 
-/// Pictures are drawn at four times the size and averaged down: edges then have the soft steps of a
-/// photograph.
+/// Pictures are drawn at four times the size and averaged down: edges are then as smooth as in a photograph.
 inline constexpr int oversampling = 4;
 
 cv::Mat canvas(Size size, const cv::Scalar& encoded);

@@ -13,7 +13,7 @@
 
 namespace relucent {
 
-/// Names of the attributes in which our files say what their numbers are and where they come from.
+/// Names of the attributes that state the units and the origin of our files.
 namespace exr_attribute {
 inline constexpr const char* units = "relucent:units";              // "camera signal per second"
 inline constexpr const char* software = "relucent:software";        // "Relucent 0.1.0"
@@ -22,27 +22,26 @@ inline constexpr const char* fingerprint = "relucent:fingerprint";  // of the in
 
 using ExrAttribute = std::variant<std::string, double, int>;
 
-/// An OpenEXR picture: any channels, placed anywhere.
+/// An OpenEXR picture with any channels and any data window.
 struct ExrImage {
   Image pixels;                           // the data window
   std::vector<std::string> channelNames;  // of the channels of `pixels`, in their order
-  Pixel dataOrigin;                       // place of the data window's first pixel
+  Pixel dataOrigin;                       // position of the data window's first pixel
   Pixel displayOrigin;
   std::optional<Size> displaySize;  // none: the display window is the data window
-  /// Text and numbers; the attributes that OpenEXR itself demands (windows, channels, ...) are not among
-  /// them.
+  /// Text and numbers; without the attributes that OpenEXR itself requires (windows, channels, ...).
   std::map<std::string, ExrAttribute> attributes;
 };
 
 enum class ExrType { half, floatType };
 
-/// Reads scan-line or tiled files of one part, every channel converted to float. Values are returned as they
-/// are, NaN and infinities included: see checkFinite(). Channels come in the file's alphabetical order,
+/// Reads scan-line or tiled files of one part, every channel converted to float. Values are returned
+/// unchanged, NaN and infinities included: see checkFinite(). Channels come in the file's alphabetical order,
 /// except that R, G, B, A of a layer are in that order. Throws: Error{disk} if unreadable; Error{format} if
-/// foreign, damaged, cut short, deep, of several parts or with subsampled channels.
+/// foreign, damaged, truncated, deep, of several parts or with subsampled channels.
 ExrImage readExr(const std::filesystem::path& path);
 
-/// Writes atomically, scan lines with lossless compression. Float keeps every bit; half rounds to nearest.
+/// Writes atomically, scan lines with lossless compression. Float is exact; half rounds to nearest.
 /// Throws: Error{input} if a finite value is too large for half; Error{disk}. std::logic_error if names and
 /// channels do not match or an attribute has a name that OpenEXR reserves.
 void writeExr(const std::filesystem::path& path, const ExrImage& image, ExrType type);
@@ -52,14 +51,14 @@ void writeExr(const std::filesystem::path& path, const Image& image, ExrType typ
               std::map<std::string, ExrAttribute> attributes = {});
 
 /// R, G, B on the raster of the display window; 0 outside the data window. A file with Y alone is grey.
-/// Throws: as readExr(); Error{format} naming the channels that are there if R, G, B are not;
-/// Error{input} if the display window has not the `expected` size.
+/// Throws: as readExr(); Error{format} naming the existing channels if R, G, B are missing;
+/// Error{input} if the display window does not have the `expected` size.
 Image readRgbExr(const std::filesystem::path& path, std::optional<Size> expected = std::nullopt);
 
 /// True if `content` starts like an OpenEXR file.
 bool looksLikeExr(std::string_view content);
 
-/// Throws: Error{input} with the number of NaN and infinite values and the place of the first, if any.
+/// Throws: Error{input} with the number of NaN and infinite values and the position of the first, if any.
 void checkFinite(const Image& image, const std::filesystem::path& path);
 
 }  // namespace relucent

@@ -8,7 +8,7 @@
 
 namespace relucent::detail {
 
-/// Lets OpenEXR read from memory, so that missing and unreadable files are base/file.h's business.
+/// Lets OpenEXR read from memory, so that base/file.h handles missing and unreadable files.
 class MemoryInput : public Imf::IStream {
  public:
   MemoryInput(std::string_view content, const std::string& name);
@@ -21,7 +21,7 @@ class MemoryInput : public Imf::IStream {
   std::uint64_t position_ = 0;
 };
 
-/// Lets OpenEXR write to memory: its file streams swallow a full disk when they are closed.
+/// Lets OpenEXR write to memory: its file streams do not report a full disk when they are closed.
 class MemoryOutput : public Imf::OStream {
  public:
   explicit MemoryOutput(const std::string& name) : OStream(name.c_str()) {}

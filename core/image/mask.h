@@ -16,7 +16,7 @@ inline bool inside(std::span<const std::uint8_t> mask, std::size_t pixel) {
 }
 
 /// The number of pixels that a comparison of `a` and `b` counts.
-/// Throws: std::logic_error if the shapes of a, b and mask differ or nothing is left to compare.
+/// Throws: std::logic_error if the shapes of a, b and mask differ or no pixel is left to compare.
 inline std::size_t comparedPixels(const Image& a, const Image& b, std::span<const std::uint8_t> mask) {
   require(a.size() == b.size() && a.channels() == b.channels(),
           "images of {}x{}x{} and {}x{}x{} cannot be compared", a.width(), a.height(), a.channels(),

@@ -10,7 +10,7 @@
 namespace relucent {
 
 // All comparisons count the pixels where `mask` is not 0 (empty: all) and throw std::logic_error if the
-// shapes differ or no pixel is left. They are the same bits for every number of threads.
+// shapes differ or no pixel is left. The results are the same bits for every number of threads.
 
 /// Mean squared difference over pixels and channels.
 double mse(const Image& a, const Image& b, std::span<const std::uint8_t> mask = {});
@@ -23,8 +23,8 @@ double psnr(const Image& a, const Image& b, const std::array<float, 3>& white,
             std::span<const std::uint8_t> mask = {});
 
 /// Mean structural similarity of the luma of two encoded images (see viewed()), peak 1: Gaussian window of
-/// 11x11, sigma 1.5, K1 = 0.01, K2 = 0.03. Counted are the window's centres; those whose window leaves the
-/// image only where there are no others. 1 for equal images.
+/// 11x11, sigma 1.5, K1 = 0.01, K2 = 0.03. The mask selects window centres; centres whose window extends
+/// beyond the image count only if there are no others. 1 for equal images.
 /// Source: Wang, Bovik, Sheikh & Simoncelli 2004.
 double ssim(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
 

@@ -15,29 +15,29 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-/// What a pixel of a photograph is good for.
+/// Usability of a pixel of a photograph.
 enum class Exposed : std::uint8_t { well, tooBright, tooDark };
 
-/// What somebody who sets up a camera looks at.
+/// Statistics of a photograph for setting up a camera.
 struct PhotographCheck {
   static constexpr std::size_t bins = 128;
-  std::array<std::array<std::uint32_t, bins>, 3> histogram{};  // per channel, even over [0, 1]
+  std::array<std::array<std::uint32_t, bins>, 3> histogram{};  // per channel, equal bins over [0, 1]
   std::vector<Exposed> exposed;  // per pixel: any channel too bright; all channels too dark
   double tooBright = 0.0;        // shares of the pixels
   double tooDark = 0.0;
 };
 
-/// `saturation`, `dark`: signals at or above and below which nothing is told. Signals that are no numbers are
-/// too dark and in no bin.  Shape: three channels, full scale 1.
+/// `saturation`, `dark`: limits at or above and below which a signal is unusable. NaN counts as too dark and
+/// is in no bin.  Shape: three channels, full scale 1.
 PhotographCheck checkPhotograph(const Image& signal, double saturation, double dark);
 
 /// Share of the region's pixels that are too bright; of the part of it that lies in the photograph, 0 where
 /// none does.  Shape: `size` is the photograph's.
 double tooBrightWithin(const PhotographCheck& check, Size size, const Region& region);
 
-/// How sharp a region is: the mean squared difference of its brightness between neighbours, over its mean
-/// squared brightness. Without unit, and the same for any exposure of an unsaturated photograph; worth
-/// comparing only within one view. 0 for a region of less than two pixels or without light.
+/// Sharpness of a region: the mean squared difference of its brightness between neighbours, over its mean
+/// squared brightness. Dimensionless, and independent of the exposure of an unsaturated photograph;
+/// comparable only within one view. 0 for a region of less than two pixels or without light.
 ///   F = mean |grad L|^2 / mean L^2,   L = luminance
 /// Source: Tenengrad family of focus measures; Pertuz, Puig & Garcia 2013.
 double sharpness(const Image& signal, const Region& region);

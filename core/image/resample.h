@@ -13,7 +13,7 @@ namespace relucent {
 using Point = std::array<double, 2>;
 
 /// A plane projective map, row-major: (u, v, w) = H (x, y, 1), maps to (u / w, v / w). The sign of H is such
-/// that w > 0 for what is in view; points with w <= 0 lie behind the horizon and map to nothing.
+/// that w > 0 for visible points; points with w <= 0 lie behind the horizon and have no image.
 using Homography = std::array<double, 9>;
 
 /// The map that takes the four points `from` to `to`.
@@ -25,7 +25,7 @@ Homography homographyFromCorners(Size image, const std::array<Point, 4>& corners
 Homography inverted(const Homography& map);
 Point mapped(const Homography& map, Point point);
 
-/// The image at another size: shrunk by area averaging, enlarged bilinearly, each axis for itself. Shrinking
+/// The image at another size: shrunk by area averaging, enlarged bilinearly, each axis separately. Shrinking
 /// by whole factors keeps the mean exactly.
 Image resized(const Image& image, Size size);
 

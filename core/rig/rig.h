@@ -10,8 +10,8 @@
 
 namespace relucent {
 
-/// Names a shot within a calibration: "acquisition" 17. Also the key of a simulated device's noise, so a
-/// shot taken again after an interruption comes out as it would have.
+/// Names a shot within a calibration: "acquisition" 17. Also the key of a simulated device's noise, so that a
+/// repeated shot has the same noise.
 struct ShotId {
   std::string stage;
   int number = 0;
@@ -28,29 +28,29 @@ class Projector {
   /// Bits of the drive values: 2^bits - 1 is full drive.
   virtual int bits() const = 0;
 
-  /// Shows encoded drive values in [0, 1] (3 channels, this size), rounded to the projector's codes.
-  /// Returns when the light is out: every exposure that starts now sees the picture and nothing older.
+  /// Shows encoded drive values in [0, 1] (3 channels, this size), rounded to the projector's codes. Returns
+  /// when the picture is lit: every exposure that starts afterwards sees this picture and nothing older.
   /// Throws: Error{device}.
   virtual void show(const Image& encodedDrive) = 0;
 };
 
-/// Exposure times that a camera can be asked for.
+/// Range of exposure times of a camera.
 struct ExposureRange {
   double shortest = 0.0;  // seconds
   double longest = 0.0;
 };
 
-/// What a camera is asked for.
+/// A request for a photograph.
 struct CaptureRequest {
   ShotId shot;
   int exposure = 0;      // index within the shot's bracket
-  double seconds = 0.0;  // wanted exposure time
+  double seconds = 0.0;  // requested exposure time
 };
 
-/// One photograph as the camera gave it.
+/// One photograph as delivered by the camera.
 struct RawFrame {
   Image signal;          // 3 channels, full scale 1; linear unless the camera has a response curve
-  int bits = 0;          // signal * (2^bits - 1) are whole numbers; 0: floating point
+  int bits = 0;          // signal * (2^bits - 1) are integers; 0: floating point
   double seconds = 0.0;  // exposure time that the camera reports
 };
 
@@ -63,8 +63,8 @@ class Camera {
   virtual Size size() const = 0;
   virtual ExposureRange exposures() const = 0;
 
-  /// A frame exposed wholly after this call began.
-  /// Throws: Error{device} if there is none, Error{input} if it is not usable (size, channels, NaN).
+  /// A frame exposed entirely after this call began.
+  /// Throws: Error{device} if none arrives, Error{input} if it is unusable (size, channels, NaN).
   virtual RawFrame capture(const CaptureRequest& request) = 0;
 };
 
@@ -73,9 +73,9 @@ struct Rig {
   std::vector<std::unique_ptr<Projector>> projectors;
   std::vector<std::unique_ptr<Camera>> cameras;
 
-  /// All projectors' pixels numbered through: the columns of T.
+  /// The pixels of all projectors, numbered consecutively: the columns of T.
   Rasters projectorRasters() const;
-  /// All cameras' pixels numbered through: the rows of T.
+  /// The pixels of all cameras, numbered consecutively: the rows of T.
   Rasters cameraRasters() const;
 };
 

@@ -19,10 +19,10 @@ struct BlockRows {
   std::size_t columns = 0;
 };
 
-/// Sums over the columns, made in tiles where something is added: what neighbouring rows see is neighbouring
-/// columns and a few coarse ones, so the sums of a part of the rows need little memory, and that stays in
-/// the cache. Four floats a column: three channels, and one that is never read, because then a column is one
-/// vector and never shares bytes with the next.
+/// Sums over the columns, allocated in tiles where something is added: neighbouring rows have entries in
+/// neighbouring columns and a few coarse ones, so the sums of a range of rows need little memory, which stays
+/// in the cache. Four floats per column: three channels and one that is never read, so that a column is one
+/// vector and shares no bytes with the next.
 class ColumnSums {
  public:
   static constexpr std::size_t tileColumns = 512;
@@ -37,7 +37,7 @@ class ColumnSums {
       makeTile(tile);
     return &tile[4 * (column % tileColumns)];
   }
-  /// Null where nothing was added.
+  /// Null if nothing was added.
   const float* tile(std::size_t index) const { return tiles_[index].get(); }
   std::size_t tiles() const { return tiles_.size(); }
 
@@ -47,18 +47,19 @@ class ColumnSums {
   std::vector<Tile> tiles_;
 };
 
-/// The inner loops of the products, for one instruction set. They differ in roundings: with fused
-/// multiply-add there are half as many.
+/// The inner loops of the products, for one instruction set. Their results differ in rounding: fused
+/// multiply-add rounds half as often.
 struct BlockKernels {
   const char* instructions;
   /// y = B x for the rows [begin, end). Shapes: 3 * columns -> 3 * rows.
   void (*gather)(const BlockRows& rows, std::size_t begin, std::size_t end, const float* x, float* y);
-  /// sums += B^T y for the rows [begin, end). Rows whose y is zero cost nothing. Shapes: 3 * rows -> columns.
+  /// sums += B^T y for the rows [begin, end). Rows whose y is zero are skipped. Shapes: 3 * rows -> columns.
   void (*scatter)(const BlockRows& rows, std::size_t begin, std::size_t end, const float* y,
                   ColumnSums& sums);
 };
 
-/// What this processor can run, the quickest last; the first runs on every processor of its kind.
+/// The kernels that this processor can run, fastest last; the first runs on every processor of the
+/// architecture.
 std::span<const BlockKernels> blockKernels();
 
 }  // namespace relucent

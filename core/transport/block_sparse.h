@@ -18,15 +18,16 @@ struct BlockRows;
 using ColourBlock = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 
 /// A sparse matrix of 3x3 blocks, compressed by rows, 22 bytes a block: a 32-bit column and nine 16-bit
-/// fixed-point values on a scale of the row's own,
+/// fixed-point values with one scale per row,
 ///   block = scale[row] * code,  |code| <= 32767.
-/// Products are bound by memory traffic; beside single floats this halves it at an error of at most
+/// Products are limited by memory bandwidth; compared with single precision this halves the traffic at an
+/// error of at most
 /// scale / 2 per value, 2e-5 of the row's largest.
 class BlockSparse {
  public:
   BlockSparse() = default;
-  /// From finished arrays, none of them copied: rowStart has one more than scale and ends at the number of
-  /// blocks; columns ascend within a row; scale is the rows' quantisation step.
+  /// From finished arrays, none of them copied: rowStart has one more element than scale and ends at the
+  /// number of blocks; columns ascend within a row; scale is the rows' quantisation step.
   /// Throws: std::logic_error unless the sizes agree.
   static BlockSparse assembled(std::size_t columns, std::vector<std::size_t> rowStart,
                                std::vector<std::uint32_t> column,
@@ -48,19 +49,19 @@ class BlockSparse {
 
   /// y = B x. Shapes: 3 * columns() -> 3 * rows().
   Stack multiply(const Stack& x) const;
-  /// x = B^T y. Rows whose y is zero cost nothing, so a matrix stored the other way round multiplies
-  /// patterns that are mostly dark in time proportional to what is lit. Same bits for every number of
-  /// threads. Shapes: 3 * rows() -> 3 * columns().
+  /// x = B^T y. Rows whose y is zero are skipped, so a matrix that is stored transposed multiplies mostly
+  /// dark patterns in time proportional to the lit part. Same bits for every number of threads. Shapes: 3 *
+  /// rows() -> 3 * columns().
   Stack multiplyTransposed(const Stack& y) const;
 
-  /// The same matrix stored the other way round: block (r, c) becomes its transpose at (c, r).
+  /// The transposed matrix: block (r, c) becomes its transpose at (c, r).
   BlockSparse transposed() const;
   /// Row r times the factor of each camera channel: block(r) <- diag(factor[3r..3r+2]) block(r).
   BlockSparse withRowsScaled(const Stack& factor) const;
   /// Only the entries that are marked.  Shape: blocks().
   /// Throws: std::logic_error if the shape differs.
   BlockSparse filtered(const std::vector<std::uint8_t>& keep) const;
-  /// Only the entries for which keep(row, entry) is true; it is asked once for each, on all cores.
+  /// Only the entries for which keep(row, entry) is true; it is called once per entry, on all cores.
   BlockSparse filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const;
 
   bool operator==(const BlockSparse&) const = default;
@@ -69,7 +70,7 @@ class BlockSparse {
   friend class BlockSparseBuilder;
   friend class BlockSparseWriter;
   friend class TransportFile;
-  /// Where a part of the rows begins if each is to have the same share of the blocks.
+  /// First row of a part, when the rows are divided into parts with equal numbers of blocks.
   std::size_t rowAtShare(std::size_t part) const;
 
   std::size_t columns_ = 0;
@@ -79,10 +80,10 @@ class BlockSparse {
   std::vector<float> scale_;
 };
 
-/// Collects blocks in any order and sorts them into a BlockSparse. Blocks at the same place add up.
+/// Collects blocks in any order and sorts them into a BlockSparse. Blocks at the same position are added.
 class BlockSparseBuilder {
  public:
-  /// `fullScale[r]`: the largest magnitude that row r will hold; what is larger saturates there.
+  /// `fullScale[r]`: the largest magnitude that row r will hold; larger values saturate.
   BlockSparseBuilder(std::size_t columns, std::vector<float> fullScale);
 
   void add(std::size_t row, std::size_t column, const ColourBlock& block);
@@ -101,16 +102,16 @@ class BlockSparseBuilder {
   std::vector<Entry> entries_;
 };
 
-/// Writes a BlockSparse row after row from codes that are already on the rows' scales: nothing is held twice,
-/// which at full scale is a gigabyte.
+/// Writes a BlockSparse row by row from codes that are already scaled per row, without a second copy, which
+/// would be a gigabyte at full scale.
 class BlockSparseWriter {
  public:
   using Code = std::array<std::int16_t, 9>;
 
-  /// `fullScale` as for BlockSparseBuilder; `blocks`: how many are expected, to reserve the memory once.
+  /// `fullScale` as for BlockSparseBuilder; `blocks`: the expected number, to reserve the memory once.
   BlockSparseWriter(std::size_t columns, std::vector<float> fullScale, std::size_t blocks);
 
-  /// A block of the row under way, columns in any order. Zeros are left out.
+  /// A block of the current row, columns in any order. Zeros are left out.
   void add(std::size_t column, const Code& code);
   void endRow();
   /// Contract: every row has been ended.

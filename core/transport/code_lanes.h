@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
-/// Four lanes of GCC's vector extensions, which Clang has too: SSE on x86-64, NEON on arm64. What the inner
-/// loops over 16-bit codes share; nobody else includes this.
+/// Four lanes of GCC's vector extensions, supported by Clang too: SSE on x86-64, NEON on arm64. Shared by the
+/// inner loops over 16-bit codes; no other file includes this.
 namespace relucent::detail {
 
 using Floats [[gnu::vector_size(16)]] = float;
@@ -13,7 +13,7 @@ using Integers [[gnu::vector_size(16)]] = std::int32_t;
 using Longs [[gnu::vector_size(16)]] = std::int64_t;
 using Codes [[gnu::vector_size(16)]] = std::int16_t;
 
-// A code in the upper half of 32 bits: that is one instruction everywhere, widening with the sign is not.
+// A code in the upper half of 32 bits: one instruction on every processor, unlike sign extension.
 inline constexpr float lanesToCodes = 0x1.0p-16f;
 
 // Inlined into each version of a loop, so that each compiles it for its own instruction set.

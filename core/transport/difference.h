@@ -5,16 +5,16 @@
 
 namespace relucent {
 
-/// How far one transport matrix is from another, over all single projector pixels:
+/// Difference between two transport matrices over all single projector pixels:
 ///   frobenius = |T - R|_F / |R|_F,   row error = |T_i - R_i|_F / |R_i|_F.
 struct TransportDifference {
   double frobenius = 0.0;
   double rowMedian = 0.0;
   double rowP95 = 0.0;
-  std::size_t rows = 0;  // with any light in the reference: those that the row figures are taken over
+  std::size_t rows = 0;  // rows with light in the reference; the row statistics are taken over these
 };
 
-/// Compares without expanding to pixels. A row is a sum of even blocks; with densities d = value / pixels
+/// Compares without expanding to pixels. A row is a sum of uniform blocks; with densities d = value / pixels
 /// of the block, blocks nested or disjoint,
 ///   |row|^2 = sum_k n_k |d_k|^2 + 2 sum_k n_k d_k . (sum of the densities of k's ancestors).
 /// Throws: std::logic_error unless both belong to the same devices.

@@ -12,13 +12,13 @@ namespace relucent {
 
 struct ExpansionLimits {
   std::uint64_t bytes = std::uint64_t{2} << 30;  // of values and indices, 40 a block
-  std::uint64_t seed = 1;                        // of the samples' places
+  std::uint64_t seed = 1;                        // of the sample positions
 };
 
 /// The light transport with a column for every projector pixel. A leaf is spread evenly over its block's
-/// pixels; where that is more than the limit allows, a block is carried by n x n pixels, one at a random
-/// place in each of n x n cells, with the value of its cell: sums stay what they are.
-/// n is as large as the limit allows. Rows are made when they are asked for.
+/// pixels; if that exceeds the limit, a block is represented by n x n pixels, one at a random position in
+/// each of n x n cells, with the value of its cell, which preserves sums.
+/// n is as large as the limit allows. Rows are computed on request.
 class PixelExpansion {
  public:
   struct Entry {
@@ -30,14 +30,14 @@ class PixelExpansion {
   explicit PixelExpansion(const TransportMatrix& transport, const ExpansionLimits& limits = {});
 
   const TransportMatrix& transport() const { return *transport_; }
-  /// The side n; blocks up to n x n pixels are there in full.
+  /// The side n; blocks up to n x n pixels are complete.
   int side() const { return side_; }
   /// Entries of a row: [rowBegin(r), rowBegin(r + 1)).
   std::uint64_t rowBegin(std::size_t row) const { return rowStart_[row]; }
   std::uint64_t blocks() const { return rowStart_.back(); }
-  /// Of all light, how much is carried by samples.
+  /// Share of all light that is represented by samples.
   double sampledShare() const { return sampledShare_; }
-  /// What was done, as a sentence for the user.
+  /// Describes the expansion in a sentence for the user.
   Message summary() const;
 
   /// A row's entries, columns ascending.

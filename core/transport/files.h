@@ -8,17 +8,17 @@
 
 namespace relucent {
 
-/// The disk form of block matrices is SciPy's own: what scipy.sparse.save_npz writes for a BSR matrix of 3x3
-/// blocks, so scipy.sparse.load_npz opens it,
+/// Block matrices are stored in SciPy's format, as scipy.sparse.save_npz writes a BSR matrix of 3x3 blocks,
+/// so that scipy.sparse.load_npz reads them:
 ///   data (n, 3, 3) float32, indices (n), indptr (rows + 1), shape (3 rows, 3 columns), format b'bsr',
-/// and beside it `scale` (rows) float32, the rows' quantisation steps, which make saving and loading give
+/// and additionally `scale` (rows) float32, the rows' quantisation steps, which make saving and loading give
 /// the same bits, and for a light transport `cameras` and `projectors` (devices, 2), their sizes.
-/// Indices are 64-bit where 32 do not reach.  Source: core/transport/README.md.
+/// Indices are 64-bit where 32 bits are too few.  Source: core/transport/README.md.
 
 /// Atomically. Throws: Error{disk}.
 void saveBlocks(const std::filesystem::path& path, const BlockSparse& blocks);
 /// Files without `scale` (saved by SciPy) are quantised to each row's largest value.
-/// Throws: Error{disk}; Error{format} if anything is missing, damaged or contradicts itself; Error{memory}.
+/// Throws: Error{disk}; Error{format} if anything is missing, damaged or inconsistent; Error{memory}.
 BlockSparse loadBlocks(const std::filesystem::path& path);
 
 /// T' with its devices; columns are the nodes of NodeLayout. Errors as above.

@@ -10,9 +10,9 @@ namespace relucent {
 
 /// A row of T: what one camera pixel sees of every projector pixel.
 struct PixelFootprint {
-  std::vector<float> luminance;  // per projector pixel, of what the camera pixel sees of it in white
+  std::vector<float> luminance;  // per projector pixel, of the camera pixel's signal from it at white
   std::size_t pixels = 0;        // that light it
-  std::size_t strongest = 0;     // projector pixel; 0 where none does
+  std::size_t strongest = 0;     // projector pixel; 0 if none does
   double nearShare = 0.0;        // of the row's light that comes from within `near` of the strongest
 };
 
@@ -28,7 +28,7 @@ std::optional<std::size_t> strongestPixel(const PixelFootprint& footprint, const
 /// Which device has pixel `index` of all devices' pixels.  Contract: index < rasters.count().
 std::size_t deviceOfPixel(const Rasters& rasters, std::size_t index);
 
-/// A column of T: luminance of what every camera pixel sees of one projector pixel in white.
+/// A column of T: luminance of every camera pixel's signal from one projector pixel at white.
 /// Contract: pixel < transport.projectors().count().
 std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pixel);
 

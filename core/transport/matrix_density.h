@@ -34,12 +34,12 @@ struct MatrixDensity {
 };
 
 /// Pictures of T at any scale, from the whole matrix to single entries, without expanding its leaves.
-/// Prepared once; asked from any thread. A leaf's light is spread evenly over the columns of its block:
+/// Prepared once; may be used from any thread. A leaf's light is spread evenly over the columns of its block:
 ///   sum of a cell = sum over its rows i and columns j of l(T_ij),  T_ij = sum of leaves over j / their
 ///   pixels,
-/// l: luminance of what the camera pixel sees of the projector pixel in white (ITU-R BT.709).
-/// A picture costs one pass over the leaves of its rows; columns of cells that are whole lines of one
-/// projector spare the time in which coarse blocks are spread line by line.
+/// l: luminance of the camera pixel's signal from the projector pixel at white (ITU-R BT.709).
+/// A picture costs one pass over the leaves of its rows; where columns of cells are whole lines of one
+/// projector, coarse blocks need not be spread line by line.
 class MatrixPictures {
  public:
   enum class Of {
@@ -47,14 +47,14 @@ class MatrixPictures {
     connections  // stored ones: 1 for each leaf over an entry
   };
 
-  /// `cut`: leaves that it would drop are not there.  Throws: Error{usage} for wrong settings.
+  /// `cut`: leaves that it would drop are left out.  Throws: Error{usage} for wrong settings.
   explicit MatrixPictures(std::shared_ptr<const TransportMatrix> transport,
                           const ThresholdSettings& cut = {});
 
   const TransportMatrix& transport() const { return *transport_; }
   MatrixPart whole() const;
   /// Same bits for every number of threads.  `step`: only every so many rows of a cell are summed, beginning
-  /// with its first, and stand for the others: about as many times quicker, an estimate.
+  /// with its first, as an estimate that is about as many times faster.
   /// Contract: the part lies in whole(); each cell has at least one row and one column; the step is positive.
   MatrixDensity density(const MatrixPart& part, Size cells, Of of = Of::light, std::size_t step = 1) const;
 

@@ -10,7 +10,7 @@
 namespace relucent {
 
 /// A node of a projector's mean pyramid: level 0 is the pixels, level l has blocks of 2^l x 2^l pixels,
-/// cut off at the right and lower border where the size is no power of two.
+/// clipped at the right and lower border if the size is not a power of two.
 struct Node {
   int projector = 0;
   int level = 0;
@@ -19,7 +19,7 @@ struct Node {
   bool operator==(const Node&) const = default;
 };
 
-/// The part of a projector that a node stands for, in pixels: [x0, x1) x [y0, y1).
+/// The part of a projector that a node covers, in pixels: [x0, x1) x [y0, y1).
 struct Block {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   int count() const { return (x1 - x0) * (y1 - y0); }
@@ -54,14 +54,15 @@ class NodeLayout {
   /// The node of `level` that holds a projector pixel (index over all projectors).
   Node nodeOver(std::size_t pixel, int level) const;
 
-  /// Mean of a pattern over every node: v = A p. A pixel counts once however the block is cut.
+  /// Mean of a pattern over every node: v = A p. Each pixel of a clipped block counts once.
   /// Shapes: 3 * projectors().count() -> 3 * count().
   Stack means(const Stack& pattern) const;
-  /// The adjoint A^T: spreads every node's value evenly over its pixels, in the memory that it is given.
+  /// The adjoint A^T: spreads every node's value evenly over its pixels, into the given memory.
   Stack meansAdjoint(Stack nodeValues) const;
 
-  /// The same in place, for loops that must not allocate: the pixels' values, which come first, make those
-  /// of all coarser nodes; or all nodes' values gather in the pixels', and the coarser ones are spent.
+  /// The same in place, for loops that must not allocate: computes the values of all coarser nodes from those
+  /// of the pixels, which come first; or adds the values of all nodes to the pixels, after which the coarser
+  /// ones are invalid.
   /// Contract: 3 * count() values.
   void fillMeans(std::span<float> nodeValues) const;
   void gatherMeansAdjoint(std::span<float> nodeValues) const;

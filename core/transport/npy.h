@@ -9,7 +9,7 @@
 
 namespace relucent {
 
-/// What an array of a NumPy file holds: `type` as NumPy writes it ("<f4", "<i8", "|S3"), C order.
+/// Type and shape of an array in a NumPy file: `type` as NumPy writes it ("<f4", "<i8", "|S3"), C order.
 struct NpyHeader {
   std::string type;
   std::vector<std::uint64_t> shape;
@@ -21,12 +21,12 @@ struct NpyHeader {
 /// The first bytes of a .npy file, version 1.0: padded so that the data begins at a multiple of 64 bytes.
 std::string npyText(const NpyHeader& header);
 
-/// Reads exactly `bytes`; false if there are no more.
+/// Reads exactly `bytes`; false at the end of the file.
 using ReadBytes = std::function<bool(char* out, std::uint64_t bytes)>;
 
-/// The dictionary in the header with which a .npy file begins; nothing if it is none.
+/// The dictionary in the header of a .npy file; empty if it has none.
 std::optional<std::string> readNpyDictionary(const ReadBytes& read);
-/// What a dictionary announces; nothing for arrays in Fortran order and for types without a size.
+/// The array that a dictionary describes; empty for Fortran order and for types without a size.
 std::optional<NpyHeader> parseNpyDictionary(const std::string& dictionary);
 
 }  // namespace relucent

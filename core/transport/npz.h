@@ -13,16 +13,16 @@
 
 namespace relucent {
 
-/// Writes a NumPy .npz archive (an uncompressed zip of .npy files) whose arrays are made piece by piece
-/// while they are written: no array need ever be whole in memory.
+/// Writes a NumPy .npz archive (an uncompressed zip of .npy files) whose arrays are produced in pieces while
+/// they are written, so that no array has to be in memory as a whole.
 class NpzWriter {
  public:
-  /// Writes the items [begin, begin + count) of an array to `out`. Asked for in ascending order.
+  /// Writes the items [begin, begin + count) of an array to `out`. Called in ascending order.
   using Items = std::function<void(std::uint64_t begin, std::uint64_t count, char* out)>;
 
-  /// `name` without ".npy". What `items` refers to must live until save().
+  /// `name` without ".npy". Whatever `items` refers to must live until save().
   void add(const std::string& name, const NpyHeader& header, Items items);
-  /// Copies the values, in their NumPy type.
+  /// Copies the values, with the corresponding NumPy type.
   void add(const std::string& name, const std::vector<std::int32_t>& values,
            std::vector<std::uint64_t> shape);
   void add(const std::string& name, const std::vector<std::int64_t>& values,
@@ -42,7 +42,7 @@ class NpzWriter {
 };
 
 /// Reads the arrays of a .npz archive, uncompressed or deflated.
-/// Throws: Error{disk} if it cannot be opened, Error{format} for everything that is not as it should be.
+/// Throws: Error{disk} if it cannot be opened, Error{format} for anything invalid.
 class NpzReader {
  public:
   explicit NpzReader(const std::filesystem::path& path);
@@ -53,8 +53,8 @@ class NpzReader {
   bool has(const std::string& name) const;
   NpyHeader header(const std::string& name) const;
 
-  /// Gives all items in order to `take`, in pieces of whole items of the first axis where these are not huge.
-  /// Meanwhile the next piece is read on another thread.
+  /// Passes all items in order to `take`, in pieces of whole items of the first axis unless these are huge,
+  /// while the next piece is read on another thread.
   using Take = std::function<void(std::uint64_t begin, std::uint64_t count, const char* items)>;
   void read(const std::string& name, const Take& take) const;
   /// A whole array of "<i4" or "<i8".

@@ -9,17 +9,17 @@
 
 namespace relucent {
 
-/// Pixels of every node, and the node of the next coarser level that holds it (itself at the top): what
-/// passes over all leaves look up instead of working it out each time.
+/// Pixels of every node, and the node of the next coarser level that holds it (itself at the top): a table
+/// for loops over all leaves.
 struct NodeTable {
   explicit NodeTable(const NodeLayout& layout);
   std::vector<float> pixels;
   std::vector<std::uint32_t> parent;
 };
 
-/// How strong connections are: how many leaves, and how much of the light, per decade of strength.
+/// Histogram of the strength of leaves: their number and their light, in logarithmic bins.
 struct StrengthHistogram {
-  static constexpr int lowestDecade = -9;  // weaker ones are counted in the first bin ...
+  static constexpr int lowestDecade = -9;  // weaker leaves count in the first bin ...
   static constexpr int highestDecade = 3;  // ... stronger ones in the last
   static constexpr int binsPerDecade = 4;
   static constexpr std::size_t bins = (highestDecade - lowestDecade) * binsPerDecade;
@@ -33,18 +33,18 @@ double strengthOfBin(std::size_t bin);
 /// suggests. 0 where there is no light.
 double cutKeeping(const StrengthHistogram& histogram, double share);
 
-/// What T holds, or would hold after a threshold.
+/// Statistics of T, or of T after a threshold.
 struct TransportStatistics {
   std::uint64_t leaves = 0;
   std::uint64_t connections = 0;  // pairs of a camera pixel and a projector pixel
   std::uint64_t bytes = 0;        // in memory
   double energy = 0.0;            // sum of the magnitudes of all values: the light in all leaves
-  double energyKept = 1.0;        // share of it that the threshold leaves, before rows are rescaled
-  StrengthHistogram histogram;    // of what is left, log10 of strength in camera signal per second
+  double energyKept = 1.0;        // share of it that the threshold keeps, before rows are rescaled
+  StrengthHistogram histogram;    // of the kept leaves, log10 of strength in camera signal per second
 };
 
-/// One pass over the leaves, nothing is copied: what `thresholded` would leave with these settings. Same
-/// bits for every number of threads.  Throws: Error{usage} for wrong settings.
+/// Statistics of what `thresholded` would keep with these settings, in one pass without a copy. Same bits for
+/// every number of threads.  Throws: Error{usage} for wrong settings.
 TransportStatistics statisticsOf(const TransportMatrix& transport, const ThresholdSettings& settings = {});
 
 /// |T_i|^2 of every row over all single projector pixels and nine values, exact for nested leaves, without

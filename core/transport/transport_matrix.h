@@ -13,8 +13,8 @@ namespace relucent {
 
 /// The light transport between all projectors and all cameras of a rig,
 ///   camera = T * projector + e,      T = T' A,
-/// where A takes a pattern's means over the nodes of its mean pyramid and T' ("leaves") has a column for
-/// every node: light that arrives evenly from a wide area is one entry, not thousands.
+/// where A computes a pattern's means over the nodes of its mean pyramid and T' ("leaves") has a column for
+/// every node: light that arrives evenly from a wide area is one entry instead of thousands.
 /// A leaf's value is the camera signal per second while its whole block is fully lit.
 /// Shapes: rows = camera pixels, columns = projector pixels, 3x3 blocks (paper eq. 2 and appendix).
 /// Source: core/transport/README.md; Wetzstein & Bimber 2007, Sen et al. 2005.
@@ -33,9 +33,9 @@ class TransportMatrix {
   Stack apply(const Stack& projector) const;
   /// Dual photography: the projectors' view under light from the cameras. Shapes: camera -> projector stack.
   Stack applyTransposed(const Stack& camera) const;
-  /// T 1: what the cameras see when every pixel is fully lit.
+  /// T 1: the flood image, with every projector pixel at full drive.
   Stack floodlight() const;
-  /// Per camera pixel the whole 3x3 mixing, sum over all its leaves.
+  /// 3x3 colour mixing of each camera pixel, the sum over its leaves.
   std::vector<ColourBlock> rowSums() const;
 
  private:
@@ -44,22 +44,23 @@ class TransportMatrix {
   BlockSparse leaves_;
 };
 
-/// Rows scaled, per camera channel, so that T 1 equals `flood`: what a threshold took away is put back in
-/// proportion (paper, Algorithm 1, line 21). Channels where T 1 is at most `floor` are left alone.
+/// Rows scaled, per camera channel, so that T 1 equals `flood`: what a threshold removed is restored in
+/// proportion (paper, Algorithm 1, line 21). Channels where T 1 is at most `floor` are left unchanged.
 TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood,
                                      float floor = 0.0f);
 
 /// Thresholding settings. A leaf's strength is the largest magnitude in its 3x3 block per projector pixel of
-/// its node; a leaf is dropped where that stays below any of the limits. By default nothing is dropped.
+/// its node; a leaf is dropped if that is below any of the limits. By default nothing is dropped.
 struct ThresholdSettings {
   float absolute = 0.0f;       // camera signal per second: the paper's "HDR value of a camera pixel"
   float shareOfRowMax = 0.0f;  // of the row's strongest single connection
-  double energyKept = 1.0;     // of the light in all leaves: the strongest that hold at least this much stay
+  double energyKept =
+      1.0;  // of the light in all leaves: the strongest leaves that hold at least this share are kept
 };
 std::vector<Message> problems(const ThresholdSettings& settings);
 
-/// Per row the least strength that stays. The row's strongest leaf always does: a camera pixel never leaves
-/// the matrix. Source: Wetzstein & Bimber 2007, section 3.
+/// Least strength that is kept, per row. The strongest leaf of a row is always kept, so that no row becomes
+/// empty. Source: Wetzstein & Bimber 2007, section 3.
 std::vector<float> thresholdLimits(const TransportMatrix& transport, const ThresholdSettings& settings);
 
 /// Drops weak leaves, then rescales to `flood`.

@@ -39,7 +39,7 @@ void parallelChunks(std::size_t begin, std::size_t end, std::size_t chunks, cons
 /// of the first when both are done. They must not touch the same data. An exception is rethrown here, that of
 /// the foreground if both throw. An empty background is skipped.
 template <typename Foreground>
-auto besides(const std::function<void()>& background, const Foreground& foreground) {
+auto runWithBackground(const std::function<void()>& background, const Foreground& foreground) {
   if (!background) return foreground();
   tbb::task_group group;
   group.run(background);

@@ -128,7 +128,7 @@ class Grouper::Work {
       for (std::size_t i = begin; i < end; ++i) {
         std::span<const Connection> row = graph_.row(i);
         std::uint8_t* kept = result_.kept.data() + graph_.placeOf(i);
-        forKept(kept, row.size(), [&](std::size_t k) {
+        forEachKept(kept, row.size(), [&](std::size_t k) {
           if (result_.projectorCluster[row[k].pixel] == result_.cameraCluster[i]) return;
           kept[k] = 0;
           --keptOfRow_[i];

@@ -75,7 +75,7 @@ void PatchCut::cutRow(std::size_t i, const ClusteringSettings& settings, std::si
   });
 
   std::uint32_t joined = row.front().pixel;
-  forKept(kept, row.size(), [&](std::size_t k) {
+  forEachKept(kept, row.size(), [&](std::size_t k) {
     ++keptOfRow_[i];
     lightOfPart_[part] += static_cast<double>(row[k].luminance);
     brightest_[row[k].pixel].raise(row[k].luminance, static_cast<std::uint32_t>(i));

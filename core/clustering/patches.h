@@ -47,7 +47,7 @@ std::span<const Connection> bright(std::span<const Connection> row, const Cluste
 
 /// Calls visit(k) for every k below `count` with kept[k] == 1; skips zeros eight at a time.
 template <typename Visit>
-void forKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
+void forEachKept(const std::uint8_t* kept, std::size_t count, const Visit& visit) {
   static_assert(std::endian::native == std::endian::little);
   std::size_t k = 0;
   for (; k + 8 <= count; k += 8) {

@@ -72,7 +72,7 @@ void SizeBound::collect(const CutGraph& cut) {
         // It is no projector pixel's brightest and adds nothing to a cluster's size: the strongest connection
         // that it has takes it in, whatever joined before.
         float highest = -1.0f;
-        forKept(kept, row.size(), [&](std::size_t k) {
+        forEachKept(kept, row.size(), [&](std::size_t k) {
           float strength = strengthOf(row[k]);
           if (strength < highest || (strength == highest && row[k].pixel > seen_[i])) return;
           highest = strength;
@@ -80,7 +80,7 @@ void SizeBound::collect(const CutGraph& cut) {
         });
       }
       std::uint32_t own = root_[seen_[i]];
-      forKept(kept, row.size(), [&](std::size_t k) {
+      forEachKept(kept, row.size(), [&](std::size_t k) {
         if (!canJoin(own, root_[row[k].pixel])) return;
         float strength = strengthOf(row[k]);
         // No connection is stronger than one, but for rounding.

@@ -42,15 +42,15 @@ class AravisFailure {
   bool happened() const { return error_ != nullptr; }
 
   /// Throws: CameraLost if the camera does not answer or obeys somebody else, Error{device} for all the rest.
-  void check(const std::string& deed) const {
+  void check(const std::string& action) const {
     if (error_ == nullptr) return;
-    if (isLoss())
+    if (isConnectionLost())
       throw CameraLost(
           RELUCENT_MESSAGE("device.camera-no-longer-answers", "the camera no longer answers ({}: {})")
-              .with(deed, error_->message));
+              .with(action, error_->message));
     throw Error(
         ErrorKind::device,
-        RELUCENT_MESSAGE("device.camera-refuses", "the camera refuses ({}: {})").with(deed, error_->message),
+        RELUCENT_MESSAGE("device.camera-refuses", "the camera refuses ({}: {})").with(action, error_->message),
         RELUCENT_MESSAGE(
             "device.switch-off-load-default-settings",
             "switch it off and on, load its default settings with its maker's program, and try again"),
@@ -58,7 +58,7 @@ class AravisFailure {
   }
 
  private:
-  bool isLoss() const {
+  bool isConnectionLost() const {
     if (error_->domain != ARV_DEVICE_ERROR) return false;
     constexpr std::array lost{ARV_DEVICE_ERROR_NOT_CONNECTED,  ARV_DEVICE_ERROR_TIMEOUT,
                               ARV_DEVICE_ERROR_TRANSFER_ERROR, ARV_DEVICE_ERROR_NOT_FOUND,

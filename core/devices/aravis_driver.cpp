@@ -160,13 +160,13 @@ class AravisDriver : public CameraDriver {
     for (int i = 0; i < buffers; ++i) arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
     arv_camera_start_acquisition(camera_.get(), failure);
     failure.check("start");
-    if (ARV_IS_GV_STREAM(stream_.get()) && setup_.triggered) takeOneForTheSocket();
+    if (ARV_IS_GV_STREAM(stream_.get()) && setup_.triggered) primeSocketBuffer();
   }
 
   /// The library gives a stream its room only after the first packet, too late for what the network has of
   /// the rest of that photograph: as each repetition begins a stream of its own, all of them would lose
   /// parts.
-  void takeOneForTheSocket() {
+  void primeSocketBuffer() {
     constexpr microseconds patience(1'000'000);
     AravisFailure failure(name());
     double shortest = 0.0, longest = 0.0;

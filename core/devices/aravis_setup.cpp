@@ -20,7 +20,7 @@ class Setup {
     traits.model = fmt::format("{} {}", vendor, textOf(arv_camera_get_model_name(camera_, failure)));
     chooseFormat(traits);
     chooseRegion(traits);
-    switchAutomaticsOff();
+    disableAutomaticFunctions();
     chooseGain(traits);
     chooseTrigger(traits);
     double shortest = 0.0, longest = 0.0;
@@ -97,7 +97,7 @@ class Setup {
   }
 
   /// Throws: Error{device} if the camera goes on deciding something by itself.
-  void switchAutomaticsOff() {
+  void disableAutomaticFunctions() {
     for (const char* automatic : {"ExposureAuto", "GainAuto", "BalanceWhiteAuto", "BlackLevelAuto"}) {
       AravisFailure failure(name_);
       if (arv_camera_is_feature_available(camera_, automatic, failure) == FALSE) continue;

@@ -19,9 +19,9 @@ constexpr microseconds trialTime = 20s;
 /// A photograph that did not come in time may still be written for so long.
 constexpr microseconds latestTime = 20s;
 /// Between two looks whether anything else is left to be heard.
-constexpr microseconds oneListening = 1ms;
+constexpr microseconds eventTimeout = 1ms;
 /// Words that a camera may have left from before; a camera that never falls silent is left talking.
-constexpr int mostOldWords = 200;
+constexpr int mostPendingEvents = 200;
 
 /// The part of `size` around the middle. An even corner keeps the colour filter's order.
 SensorFrame cut(const SensorFrame& frame, Size size) {
@@ -101,12 +101,12 @@ class GphotoDriver : public CameraDriver {
 
   void trigger() override {
     guarded([&] {
-      listenToTheEnd();
+      discardPendingEvents();
       isOwed_ = true;
       if (bulbSeconds_)
         exposeBulb(*bulbSeconds_);
       else
-        whenFree(*port_, [&] { port_->trigger(); });
+        retryWhileBusy(*port_, [&] { port_->trigger(); });
     });
   }
 
@@ -116,7 +116,7 @@ class GphotoDriver : public CameraDriver {
       std::string developed;
       do {
         const GphotoPort::Event event =
-            port_->waitEvent(std::clamp(deadline - port_->now(), oneListening, microseconds(1s)));
+            port_->waitEvent(std::clamp(deadline - port_->now(), eventTimeout, microseconds(1s)));
         if (!event.file) continue;
         const microseconds arrived = port_->now();
         if (isRawName(event.file->name)) {
@@ -141,7 +141,7 @@ class GphotoDriver : public CameraDriver {
       const microseconds deadline = port_->now() + latestTime;
       while (isOwed_ && port_->now() < deadline) {
         const GphotoPort::Event event =
-            port_->waitEvent(std::clamp(deadline - port_->now(), oneListening, microseconds(1s)));
+            port_->waitEvent(std::clamp(deadline - port_->now(), eventTimeout, microseconds(1s)));
         if (!event.file) continue;
         isOwed_ = !isRawName(event.file->name);
         discard(*event.file);
@@ -149,7 +149,7 @@ class GphotoDriver : public CameraDriver {
       if (isOwed_)
         throw CameraLost(RELUCENT_MESSAGE("device.photograph-asked-none-came",
                                           "a photograph was asked for and none came"));
-      listenToTheEnd();
+      discardPendingEvents();
     });
   }
 
@@ -212,16 +212,16 @@ class GphotoDriver : public CameraDriver {
 
   /// Hears and forgets what the camera still has to say, photographs that were taken by hand included: they
   /// stay in the camera.
-  void listenToTheEnd() {
-    for (int words = 0; words < mostOldWords; ++words)
-      if (port_->waitEvent(oneListening).timedOut) return;
+  void discardPendingEvents() {
+    for (int events = 0; events < mostPendingEvents; ++events)
+      if (port_->waitEvent(eventTimeout).timedOut) return;
   }
 
   void exposeBulb(double seconds) {
     const GphotoSetup::Bulb& bulb = *setup_.bulb;
-    whenFree(*port_, [&] { port_->set(bulb.setting, bulb.open); });
+    retryWhileBusy(*port_, [&] { port_->set(bulb.setting, bulb.open); });
     port_->wait(std::chrono::duration_cast<microseconds>(std::chrono::duration<double>(seconds)));
-    whenFree(*port_, [&] { port_->set(bulb.setting, bulb.close); });
+    retryWhileBusy(*port_, [&] { port_->set(bulb.setting, bulb.close); });
   }
 
   DriverFrame damaged(Message reason, microseconds arrived) {
@@ -233,7 +233,7 @@ class GphotoDriver : public CameraDriver {
   }
 
   DriverFrame frameOf(const GphotoFile& file, microseconds arrived) {
-    const std::vector<std::uint8_t> bytes = whenFree(*port_, [&] { return port_->download(file); });
+    const std::vector<std::uint8_t> bytes = retryWhileBusy(*port_, [&] { return port_->download(file); });
     discard(file);
     if (count_ % 16 == 0) askForBattery();
     try {
@@ -242,7 +242,7 @@ class GphotoDriver : public CameraDriver {
       frame.id = ++count_;
       frame.arrived = arrived;
       frame.frame = std::move(photograph.frame);
-      if (settings_.photograph) cutToWish(frame.frame);
+      if (settings_.photograph) cropToSettings(frame.frame);
       return frame;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::format) throw;
@@ -251,7 +251,7 @@ class GphotoDriver : public CameraDriver {
     }
   }
 
-  void cutToWish(SensorFrame& frame) const {
+  void cropToSettings(SensorFrame& frame) const {
     const Size wanted = *settings_.photograph, has = photographSize(frame.size, frame.format);
     if (wanted.width > has.width || wanted.height > has.height)
       throw Error(

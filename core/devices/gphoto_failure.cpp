@@ -55,8 +55,8 @@ CameraLost lostByFullCard() {
                     RELUCENT_MESSAGE("device.change-empty-memory-card", "change or empty the memory card"));
 }
 
-CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circumstances) {
-  const bool hasEmptyBattery = circumstances.battery && *circumstances.battery <= emptyBattery;
+CameraLost lostBy(const GphotoFailure& failure, const GphotoCondition& condition) {
+  const bool hasEmptyBattery = condition.battery && *condition.battery <= emptyBattery;
   switch (failure.fault()) {
     case GphotoFault::claimed:
       return CameraLost(
@@ -74,8 +74,8 @@ CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circu
                                          "close its menus and its playback, and end its live picture"));
     case GphotoFault::absent:
     case GphotoFault::silent:
-      if (hasEmptyBattery) return lostByEmptyBattery(*circumstances.battery);
-      if (failure.fault() == GphotoFault::silent && circumstances.isListed)
+      if (hasEmptyBattery) return lostByEmptyBattery(*condition.battery);
+      if (failure.fault() == GphotoFault::silent && condition.isListed)
         return CameraLost(RELUCENT_MESSAGE("device.camera-asleep",
                                            "the camera is there but does not answer, it may be asleep"),
                           RELUCENT_MESSAGE("device.press-shutter-button-half-way",
@@ -90,7 +90,7 @@ CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circu
       break;
   }
   if (speaksOf(failure, {"store full", "card full", "no space", "memory full"})) return lostByFullCard();
-  if (speaksOf(failure, {"battery"})) return lostByEmptyBattery(circumstances.battery.value_or(0));
+  if (speaksOf(failure, {"battery"})) return lostByEmptyBattery(condition.battery.value_or(0));
   if (speaksOf(failure, {"focus"}))
     return CameraLost(RELUCENT_MESSAGE("device.camera-found-no-focus-took",
                                        "the camera found no focus and took no photograph ({})")

@@ -18,21 +18,21 @@ std::optional<int> batteryPercent(std::string_view word);
 inline constexpr int emptyBattery = 10;
 
 /// What is known of a camera when something fails.
-struct GphotoCircumstances {
+struct GphotoCondition {
   bool isListed = true;          // it is still plugged in and switched on
   std::optional<int> battery{};  // per cent, when it was last asked
 };
 
 /// A failure in a sentence, and a sentence that says what to do. All of them mend when somebody does it, so
 /// that a measurement waits and goes on.
-CameraLost lostBy(const GphotoFailure& failure, const GphotoCircumstances& circumstances);
+CameraLost lostBy(const GphotoFailure& failure, const GphotoCondition& condition);
 CameraLost lostByEmptyBattery(int percent);
 CameraLost lostByFullCard();
 
 /// Does `action`, again and again while the camera is busy (writing the photograph before), up to some
 /// seconds. Throws: GphotoFailure.
 template <typename Action>
-auto whenFree(GphotoPort& port, const Action& action) {
+auto retryWhileBusy(GphotoPort& port, const Action& action) {
   using namespace std::chrono_literals;
   const std::chrono::microseconds deadline = port.now() + 10s;
   for (;;) {

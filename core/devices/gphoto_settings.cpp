@@ -8,7 +8,7 @@
 namespace relucent {
 
 std::optional<GphotoSetting> BorrowedSettings::get(const std::string& setting) const {
-  return whenFree(port_, [&] { return port_.get(setting); });
+  return retryWhileBusy(port_, [&] { return port_.get(setting); });
 }
 
 std::optional<std::pair<std::string, GphotoSetting>> BorrowedSettings::firstOf(
@@ -29,7 +29,7 @@ bool BorrowedSettings::set(const std::string& setting, const std::string& value)
                                    [&](const auto& original) { return original.first == setting; });
   if (!isKnown) originals_.emplace_back(setting, before->value);
   try {
-    whenFree(port_, [&] { port_.set(setting, value); });
+    retryWhileBusy(port_, [&] { port_.set(setting, value); });
   } catch (const GphotoFailure& failure) {
     if (failure.fault() != GphotoFault::refused) throw;
     return false;
@@ -42,7 +42,7 @@ void BorrowedSettings::restore() noexcept {
   while (!originals_.empty()) {
     const auto& [setting, value] = originals_.back();
     try {
-      whenFree(port_, [&] { port_.set(setting, value); });
+      retryWhileBusy(port_, [&] { port_.set(setting, value); });
     } catch (const GphotoFailure& failure) {
       // What it refuses it will refuse again; the others may still go back.
       if (failure.fault() != GphotoFault::refused) return;

@@ -55,10 +55,10 @@ class Setup {
     chooseManualExposure();
     chooseRaw();
     chooseIso();
-    chooseTheRest();
+    chooseOptionalSettings();
     chooseShutter();
     chooseBulb();
-    tellBattery();
+    remarkOnBattery();
     return setup_;
   }
 
@@ -143,26 +143,26 @@ class Setup {
   }
 
   /// What is better so, but can do without.
-  void chooseTheRest() {
-    wish("longexpnr", {"off", "0"},
+  void chooseOptionalSettings() {
+    requestSetting("longexpnr", {"off", "0"},
          RELUCENT_MESSAGE("device.may-take-dark-frame",
                           "may take a dark frame after long exposures, which doubles their time"));
-    wish("flashmode", {"flash off", "off"},
+    requestSetting("flashmode", {"flash off", "off"},
          RELUCENT_MESSAGE("device.may-fire-flash", "may fire its flash: close it"));
-    wish("focusmode", {"manual", "mf"},
+    requestSetting("focusmode", {"manual", "mf"},
          RELUCENT_MESSAGE("device.focuses-by-itself", "focuses by itself: switch its lens to manual focus"));
-    wish("drivemode", {"single"},
+    requestSetting("drivemode", {"single"},
          RELUCENT_MESSAGE("device.may-take-several-photographs",
                           "may take several photographs at once: switch it to single shots"));
-    wish("capturemode", {"single"},
+    requestSetting("capturemode", {"single"},
          RELUCENT_MESSAGE("device.may-take-several-photographs",
                           "may take several photographs at once: switch it to single shots"));
-    wish(
+    requestSetting(
         "autopoweroff", {"0", "off", "never"},
         RELUCENT_MESSAGE("device.switches-itself-off", "switches itself off after a while: switch that off"));
   }
 
-  void wish(const char* setting, std::initializer_list<std::string_view> words, const Message& remark) {
+  void requestSetting(const char* setting, std::initializer_list<std::string_view> words, const Message& remark) {
     const std::optional<GphotoSetting> now = settings_.get(setting);
     if (!now) return;
     auto isGood = [&](const std::string& value) {
@@ -205,7 +205,7 @@ class Setup {
     if (setup_.bulb) traits_.exposures.longest = std::max(traits_.exposures.longest, longestBulb);
   }
 
-  void tellBattery() {
+  void remarkOnBattery() {
     const std::optional<GphotoSetting> battery = settings_.get("batterylevel");
     const std::optional<int> percent = battery ? batteryPercent(battery->value) : std::nullopt;
     if (percent && *percent <= weakBattery)

@@ -85,13 +85,13 @@ class LatencyMeasurement {
 
   bool suffices(int frames) {
     for (int i = 0; i < settings_.repeats; ++i) {
-      if (!stepIsSeen(black_, blackLevel_, white_, whiteLevel_, frames)) return false;
-      if (!stepIsSeen(white_, whiteLevel_, black_, blackLevel_, frames)) return false;
+      if (!seesStep(black_, blackLevel_, white_, whiteLevel_, frames)) return false;
+      if (!seesStep(white_, whiteLevel_, black_, blackLevel_, frames)) return false;
     }
     return true;
   }
 
-  bool stepIsSeen(const Image& from, double fromLevel, const Image& to, double toLevel, int frames) {
+  bool seesStep(const Image& from, double fromLevel, const Image& to, double toLevel, int frames) {
     settle(from);
     // A fraction of a frame that differs each time: steps must not always fall on the same phase.
     wait_(settings_.frame * std::fmod(0.382 * ++steps_, 1.0));

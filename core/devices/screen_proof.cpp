@@ -133,7 +133,7 @@ Image brightnessOf(const Image& photograph) {
 }
 
 /// Whether as many pixels tell white from black as have to see the code, which changes less than all of it.
-bool tellsWhiteFromBlack(Projector& screen, Camera& camera, double exposure,
+bool distinguishesWhiteFromBlack(Projector& screen, Camera& camera, double exposure,
                          const ScreenProofSettings& settings, Progress& progress) {
   int number = 0;
   auto photographOf = [&](float level) {
@@ -157,7 +157,7 @@ bool tellsWhiteFromBlack(Projector& screen, Camera& camera, double exposure,
 
 ScreenSight sightThrough(Projector& screen, Camera& camera, double exposure,
                          const ScreenProofSettings& settings, Progress& progress) {
-  if (exposure >= longExposure && !tellsWhiteFromBlack(screen, camera, exposure, settings, progress))
+  if (exposure >= longExposure && !distinguishesWhiteFromBlack(screen, camera, exposure, settings, progress))
     return {};
   std::vector<Image> photographs;
   const int count = length + settings.mostLate;

@@ -37,7 +37,7 @@ class SharedScreen : public ScreenControl {
     if (latency_ > 0.0) wait_(latency_);
   }
   /// Nothing shown is nothing lost.
-  bool hasStood() { return !picture_ || screen_->hasStood(); }
+  bool stayedVisible() { return !picture_ || screen_->stayedVisible(); }
   const ScreenProjector& screen() const { return *screen_; }
 
  private:
@@ -62,9 +62,9 @@ class TimedProjector : public Projector {
   std::shared_ptr<SharedScreen> shared_;
 };
 
-class WatchfulCamera : public Camera {
+class ScreenCheckingCamera : public Camera {
  public:
-  WatchfulCamera(std::unique_ptr<Camera> camera, std::shared_ptr<SharedScreen> shared)
+  ScreenCheckingCamera(std::unique_ptr<Camera> camera, std::shared_ptr<SharedScreen> shared)
       : camera_(std::move(camera)), shared_(std::move(shared)) {}
 
   std::string name() const override { return camera_->name(); }
@@ -75,9 +75,9 @@ class WatchfulCamera : public Camera {
     request.seconds = shared_->exposure(asked.seconds, camera_->exposures());
     for (int attempt = 0; attempt < mostAttempts; ++attempt) {
       // It may have gone while nobody looked.
-      if (!shared_->hasStood()) shared_->showAgain();
+      if (!shared_->stayedVisible()) shared_->showAgain();
       RawFrame frame = camera_->capture(request);
-      if (shared_->hasStood()) return frame;
+      if (shared_->stayedVisible()) return frame;
     }
     throw Error(ErrorKind::device,
                 RELUCENT_MESSAGE("device.projector-screen-loses-picture-again",
@@ -100,7 +100,7 @@ ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Cam
   auto shared = std::make_shared<SharedScreen>(std::move(screen), timing, std::move(wait));
   ScreenRig result;
   result.rig.projectors.push_back(std::make_unique<TimedProjector>(shared));
-  result.rig.cameras.push_back(std::make_unique<WatchfulCamera>(std::move(camera), shared));
+  result.rig.cameras.push_back(std::make_unique<ScreenCheckingCamera>(std::move(camera), shared));
   result.control = std::move(shared);
   return result;
 }

@@ -17,7 +17,7 @@ class ScreenProjector : public Projector {
   /// Throws: Cancelled if it is asked to stop meanwhile; Error{device}.
   void show(const Image& encodedDrive) override = 0;
   /// Whether the picture of the last show() has stood on the screen ever since.
-  virtual bool hasStood() = 0;
+  virtual bool stayedVisible() = 0;
   /// Leaves the screen to whoever else shows on it, until the next show(). From any thread; does not wait.
   virtual void rest() = 0;
 };

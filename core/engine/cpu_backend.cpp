@@ -71,10 +71,10 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
     invert();
     passThrough(Pass::correct);
     makePreconditioner();
-    correct(steps == 0 ? words : Words{});
+    correct(steps == 0 ? words : OutputWords{});
     Clock::time_point refining = Clock::now();
     for (; report.steps < steps; ++report.steps)
-      refine(lengths[static_cast<std::size_t>(report.steps)], report.steps + 1 == steps ? words : Words{});
+      refine(lengths[static_cast<std::size_t>(report.steps)], report.steps + 1 == steps ? words : OutputWords{});
     report.stepSeconds = Clock::now() - refining;
   } else {
     warpOnly(words);
@@ -84,7 +84,7 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
   return true;
 }
 
-void CpuBackend::warpOnly(Words words) noexcept {
+void CpuBackend::warpOnly(OutputWords words) noexcept {
   // The brightness that brings flood * content nearest to what is wanted; summed in fixed parts.
   constexpr std::size_t parts = 64;
   std::array<double, parts> wanted{}, seen{};
@@ -151,7 +151,7 @@ void CpuBackend::invert() noexcept {
     });
 }
 
-void CpuBackend::correct(Words words) noexcept {
+void CpuBackend::correct(OutputWords words) noexcept {
   const float byInverse = engine_.settings.compensator.correctionByInverse;
   const float byAdjoint = engine_.settings.compensator.correctionByAdjoint;
   const Rasters& projectors = engine_.venue.transport.projectors();
@@ -166,7 +166,7 @@ void CpuBackend::correct(Words words) noexcept {
     });
 }
 
-void CpuBackend::refine(float length, Words words) noexcept {
+void CpuBackend::refine(float length, OutputWords words) noexcept {
   passThrough(Pass::step);
   clipped_ = 0;
   const Rasters& projectors = engine_.venue.transport.projectors();
@@ -175,7 +175,7 @@ void CpuBackend::refine(float length, Words words) noexcept {
                 [&](std::size_t y) { finishLine(device, static_cast<int>(y), length, words); });
 }
 
-void CpuBackend::finishLine(std::size_t device, int y, float length, Words words) noexcept {
+void CpuBackend::finishLine(std::size_t device, int y, float length, OutputWords words) noexcept {
   const Rasters& projectors = engine_.venue.transport.projectors();
   const Size size = projectors.size(device);
   const std::size_t first = 3 * (projectors.offset(device) + indexOf(size, {0, y}));
@@ -187,7 +187,7 @@ void CpuBackend::finishLine(std::size_t device, int y, float length, Words words
   if (!words.empty()) encodeLine(device, y, words);
 }
 
-void CpuBackend::encodeLine(std::size_t device, int y, Words words) const noexcept {
+void CpuBackend::encodeLine(std::size_t device, int y, OutputWords words) const noexcept {
   const Rasters& projectors = engine_.venue.transport.projectors();
   const Size size = projectors.size(device);
   const std::size_t first = projectors.offset(device) + indexOf(size, {0, y});

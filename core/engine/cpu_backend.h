@@ -34,21 +34,21 @@ class CpuBackend : public EngineBackend {
 
  private:
   enum class Pass { correct, step };
-  using Words = std::span<std::uint32_t>;
+  using OutputWords = std::span<std::uint32_t>;
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
   /// The target of some camera pixels, wanted = mixing c + offset, and its weight.
   void fitTarget(std::size_t begin, std::size_t end, const ColourBlock& mixing, float offset) noexcept;
-  void warpOnly(Words words) noexcept;
+  void warpOnly(OutputWords words) noexcept;
   /// p = clamp(M u).
   void invert() noexcept;
   /// p = clamp(p + m M u + a C adjoint) with the settings' shares m and a.
-  void correct(Words words) noexcept;
+  void correct(OutputWords words) noexcept;
   /// p = clamp(p + length C adjoint).
-  void refine(float length, Words words) noexcept;
+  void refine(float length, OutputWords words) noexcept;
   /// The update of a refine() or a correct() on one line, and its words if requested.
-  void finishLine(std::size_t device, int y, float length, Words words) noexcept;
-  void encodeLine(std::size_t device, int y, Words words) const noexcept;
+  void finishLine(std::size_t device, int y, float length, OutputWords words) noexcept;
+  void encodeLine(std::size_t device, int y, OutputWords words) const noexcept;
   /// One row of tiles of M u: put(p, value) for all its values where something is free.
   template <typename Put>
   void putTiles(std::size_t device, std::size_t tileRow, bool clamped, const Put& put) noexcept;

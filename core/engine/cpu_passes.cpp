@@ -32,16 +32,16 @@ void CpuBackend::passThrough(Pass pass) noexcept {
     const TransportPatch& patch = transport.patches()[index];
     const std::uint32_t* node = transport.nodes().data() + patch.columnBegin;
     const std::size_t columns = patch.columnEnd - patch.columnBegin;
-    ScratchPool::Loan loan(scratch_);
+    ScratchPool::BorrowedBuffer loan(scratch_);
     float* to = loan.data();
     for (std::size_t column = 0; column < columns; ++column, to += stepColumn) {
       std::memcpy(to, &nodes_[3 * std::size_t{node[column]}], 4 * sizeof(float));
       std::memset(to + 4, 0, 4 * sizeof(float));
     }
     (correct ? kernels_.correct : kernels_.step)(rowsOf(patch), camera, loan.data());
-    patchSums_.handOver(index, loan.data() + 4, stepColumn, adjoint_.data(), waiting_.data());
+    patchSums_.addPatch(index, loan.data() + 4, stepColumn, adjoint_.data(), waiting_.data());
   });
-  patchSums_.addUp(waiting_.data(), adjoint_.data());
+  patchSums_.addStored(waiting_.data(), adjoint_.data());
   layout.gatherMeansAdjoint(adjoint_);
 }
 
@@ -50,12 +50,12 @@ void CpuBackend::passBack(float weight, std::vector<float>& sums) noexcept {
   const CameraArrays camera = cameraArrays(nullptr);
   parallelFor(0, transport.patches().size(), 1, [&](std::size_t index) {
     const TransportPatch& patch = transport.patches()[index];
-    ScratchPool::Loan loan(scratch_);
+    ScratchPool::BorrowedBuffer loan(scratch_);
     std::fill_n(loan.data(), sumColumn * (patch.columnEnd - patch.columnBegin), 0.0f);
     kernels_.bound(rowsOf(patch), camera, weight, loan.data());
-    patchSums_.handOver(index, loan.data(), sumColumn, sums.data(), waiting_.data());
+    patchSums_.addPatch(index, loan.data(), sumColumn, sums.data(), waiting_.data());
   });
-  patchSums_.addUp(waiting_.data(), sums.data());
+  patchSums_.addStored(waiting_.data(), sums.data());
   engine_.venue.transport.layout().gatherMeansAdjoint(sums);
 }
 

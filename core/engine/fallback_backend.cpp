@@ -11,8 +11,8 @@
 
 namespace relucent {
 
-FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Told told)
-    : backend_(std::move(first)), makeOther_(std::move(makeOther)), told_(std::move(told)) {
+FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify)
+    : backend_(std::move(first)), makeOther_(std::move(makeOther)), notify_(std::move(notify)) {
   require(backend_ != nullptr && makeOther_ != nullptr, "a fallback needs two back ends");
 }
 
@@ -20,8 +20,8 @@ void FallbackBackend::goOver(const Message& why) {
   const std::string before(backend_->name());
   backend_ = std::exchange(makeOther_, nullptr)();
   if (content_ != nullptr) backend_->setContent(*content_);
-  if (told_)
-    told_(RELUCENT_ENGLISH_MESSAGE("engine.going-on-with-another", "{}: {}; going on with {}")
+  if (notify_)
+    notify_(RELUCENT_ENGLISH_MESSAGE("engine.going-on-with-another", "{}: {}; going on with {}")
               .with(before, why, backend_->name()));
 }
 
@@ -48,7 +48,7 @@ bool FallbackBackend::render(const ContentFrame& frame, const FrameRequest& requ
 }
 
 std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
-                                           const FallbackBackend::Told& told) {
+                                           const FallbackBackend::Notify& notify) {
   auto cpu = [&engine]() -> std::unique_ptr<EngineBackend> { return std::make_unique<CpuBackend>(engine); };
   if (choice == BackendChoice::cpu) return cpu();
 
@@ -62,10 +62,10 @@ std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendCho
   }
   try {
     auto openGl = std::make_unique<OpenGlBackend>(engine, std::move(context));
-    return std::make_unique<FallbackBackend>(std::move(openGl), cpu, told);
+    return std::make_unique<FallbackBackend>(std::move(openGl), cpu, notify);
   } catch (const Error& error) {
     if (!automatic) throw;
-    if (told) told(error.sentence());
+    if (notify) notify(error.sentence());
     return cpu();
   }
 }

@@ -31,9 +31,9 @@ class FallbackBackend : public EngineBackend {
   /// Makes the other back end when it is first needed.
   using Make = std::function<std::unique_ptr<EngineBackend>()>;
   /// Called once, on the rendering thread, with a sentence that says what happened.
-  using Told = std::function<void(const Message&)>;
+  using Notify = std::function<void(const Message&)>;
 
-  FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Told told);
+  FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify);
 
   std::string_view name() const override { return backend_->name(); }
   /// Also switches if the device cannot hold the content. Throws: as the other back end.
@@ -47,14 +47,14 @@ class FallbackBackend : public EngineBackend {
 
   std::unique_ptr<EngineBackend> backend_;
   Make makeOther_;  // empty once it was used
-  Told told_;
+  Notify notify_;
   const EngineContent* content_ = nullptr;
 };
 
-/// The selected back end, with the processor as fallback for a graphics card. `told` is also called with the
+/// The selected back end, with the processor as fallback for a graphics card. `notify` is also called with the
 /// reason why an existing graphics card cannot be used. `engine` must outlive it.
 /// Throws: Error{device} if OpenGL was asked for and there is none.
 std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
-                                           const FallbackBackend::Told& told);
+                                           const FallbackBackend::Notify& notify);
 
 }  // namespace relucent

@@ -69,7 +69,7 @@ void PatchSums::shareOut(const PackedTransport& transport, const std::vector<std
   }
 }
 
-void PatchSums::handOver(std::size_t patch, const float* columns, std::size_t stride, float* sums,
+void PatchSums::addPatch(std::size_t patch, const float* columns, std::size_t stride, float* sums,
                          float* waiting) const noexcept {
   const std::uint32_t first = patches_[patch].columnBegin;
   for (std::uint32_t i = columnsStart_[patch]; i < columnsStart_[patch + 1]; ++i) {
@@ -86,7 +86,7 @@ void PatchSums::handOver(std::size_t patch, const float* columns, std::size_t st
   }
 }
 
-void PatchSums::addUp(const float* waiting, float* sums) const noexcept {
+void PatchSums::addStored(const float* waiting, float* sums) const noexcept {
   parallelFor(0, clearStart_.size() - 1, 4, [&](std::size_t range) {
     for (std::uint32_t i = clearStart_[range]; i < clearStart_[range + 1]; ++i)
       std::fill(sums + 3 * std::size_t{clear_[i].begin}, sums + 3 * std::size_t{clear_[i].end}, 0.0f);

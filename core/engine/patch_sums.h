@@ -22,10 +22,10 @@ class PatchSums {
   /// Adds one patch's sums: three floats for each of its columns, `stride` floats apart.
   /// Different patches may be added concurrently.
   /// Shapes: 3 * nodes `sums`; placeFloats * places() `waiting`.
-  void handOver(std::size_t patch, const float* columns, std::size_t stride, float* sums,
+  void addPatch(std::size_t patch, const float* columns, std::size_t stride, float* sums,
                 float* waiting) const noexcept;
   /// After all patches: adds the stored sums to `sums`; nodes in no patch get 0.
-  void addUp(const float* waiting, float* sums) const noexcept;
+  void addStored(const float* waiting, float* sums) const noexcept;
 
  private:
   struct Run {

@@ -17,12 +17,12 @@ class ScratchPool {
       : buffers_(buffers, std::vector<float>(floats)), taken_(new std::atomic_flag[buffers]{}) {}
 
   /// A borrowed buffer.
-  class Loan {
+  class BorrowedBuffer {
    public:
-    explicit Loan(ScratchPool& pool) noexcept : pool_(pool), index_(pool.take()) {}
-    ~Loan() { pool_.taken_[index_].clear(std::memory_order_release); }
-    Loan(const Loan&) = delete;
-    Loan& operator=(const Loan&) = delete;
+    explicit BorrowedBuffer(ScratchPool& pool) noexcept : pool_(pool), index_(pool.take()) {}
+    ~BorrowedBuffer() { pool_.taken_[index_].clear(std::memory_order_release); }
+    BorrowedBuffer(const BorrowedBuffer&) = delete;
+    BorrowedBuffer& operator=(const BorrowedBuffer&) = delete;
     float* data() const noexcept { return pool_.buffers_[index_].data(); }
 
    private:

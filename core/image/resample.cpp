@@ -36,7 +36,7 @@ std::array<cv::Point2f, 4> cvPoints(const std::array<Point, 4>& points) {
   return result;
 }
 
-bool threeOnALine(const std::array<Point, 4>& points) {
+bool threeCollinear(const std::array<Point, 4>& points) {
   for (std::size_t left = 0; left < 4; ++left) {
     const Point &a = points[(left + 1) % 4], &b = points[(left + 2) % 4], &c = points[(left + 3) % 4];
     const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -86,7 +86,7 @@ bool addBilinear(const Image& image, Point point, std::span<double> sum) {
 }  // namespace
 
 Homography homographyBetween(const std::array<Point, 4>& from, const std::array<Point, 4>& to) {
-  if (threeOnALine(from) || threeOnALine(to))
+  if (threeCollinear(from) || threeCollinear(to))
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("image.three-four-corners-lie-line",
                                          "three of the four corners lie on a line"),

@@ -95,7 +95,7 @@ std::vector<Point> pointsOf(const Bins& bins, double brightest) {
 
 /// Half the mean square of differences in the darkest pair of frames, if it is dark: cut at zero or not, the
 /// read noise is at least that.
-double spreadInTheDark(const std::vector<ShotPair>& pairs, const CameraModel& model, std::size_t camera) {
+double spreadInDarkFrames(const std::vector<ShotPair>& pairs, const CameraModel& model, std::size_t camera) {
   double darkest = 1e30, spread = 0.0;
   for (const auto& [first, second] : pairs) {
     for (std::size_t exposure = 0; exposure < first.frames.size(); ++exposure) {
@@ -170,7 +170,7 @@ CameraModel withMeasuredNoise(CameraModel model, const std::vector<ShotPair>& pa
     model.gain = line->slope;
   }
   model.readNoise = std::max(
-      {model.readNoise, std::sqrt(spreadInTheDark(pairs, model, camera)), std::sqrt(rounding), 1e-5});
+      {model.readNoise, std::sqrt(spreadInDarkFrames(pairs, model, camera)), std::sqrt(rounding), 1e-5});
   model.gain = std::max(model.gain, 1e-7);
   return model;
 }

@@ -116,7 +116,7 @@ Shot Photographer::shoot(const std::vector<Image>& encoded, const std::vector<st
                          const Progress& progress, const Meanwhile& meanwhile) {
   std::vector<double> seconds;
   for (std::size_t exposure : exposures) seconds.push_back(linearization_.exposures[exposure]);
-  Shot shot = besides(meanwhile, [&] { return shots_.take(encoded, seconds, progress); });
+  Shot shot = runWithBackground(meanwhile, [&] { return shots_.take(encoded, seconds, progress); });
   progress.preview(previewOf(shot));
   return shot;
 }

@@ -32,7 +32,7 @@ double fullContrast(const Image& difference) {
 }
 
 /// Grey where the two are equal; brighter where the first is. Signal values, not light: nothing to encode.
-Image aroundGrey(const Image& difference, double gain) {
+Image centredOnGrey(const Image& difference, double gain) {
   Image picture = difference;
   for (float& value : picture.data())
     value = static_cast<float>(std::clamp(0.5 + gain * static_cast<double>(value), 0.0, 1.0));
@@ -91,7 +91,7 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
     if (!settings.gain) result.gain = 1.0;
     writePicture(settings.out, difference, "difference of linear values, times the gain", 1.0f);
   } else {
-    writePng(settings.out, aroundGrey(difference, result.gain), 8);
+    writePng(settings.out, centredOnGrey(difference, result.gain), 8);
   }
   result.files = {settings.out};
   progress.report(1.0);

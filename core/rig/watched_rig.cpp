@@ -23,7 +23,7 @@ class Projectors {
   void darken() const {
     for (const auto& projector : projectors_) projector->show(Image(projector->size(), 3, 0.0f));
   }
-  void restoreAllBut(std::size_t coming) const {
+  void restoreAllExcept(std::size_t coming) const {
     for (std::size_t i = 0; i < projectors_.size(); ++i)
       if (i != coming && !shown_[i].empty()) projectors_[i]->show(shown_[i]);
   }
@@ -33,11 +33,11 @@ class Projectors {
   std::vector<Image> shown_;
 };
 
-class LightBefore : public RigLight {
+class PreviousLight : public RigLight {
  public:
-  LightBefore(const Projectors& projectors, std::size_t coming) : projectors_(projectors), coming_(coming) {}
+  PreviousLight(const Projectors& projectors, std::size_t coming) : projectors_(projectors), coming_(coming) {}
   void darken() override { projectors_.darken(); }
-  void restore() override { projectors_.restoreAllBut(coming_); }
+  void restore() override { projectors_.restoreAllExcept(coming_); }
 
  private:
   const Projectors& projectors_;
@@ -54,7 +54,7 @@ class WatchedProjector : public Projector {
   Size size() const override { return projectors_->at(index_).size(); }
   int bits() const override { return projectors_->at(index_).bits(); }
   void show(const Image& encodedDrive) override {
-    LightBefore light(*projectors_, index_);
+    PreviousLight light(*projectors_, index_);
     watcher_->beforeShowing(index_, light);
     projectors_->show(index_, encodedDrive);
     watcher_->shown(index_, encodedDrive);

@@ -122,7 +122,7 @@ void NpzReader::read(const std::string& name, const Take& take) const {
     std::uint64_t after = begin + most;
     std::function<void()> reading;
     if (after < count) reading = [&] { readAt(after, next); };
-    besides(reading, [&] {
+    runWithBackground(reading, [&] {
       take(begin, std::min(most, count - begin), piece.data());
       return true;
     });

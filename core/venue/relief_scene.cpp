@@ -20,7 +20,7 @@ float halfEllipsoid(float depth, const Vector2f& offset) {
 
 /// How far the carved stone stands out of the slab at a place, metres: two fluted half columns, between them
 /// a flower in a garland of fruit.
-float carved(const Vector2f& place) {
+float carvedRelief(const Vector2f& place) {
   float height = 0.03f * fractalNoise(5.0f * Vector3f(place.x(), place.y(), 1.0f), 3);
   for (float middle : {-0.56f, 0.56f}) {
     float across = (place.x() - middle) / 0.10f;
@@ -57,7 +57,7 @@ Scene reliefScene(const VenueSettings& settings) {
   };
   auto place = [&](int i, int j) -> Vector3f {
     Vector2f slab = map(i, j) - 0.5f * pitch * Vector2f(columns - 1, rows - 1);
-    return {slab.x(), slab.y(), carved(slab)};
+    return {slab.x(), slab.y(), carvedRelief(slab)};
   };
   scene.surfaces.push_back({grid(columns, rows, false, place, map), {glaze}});
 

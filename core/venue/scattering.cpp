@@ -45,7 +45,7 @@ Spectrum ScatteringPoint::brdf(const Vector3f& incoming) const {
   return value;
 }
 
-Bounce drawBounce(const ScatteringPoint& point, const Vector2f& sample, float choice) {
+Bounce sampleBounce(const ScatteringPoint& point, const Vector2f& sample, float choice) {
   float diffuseEnergy = (1.0f - point.gloss) * point.diffuse.mean();
   float glossShare = point.gloss > 0.0f ? point.gloss / (point.gloss + diffuseEnergy) : 0.0f;
   Bounce bounce;

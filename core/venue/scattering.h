@@ -44,7 +44,7 @@ struct Bounce {
 };
 
 /// Samples a direction roughly in proportion to its contribution.
-Bounce drawBounce(const ScatteringPoint& point, const Eigen::Vector2f& sample, float choice);
+Bounce sampleBounce(const ScatteringPoint& point, const Eigen::Vector2f& sample, float choice);
 
 /// Continues a ray at a boundary of clear glass, reflected or refracted with Fresnel's probabilities, so that
 /// its weight stays 1. `normal`: outwards from the glass. `choice`: in [0, 1).

@@ -34,7 +34,7 @@ class Stage {
     return faults_ ? faults_->during(shot) : std::vector<DeviceFault>{};
   }
   /// What the camera would see of the projectors' pictures, had they these faults.
-  Stack fromFaultyProjectors(const std::vector<DeviceFault>& faults) {
+  Stack lightOfFaultyProjectors(const std::vector<DeviceFault>& faults) {
     std::vector<Image> shown;
     for (const Image& picture : shown_) shown.push_back(withFaults(picture, faults));
     return light_->fromProjectors(shown);
@@ -105,7 +105,7 @@ class SimulatedCamera : public Camera {
 
  private:
   RawFrame faulty(const CaptureRequest& request, float power, const std::vector<DeviceFault>& faults) {
-    Stack light = stage_->fromFaultyProjectors(faults);
+    Stack light = stage_->lightOfFaultyProjectors(faults);
     for (float& value : light) value *= power;
     Stack view = withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
                             request.exposure, faults);

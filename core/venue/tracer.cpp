@@ -120,7 +120,7 @@ void Tracer::connect(const Path& path, TransportRow& row) const {
 
     float arrival = std::abs(path.scattering.geometricNormal.dot(path.scattering.outgoing));
     float area = path.sinceBounce * path.sinceBounce * path.spread / std::max(arrival, 0.1f);
-    land(path, static_cast<int>(i), connection->place, area * cosine / connection->pixelArea,
+    addTransport(path, static_cast<int>(i), connection->place, area * cosine / connection->pixelArea,
          path.throughput * path.scattering.brdf(connection->direction) * (cosine * connection->irradiance),
          row);
   }
@@ -139,7 +139,7 @@ bool Tracer::bounce(Path& path) const {
   if (path.bounces == 0) path.shift *= bouncedShift;
   Vector2f direction = samples_.point(path.sample, path.pair++, path.shift);
   Vector2f choices = samples_.point(path.sample, path.pair++, path.shift);
-  Bounce bounce = drawBounce(path.scattering, direction, choices.x());
+  Bounce bounce = sampleBounce(path.scattering, direction, choices.x());
   path.throughput *= bounce.weight;
 
   // Paths that carry little end early, the others carry their share on; means stay as they are. Not at the
@@ -162,7 +162,7 @@ int Tracer::coarsestLevel(int projector) const {
   return level;
 }
 
-void Tracer::land(const Path& path, int projector, const Vector2f& place, float pixelsPerPath,
+void Tracer::addTransport(const Path& path, int projector, const Vector2f& place, float pixelsPerPath,
                   const Spectrum& transport, TransportRow& row) const {
   if (path.bounces == 0) {
     row.add({projector, 0, static_cast<int>(place.x()), static_cast<int>(place.y())}, transport);

@@ -46,7 +46,7 @@ class Tracer {
   void connect(const Path& path, TransportRow& row) const;
   void gatherCaustics(const Path& path, TransportRow& row) const;
   bool bounce(Path& path) const;
-  void land(const Path& path, int projector, const Eigen::Vector2f& place, float pixelsPerPath,
+  void addTransport(const Path& path, int projector, const Eigen::Vector2f& place, float pixelsPerPath,
             const Spectrum& transport, TransportRow& row) const;
   int coarsestLevel(int projector) const;
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Some numbers are written where no locale is asked, with the digits 0 to 9: so that all agree, of the
 /// countries that speak the language one that writes it with these.
-QLocale withUsualDigits(const QLocale& locale) {
+QLocale withLatinDigits(const QLocale& locale) {
   auto isUsual = [](const QLocale& one) { return one.zeroDigit() == "0"; };
   if (isUsual(locale)) return locale;
   QList<QLocale> same = QLocale::matchingLocales(locale.language(), locale.script(), QLocale::AnyTerritory);
@@ -63,7 +63,7 @@ void Language::choose(const QString& code) {
   spoken_ = file.isEmpty() ? "en" : file.section("relucent_", -1).remove(".qm");
   if (spoken_ != "en") load("qtbase", {QLibraryInfo::path(QLibraryInfo::TranslationsPath)}, QLocale(spoken_));
   // "zh_CN" in a computer's "zh_SG" keeps the computer's numbers; English sentences read from the left.
-  QLocale::setDefault(withUsualDigits(locale));
+  QLocale::setDefault(withLatinDigits(locale));
   QGuiApplication::setLayoutDirection(QLocale(spoken_).textDirection());
 }
 

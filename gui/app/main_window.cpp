@@ -142,9 +142,9 @@ void MainWindow::fitRailFooter() {
     button->setText(button->accessibleName());
     needed = std::max(needed, button->sizeHint().width());
   }
-  QMargins besides = rail_->layout()->contentsMargins();
+  QMargins margins = rail_->layout()->contentsMargins();
   int spaces = static_cast<int>(footer_.size()) - 1;
-  int room = rail_->width() - besides.left() - besides.right() - spaces * rail_->footer()->spacing();
+  int room = rail_->width() - margins.left() - margins.right() - spaces * rail_->footer()->spacing();
   if (needed * static_cast<int>(footer_.size()) <= room) return;
   for (QPushButton* button : footer_) button->setText({});
 }

@@ -45,7 +45,7 @@ std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
 }
 
 /// Pages know no widgets and go on with what they do; the window round them is made anew in its place.
-void WizardWindow::speakAnew() {
+void WizardWindow::rebuildForLanguage() {
   language_.choose(languageCode_);
   for (const std::unique_ptr<PageModel>& page : pages_) page->retranslate();
   std::unique_ptr<MainWindow> before = std::exchange(window_, makeWindow());
@@ -77,7 +77,7 @@ void WizardWindow::follow() {
   if (Theme::instance().look() != look) Theme::instance().apply(look);
   Theme::instance().setDimmed(preferences_.isDimmed());
   session_.setFlashLimit(preferences_.flashLimit());
-  if (std::exchange(languageCode_, preferences_.language()) != preferences_.language()) speakAnew();
+  if (std::exchange(languageCode_, preferences_.language()) != preferences_.language()) rebuildForLanguage();
 }
 
 }  // namespace relucent

@@ -40,7 +40,7 @@ class WizardWindow {
  private:
   void follow();
   std::unique_ptr<MainWindow> makeWindow();
-  void speakAnew();
+  void rebuildForLanguage();
 
   Preferences preferences_;
   QString languageCode_;  // as chosen

@@ -30,7 +30,7 @@ bool FrameSlot::waitForFirst(int milliseconds) {
   return newest_.number != 0;
 }
 
-void FrameSlot::tellJpeg() {
+void FrameSlot::markAsJpeg() {
   QMutexLocker lock(&guard_);
   newest_.jpeg = true;
 }

@@ -15,7 +15,7 @@ class FrameSlot {
  public:
   void put(const QVideoFrame& frame);
   /// Frames are JPEG pictures, see pictureOf().
-  void tellJpeg();
+  void markAsJpeg();
   /// The reason why no frame will arrive.
   void fail(const QString& reason);
   /// Waits for a first frame or a failure. Returns whether there is a frame.

@@ -18,7 +18,7 @@ using Outcome = std::variant<Value, Error>;
 
 /// Starts work() on a thread of Qt's pool.
 template <typename Work>
-auto startedElsewhere(Work work) {
+auto startedInBackground(Work work) {
   using Value = decltype(work());
   return QtConcurrent::run([work = std::move(work)]() -> Outcome<Value> {
     try {

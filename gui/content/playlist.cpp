@@ -91,7 +91,7 @@ void Playlist::openNext(qsizetype after) {
     index = 0;
   }
   openingIndex_ = index;
-  opening_ = startedElsewhere([item = settings_.items[index], canvas = canvas_] {
+  opening_ = startedInBackground([item = settings_.items[index], canvas = canvas_] {
     return std::shared_ptr<ContentSource>(openContent(item, canvas));
   });
 }

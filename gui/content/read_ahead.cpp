@@ -20,7 +20,7 @@ ReadAhead::~ReadAhead() {
 
 void ReadAhead::prepare(qsizetype index) {
   if (reading_.contains(index)) return;
-  reading_.emplace(index, startedElsewhere([file = files_[index], canvas = canvas_] {
+  reading_.emplace(index, startedInBackground([file = files_[index], canvas = canvas_] {
                      return onCanvas(readContent(file), canvas);
                    }));
 }

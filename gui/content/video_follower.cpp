@@ -93,7 +93,7 @@ void VideoFollower::statusChanged(QMediaPlayer::MediaStatus status) {
     if (player_.duration() <= 0) return frames_.fail("it tells no length");
     if (player_.metaData().value(QMediaMetaData::VideoCodec).value<QMediaFormat::VideoCodec>() ==
         QMediaFormat::VideoCodec::MotionJPEG)
-      frames_.tellJpeg();
+      frames_.markAsJpeg();
     pursuit_.emplace(length());
     player_.pause();  // shows the first picture
     tick_.start(interval);

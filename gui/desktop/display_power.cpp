@@ -56,7 +56,7 @@ struct DisplayPower::Server {
     return saver && isHidden(saver->state);
   }
   /// DPMS tells of itself here too: with the signal the server takes the picture away.
-  bool toldOfSleep() {
+  bool reportedSleep() {
     bool told = false;
     while (auto event = owned(xcb_poll_for_event(x)))
       if ((event->response_type & fromServer) == saverEvent && hasSaver)
@@ -86,7 +86,7 @@ QString DisplayPower::problem() const {
 
 bool DisplayPower::hasSlept() {
   const bool sleeps = state() == State::asleep;  // and all events of before have arrived
-  return (server_ && server_->toldOfSleep()) || sleeps;
+  return (server_ && server_->reportedSleep()) || sleeps;
 }
 
 void DisplayPower::wake() {

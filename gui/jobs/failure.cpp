@@ -10,7 +10,7 @@
 namespace relucent {
 namespace {
 
-struct Words {
+struct Translated {
   Q_DECLARE_TR_FUNCTIONS(Failure)
 };
 
@@ -26,23 +26,23 @@ Failure failureOf(std::exception_ptr thrown) {
     std::rethrow_exception(thrown);
   } catch (const ScreenNotSeen& error) {
     Failure failure = failureOf(static_cast<const Error&>(error));
-    failure.heading = Words::tr("The camera does not see this projector");
+    failure.heading = Translated::tr("The camera does not see this projector");
     return failure;
   } catch (const Error& error) {
     return failureOf(error);
   } catch (const std::bad_alloc&) {
-    return {ErrorKind::memory, Words::tr("The computer has no memory left."),
-            Words::tr("Close other programs, or choose fewer pixels."), "bad_alloc"};
+    return {ErrorKind::memory, Translated::tr("The computer has no memory left."),
+            Translated::tr("Close other programs, or choose fewer pixels."), "bad_alloc"};
   } catch (const std::exception& error) {
     return {
-        ErrorKind::numerics, Words::tr("Relucent made a mistake."),
-        Words::tr(
+        ErrorKind::numerics, Translated::tr("Relucent made a mistake."),
+        Translated::tr(
             "What is saved is safe. Copy the details for whoever looks after the program, then try again."),
         QString::fromUtf8(error.what())};
   } catch (...) {
     return {ErrorKind::numerics,
-            Words::tr("Relucent made a mistake."),
-            Words::tr("What is saved is safe. Try again."),
+            Translated::tr("Relucent made a mistake."),
+            Translated::tr("What is saved is safe. Try again."),
             {}};
   }
 }

@@ -18,13 +18,13 @@ namespace relucent {
 template <typename Result>
 class Refining {
  public:
-  using Tell = std::function<void(Result)>;
+  using Report = std::function<void(Result)>;
   /// Reports preliminary answers any number of times, and returns the exact one. Called on another thread,
   /// one at a time; ends with Cancelled when its progress throws it.
-  using Work = std::function<Result(Progress& progress, const Tell& tellSoon)>;
+  using Work = std::function<Result(Progress& progress, const Report& reportSoon)>;
   using Failed = std::function<void(const Failure&)>;
 
-  Refining(Tell told, Failed failed) : told_(std::move(told)), failed_(std::move(failed)) {
+  Refining(Report told, Failed failed) : report_(std::move(told)), failed_(std::move(failed)) {
     QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] { finished(); });
   }
   /// Cancels the current request and waits for its end.
@@ -51,12 +51,12 @@ class Refining {
   bool isBusy() const { return waiting_ || (round_ && !round_->dropped); }
 
  private:
-  struct NoNews : ProgressSink {
+  struct IgnoredProgress : ProgressSink {
     void progressed(double, const Message&) override {}
   };
   /// A request being computed.
   struct Round {
-    NoNews sink;
+    IgnoredProgress sink;
     StopRequest stop;
     std::optional<Result> result;
     std::optional<Failure> failure;
@@ -86,18 +86,18 @@ class Refining {
     if (round.dropped) return;
     round.answered = true;
     if (waiting_) round.cancel();
-    told_(soon);
+    report_(soon);
   }
   void finished() {
     std::shared_ptr<Round> round = std::exchange(round_, nullptr);
     starved_ = round->cancelled && !round->answered && !round->result;
     if (waiting_) begin();
     if (round->dropped) return;
-    if (round->result) told_(std::move(*round->result));
+    if (round->result) report_(std::move(*round->result));
     if (round->failure) failed_(*round->failure);
   }
 
-  Tell told_;
+  Report report_;
   Failed failed_;
   Work waiting_;
   std::shared_ptr<Round> round_;

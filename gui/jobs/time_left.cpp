@@ -8,7 +8,7 @@
 namespace relucent {
 namespace {
 
-struct Words {
+struct Translated {
   Q_DECLARE_TR_FUNCTIONS(Duration)
 };
 
@@ -37,10 +37,10 @@ std::optional<double> TimeLeft::seconds(Moment now) const {
 QString durationText(double seconds) {
   constexpr double minute = 60.0, hour = 3600.0;
   if (seconds < minute - 10.0)
-    return Words::tr("%1 s").arg(std::max(10, static_cast<int>(std::ceil(seconds / 10.0)) * 10));
+    return Translated::tr("%1 s").arg(std::max(10, static_cast<int>(std::ceil(seconds / 10.0)) * 10));
   int minutes = static_cast<int>(std::ceil(seconds / minute));
-  if (seconds <= hour) return Words::tr("%1 min").arg(minutes);
-  return Words::tr("%1 h %2 min").arg(minutes / 60).arg(minutes % 60);
+  if (seconds <= hour) return Translated::tr("%1 min").arg(minutes);
+  return Translated::tr("%1 h %2 min").arg(minutes / 60).arg(minutes % 60);
 }
 
 }  // namespace relucent

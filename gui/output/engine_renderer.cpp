@@ -19,7 +19,7 @@ constexpr double shareOfBudget = 0.7;
 }  // namespace
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
-                               bool adaptiveRange, Progress& progress, const FallbackBackend::Told& told,
+                               bool adaptiveRange, Progress& progress, const FallbackBackend::Notify& notify,
                                BackendChoice choice)
     : canvas_(canvas) {
   CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
@@ -30,7 +30,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
                               settings));
   content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
-  backend_ = makeBackend(*venue_, choice, told);
+  backend_ = makeBackend(*venue_, choice, notify);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
   const Method method = chosen.content.method;

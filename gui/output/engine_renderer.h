@@ -23,11 +23,11 @@ class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
   /// offset follow the content, see AdaptiveRange. Placement, brightness and black level are those stored for
-  /// the calibration's content; its method applies to still pictures, see StillSolver. `told` is called once,
+  /// the calibration's content; its method applies to still pictures, see StillSolver. `notify` is called once,
   /// on the rendering thread, when a graphics card is lost or unusable and the processor takes over. Throws:
   /// as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
-                 Progress& progress, const FallbackBackend::Told& told = {},
+                 Progress& progress, const FallbackBackend::Notify& notify = {},
                  BackendChoice choice = BackendChoice::automatic);
 
   std::vector<QSize> projectors() const override;

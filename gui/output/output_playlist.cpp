@@ -8,13 +8,13 @@
 #include "base/file.h"
 #include "content/content_address.h"
 #include "content/video.h"
-#include "output/own_picture.h"
+#include "output/default_picture.h"
 
 namespace relucent {
 namespace {
 
 QString picturePath(const QString& picture) {
-  return picture.isEmpty() ? ownPicture() : picture;
+  return picture.isEmpty() ? defaultPicture() : picture;
 }
 
 }  // namespace
@@ -75,10 +75,10 @@ void OutputPlaylist::set(const PlaylistSettings& settings) {
 void OutputPlaylist::save() const {
   PlaylistSettings kept = settings_;
   for (PlaylistItem& item : kept.items) {
-    if (item.path != ownPicture()) continue;
+    if (item.path != defaultPicture()) continue;
     QString copy = folder_ + "/demonstration.png";
     if (!QFileInfo::exists(copy)) {
-      QFile own(ownPicture());
+      QFile own(defaultPicture());
       require(own.open(QIODevice::ReadOnly), "the program's own picture is missing");
       writeFileAtomically(copy.toStdString(), own.readAll().toStdString());
     }
@@ -88,7 +88,7 @@ void OutputPlaylist::save() const {
 }
 
 QString OutputPlaylist::nameOf(const PlaylistItem& item) {
-  if (item.path == ownPicture()) return tr("Demonstration picture");
+  if (item.path == defaultPicture()) return tr("Demonstration picture");
   if (addressOf(item.path).kind != ContentAddress::Kind::file) return item.path;
   return QFileInfo(item.path).fileName();
 }

@@ -88,7 +88,7 @@ void Player::beginFrame() {
   begun_.start();
   ContentTime time = clock_.time();
   request_.seconds = refreshSeconds(windows_);
-  working_.setFuture(startedElsewhere([renderer = renderer_, content = chart_ ? chartContent_ : content_,
+  working_.setFuture(startedInBackground([renderer = renderer_, content = chart_ ? chartContent_ : content_,
                                        request = request_, clock = clock_, time, last = last_]() -> Frame {
     ContentPicture picture = content->at(time);
     if (picture.image.isNull()) return {};

@@ -6,7 +6,7 @@
 namespace relucent {
 namespace {
 
-QImage inTheMiddle(const QImage& picture, QSize native) {
+QImage centred(const QImage& picture, QSize native) {
   QImage all(native, QImage::Format_RGB32);
   all.fill(Qt::black);
   if (!picture.isNull()) QPainter(&all).drawImage(middleOf(native, picture.size()).topLeft(), picture);
@@ -21,7 +21,7 @@ RasterSurface::RasterSurface(QWindow& window) : window_(window), store_(&window)
 
 void RasterSurface::draw(const QImage& picture) {
   QSize native = nativeSize(window_);
-  QImage all = picture.size() == native ? picture : inTheMiddle(picture, native);
+  QImage all = picture.size() == native ? picture : centred(picture, native);
   // Pixel for pixel on desktops that scale, too.
   all.setDevicePixelRatio(window_.devicePixelRatio());
   QRect place(QPoint(), window_.size());

@@ -62,11 +62,11 @@ void Show::open() {
       QString name = display.connector;
       connect(window.get(), &ProjectorWindow::displayLost, this, [this, name] {
         log_.warn("display lost: " + name);
-        tellHealth(state_);
+        writeHealth(state_);
       });
       connect(window.get(), &ProjectorWindow::displayFound, this, [this, name] {
         log_.tell("display back: " + name);
-        tellHealth(state_);
+        writeHealth(state_);
       });
       windows_.push_back(std::move(window));
     }
@@ -100,13 +100,13 @@ bool Show::isTime() const {
 void Show::play() {
   player_->start();
   log_.tell(QString("playing %1 items on %2").arg(settings_.content.items.size()).arg(renderer_));
-  tellHealth(ShowState::playing);
+  writeHealth(ShowState::playing);
 }
 
 void Show::rest() {
   player_->stop();
   log_.tell("black until " + settings_.hours->from.toString("HH:mm"));
-  tellHealth(ShowState::resting);
+  writeHealth(ShowState::resting);
 }
 
 void Show::look() {
@@ -121,7 +121,7 @@ void Show::look() {
   wakeDisplays();
   if (state_ == ShowState::playing && !isTime()) return rest();
   if (state_ == ShowState::resting && isTime()) return play();
-  tellHealth(state_);
+  writeHealth(state_);
 }
 
 void Show::tryAgain(const Message& sentence) {
@@ -129,7 +129,7 @@ void Show::tryAgain(const Message& sentence) {
   int pause = std::min(longestPause, shortestPause << std::min(failures_, 10));
   ++failures_;
   log_.tell(QString("trying again in %1 s").arg(pause / 1000));
-  tellHealth(ShowState::failed);
+  writeHealth(ShowState::failed);
   again_.start(pause);
 }
 
@@ -140,10 +140,10 @@ void Show::stop() {
   for (const auto& window : windows_) window->stop();
   if (state_ == ShowState::stopped) return;
   log_.tell("stopped");
-  tellHealth(ShowState::stopped);
+  writeHealth(ShowState::stopped);
 }
 
-void Show::tellHealth(ShowState state) {
+void Show::writeHealth(ShowState state) {
   state_ = state;
   Playlist::Status content = content_->status();
   const std::vector<Message>& skipped = content.skipped;

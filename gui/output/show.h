@@ -54,7 +54,7 @@ class Show : public QObject {
   void wakeDisplays();
   bool isTime() const;
   void tryAgain(const relucent::Message& sentence);
-  void tellHealth(ShowState state);
+  void writeHealth(ShowState state);
 
   ShowSettings settings_;
   MakeRenderer make_;

@@ -20,7 +20,7 @@ QString described(const QScreen& screen) {
       .arg(&screen == QGuiApplication::primaryScreen() ? ", the operator's" : "");
 }
 
-QString allDescribed() {
+QString describedDisplays() {
   QStringList found;
   for (const QScreen* screen : QGuiApplication::screens()) found.append(described(*screen));
   return found.join(", ");
@@ -35,7 +35,7 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
         RELUCENT_ENGLISH_MESSAGE("show.displays-named-projectors", "{} displays are named for {} projectors")
             .with(named.size(), projectors.size()),
         RELUCENT_ENGLISH_MESSAGE("show.name-one-each-there", "name one for each; there are: {}")
-            .with(allDescribed().toStdString()));
+            .with(describedDisplays().toStdString()));
 
   QList<QScreen*> screens = QGuiApplication::screens();
   std::vector<ScreenIdentity> displays;
@@ -69,7 +69,7 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
                           as::label(i + 1)),
           RELUCENT_ENGLISH_MESSAGE("show.plug-set-size-name-screen",
                                    "plug it in, set it to that size, or name it with --screen; there are: {}")
-              .with(allDescribed().toStdString()));
+              .with(describedDisplays().toStdString()));
     displays.push_back(identityOf(**found));
     screens.erase(found);
   }

@@ -17,7 +17,7 @@
 namespace relucent {
 namespace {
 
-struct Words {
+struct Translated {
   Q_DECLARE_TR_FUNCTIONS(WindowProjector)
 };
 
@@ -44,7 +44,7 @@ QImage driveOf(const Image& encodedDrive) {
 
 /// Returns once the display server has done all that this program asked it to, and has told what it knows:
 /// reading a pixel is an answer that comes after all of that.
-void meetDisplayServer(QScreen* screen) {
+void syncWithDisplayServer(QScreen* screen) {
   if (screen != nullptr && QGuiApplication::platformName() == "xcb") screen->grabWindow(0, 0, 0, 1, 1);
 }
 
@@ -61,10 +61,10 @@ ScreenRigSettings::Display displayOf(const QScreen& screen) {
           identity.serialNumber.toStdString()};
 }
 
-QString whyNoProjector(const QScreen& screen) {
+QString unusableReason(const QScreen& screen) {
   const double scale = screen.devicePixelRatio();
   if (QGuiApplication::platformName().startsWith("wayland") && scale != std::round(scale))
-    return Words::tr("The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
+    return Translated::tr("The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
         .arg(scale);
   return {};
 }
@@ -99,12 +99,12 @@ class WindowProjector::Stage : public QObject {
     wake();
     window_->present(drive);
     if (!window_->isShining()) window_->shine();
-    tellWaiting(!window_->isShining());
+    reportWaiting(!window_->isShining());
   }
 
   /// Answers after all that the display server knew when it was asked.
   void answer(quint64 question) {
-    meetDisplayServer(window_ ? window_->screen() : nullptr);
+    syncWithDisplayServer(window_ ? window_->screen() : nullptr);
     if (awake_ && wake()) broken();
     QTimer::singleShot(0, this, [this, question] {
       QMutexLocker lock(&shared_->guard);
@@ -116,7 +116,7 @@ class WindowProjector::Stage : public QObject {
   void rest() {
     if (window_) window_->stop();
     awake_.reset();
-    tellWaiting(false);
+    reportWaiting(false);
     broken();
   }
 
@@ -126,7 +126,7 @@ class WindowProjector::Stage : public QObject {
     connect(window_.get(), &ProjectorWindow::frameSwapped, this, [this] { swapped(); });
     connect(window_.get(), &ProjectorWindow::displayLost, this, [this] {
       broken();
-      tellWaiting(true);
+      reportWaiting(true);
     });
     connect(window_.get(), &ProjectorWindow::displayFound, this, [this] { shownAgain(); });
     connect(window_.get(), &ProjectorWindow::displayChanged, this, [this] {
@@ -138,7 +138,7 @@ class WindowProjector::Stage : public QObject {
 
   void shownAgain() {
     swaps_ = 0;
-    if (!awake_) awake_ = std::make_unique<Awake>(Words::tr("A venue is being measured"));
+    if (!awake_) awake_ = std::make_unique<Awake>(Translated::tr("A venue is being measured"));
   }
 
   /// Wakes displays that are asleep or have been since this was asked last: whether there were any.
@@ -174,8 +174,8 @@ class WindowProjector::Stage : public QObject {
       return;
     }
     if (++swaps_ < swapsUntilSettled) return window_->update();
-    meetDisplayServer(screen);
-    tellWaiting(false);
+    syncWithDisplayServer(screen);
+    reportWaiting(false);
     QMutexLocker lock(&shared_->guard);
     if (shared_->out == asked_) return;  // what came back after it was lost does not stand "ever since"
     shared_->out = asked_;
@@ -188,7 +188,7 @@ class WindowProjector::Stage : public QObject {
     shared_->stands = false;
   }
 
-  void tellWaiting(bool waits) {
+  void reportWaiting(bool waits) {
     if (std::exchange(waits_, waits) != waits && waiting_) waiting_(waits);
   }
 
@@ -276,7 +276,7 @@ void WindowProjector::show(const Image& encodedDrive) {
   waitFor([&] { return shared_->out >= number; });
 }
 
-bool WindowProjector::hasStood() {
+bool WindowProjector::stayedVisible() {
   quint64 question = 0;
   {
     QMutexLocker lock(&shared_->guard);

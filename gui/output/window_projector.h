@@ -17,7 +17,7 @@ ScreenIdentity identityOf(const ScreenRigSettings::Display& display);
 ScreenRigSettings::Display displayOf(const QScreen& screen);
 
 /// Why a screen cannot show pictures pixel for pixel; empty: it can.
-QString whyNoProjector(const QScreen& screen);
+QString unusableReason(const QScreen& screen);
 
 /// A screen of the desktop as a projector for measuring. Used from a worker thread; its window lives on the
 /// interface's thread. show() returns once the picture has been swapped onto the screen and the display
@@ -42,7 +42,7 @@ class WindowProjector : public ScreenProjector {
   int bits() const override { return 8; }
   /// Throws: Error{device} if the screen's size differs from the projector's, or it does not wake; Cancelled.
   void show(const Image& encodedDrive) override;
-  bool hasStood() override;
+  bool stayedVisible() override;
   void rest() override;
 
  private:

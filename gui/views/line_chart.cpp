@@ -72,10 +72,10 @@ QRectF drawAxes(QPainter& painter, const QRectF& area, const Axis& x, const Axis
 }
 
 QSize leastSizeOf(const Axis& x, const Axis& y) {
-  constexpr double besides = 56.0, leastWidth = 160.0;  // beside the plot: numbers, and what is free
+  constexpr double widthBesidePlot = 56.0, leastWidth = 160.0;  // beside the plot: numbers, and what is free
   constexpr int leastHeight = 96;
   QFontMetricsF metrics(typeOf(type::axis));
-  double across = metrics.horizontalAdvance(x.title) + besides;
+  double across = metrics.horizontalAdvance(x.title) + widthBesidePlot;
   return {static_cast<int>(std::ceil(std::max({leastWidth, across, metrics.horizontalAdvance(y.title)}))),
           leastHeight};
 }

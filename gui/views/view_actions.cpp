@@ -15,7 +15,7 @@
 namespace relucent {
 namespace {
 
-struct Words {
+struct Translated {
   Q_DECLARE_TR_FUNCTIONS(ViewActions)
 };
 
@@ -49,14 +49,14 @@ void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
 
 void addViewActions(Card& card, PlaneView& view, ViewValues values,
                     std::function<void(const Failure&)> failed) {
-  QToolButton* fit = toolOf(Icon::fit, Words::tr("Show everything"));
+  QToolButton* fit = toolOf(Icon::fit, Translated::tr("Show everything"));
   QObject::connect(fit, &QToolButton::clicked, &view, [&view] { view.link().look(1.0, {0.5, 0.5}); });
   card.addAction(fit);
-  QToolButton* whole = toolOf(Icon::monitor, Words::tr("Whole screen (F11)"));
+  QToolButton* whole = toolOf(Icon::monitor, Translated::tr("Whole screen (F11)"));
   QObject::connect(whole, &QToolButton::clicked, &view, [&view] { view.setWholeScreen(true); });
   card.addAction(whole);
 
-  QToolButton* save = toolOf(Icon::save, Words::tr("Save"));
+  QToolButton* save = toolOf(Icon::save, Translated::tr("Save"));
   auto* menu = new QMenu(save);
   auto add = [&, save](const QString& text, const QString& title, const QString& filter,
                        const QString& ending) {
@@ -71,9 +71,9 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
       }
     });
   };
-  add(Words::tr("Picture as seen"), Words::tr("Save the picture"), Words::tr("Pictures (*.png)"), ".png");
+  add(Translated::tr("Picture as seen"), Translated::tr("Save the picture"), Translated::tr("Pictures (*.png)"), ".png");
   if (values.values)
-    add(Words::tr("Values"), Words::tr("Save the values"), Words::tr("OpenEXR (*.exr)"), ".exr");
+    add(Translated::tr("Values"), Translated::tr("Save the values"), Translated::tr("OpenEXR (*.exr)"), ".exr");
   save->setMenu(menu);
   save->setPopupMode(QToolButton::InstantPopup);
   card.addAction(save);

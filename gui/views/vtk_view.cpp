@@ -120,7 +120,7 @@ QImage VtkView::drawn() {
   return canvas_ == nullptr ? QImage() : canvas_->grabFramebuffer();
 }
 
-void VtkView::tellPlace(QPointF place, Qt::KeyboardModifiers modifiers, int repeat) {
+void VtkView::forwardPosition(QPointF place, Qt::KeyboardModifiers modifiers, int repeat) {
   double ratio = devicePixelRatioF();
   scene_->interactor->SetEventInformationFlipY(qRound(place.x() * ratio), qRound(place.y() * ratio),
                                                modifiers.testFlag(Qt::ControlModifier),
@@ -135,31 +135,31 @@ bool VtkView::event(QEvent* event) {
 }
 
 void VtkView::mousePressEvent(QMouseEvent* event) {
-  tellPlace(event->position(), event->modifiers());
+  forwardPosition(event->position(), event->modifiers());
   if (event->button() == Qt::LeftButton) scene_->interactor->LeftButtonPressEvent();
   if (event->button() == Qt::MiddleButton) scene_->interactor->MiddleButtonPressEvent();
   if (event->button() == Qt::RightButton) scene_->interactor->RightButtonPressEvent();
 }
 
 void VtkView::mouseDoubleClickEvent(QMouseEvent* event) {
-  tellPlace(event->position(), event->modifiers(), 1);
+  forwardPosition(event->position(), event->modifiers(), 1);
   if (event->button() == Qt::LeftButton) scene_->interactor->LeftButtonPressEvent();
 }
 
 void VtkView::mouseMoveEvent(QMouseEvent* event) {
-  tellPlace(event->position(), event->modifiers());
+  forwardPosition(event->position(), event->modifiers());
   scene_->interactor->MouseMoveEvent();
 }
 
 void VtkView::mouseReleaseEvent(QMouseEvent* event) {
-  tellPlace(event->position(), event->modifiers());
+  forwardPosition(event->position(), event->modifiers());
   if (event->button() == Qt::LeftButton) scene_->interactor->LeftButtonReleaseEvent();
   if (event->button() == Qt::MiddleButton) scene_->interactor->MiddleButtonReleaseEvent();
   if (event->button() == Qt::RightButton) scene_->interactor->RightButtonReleaseEvent();
 }
 
 void VtkView::wheelEvent(QWheelEvent* event) {
-  tellPlace(event->position(), event->modifiers());
+  forwardPosition(event->position(), event->modifiers());
   if (event->angleDelta().y() > 0) scene_->interactor->MouseWheelForwardEvent();
   if (event->angleDelta().y() < 0) scene_->interactor->MouseWheelBackwardEvent();
   event->accept();

@@ -58,7 +58,7 @@ class VtkView : public QWidget {
 
  private:
   void refuse();
-  void tellPlace(QPointF place, Qt::KeyboardModifiers modifiers, int repeat = 0);
+  void forwardPosition(QPointF place, Qt::KeyboardModifiers modifiers, int repeat = 0);
 
   std::unique_ptr<VtkScene> scene_;
   VtkCanvas* canvas_ = nullptr;

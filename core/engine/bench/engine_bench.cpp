@@ -46,14 +46,14 @@ class Bench {
 
   /// `run` takes the time that the clock says.
   void time(const std::string& name, double bytes, const std::function<void()>& run) {
-    timeItself(name, bytes, [&] {
+    timeReported(name, bytes, [&] {
       const double begin = clock_();
       run();
       return clock_() - begin;
     });
   }
   /// `run` says what it took.
-  void timeItself(const std::string& name, double bytes, const std::function<double()>& run) {
+  void timeReported(const std::string& name, double bytes, const std::function<double()>& run) {
     progress_.checkpoint();
     EngineBenchTiming timing = timedRuns(run);
     result.lines.push_back({name, timing.median, timing.best, bytes, 0.0, {}});
@@ -141,9 +141,9 @@ void timeOpenGl(Bench& bench, const EngineVenue& engine, const EngineContent& co
   FrameReport report;
   backend.render(noise.frame(), {}, words, report);
   const auto transport = static_cast<double>(backend.transportBytes());
-  bench.timeItself(name + ": M", static_cast<double>(engine.inverse.bytes()),
+  bench.timeReported(name + ": M", static_cast<double>(engine.inverse.bytes()),
                    [&] { return backend.applyWindows(); });
-  bench.timeItself(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
+  bench.timeReported(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
   timeFrames(bench, backend, engine, size, transport);
 }
 

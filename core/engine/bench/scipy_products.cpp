@@ -51,7 +51,7 @@ void writeArray(const Folder& folder, const char* name, const Value* values, Eig
 }
 
 /// What a command prints; empty if it fails.
-std::string printedBy(const std::string& command) {
+std::string outputOf(const std::string& command) {
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return {};
   std::string text;
@@ -74,7 +74,7 @@ std::optional<EngineBenchTiming> timeSciPy(const ReferencePlane& plane, Referenc
 
   // The first python3 of the path need not be the system's, for which SciPy is packaged.
   for (const char* python : {"python3", "/usr/bin/python3"}) {
-    const std::string printed = printedBy(
+    const std::string printed = outputOf(
         fmt::format("{} '{}' '{}' {} {} 2>/dev/null", python, (folder.path() / "products.py").string(),
                     folder.path().string(), product == ReferenceProduct::both ? "both" : "there",
                     oneThread ? "thread" : "wall"));

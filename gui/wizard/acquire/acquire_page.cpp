@@ -11,7 +11,7 @@
 #include "pipeline/stored_settings.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
-#include "wizard/acquire/retrying.h"
+#include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/missing_screen.h"
 
 namespace relucent {
@@ -26,7 +26,7 @@ constexpr std::chrono::seconds beforeRetry{5};
 }  // namespace
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
-    : DevicePage(stepName, session, parent), asking_(std::make_shared<Asking>()) {
+    : DevicePage(stepName, session, parent), question_(std::make_shared<AlarmQuestion>()) {
   makeCommands();
   connect(&session_, &Session::opened, this, [this] {
     finish();
@@ -86,7 +86,7 @@ void AcquirePage::makeCommands() {
 }
 
 Command* AcquirePage::answering(Icon icon, Answer answer) {
-  return addCommand(icon, [this, answer] { asking_->give(answer); });
+  return addCommand(icon, [this, answer] { question_->give(answer); });
 }
 
 AcquirePage::~AcquirePage() {
@@ -95,7 +95,7 @@ AcquirePage::~AcquirePage() {
 
 StepStatus AcquirePage::status() const {
   if (isPaused()) return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
-  if (isLeaving()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
+  if (isCountingDown()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
   switch (session_.progress(Stage::acquisition)) {
     case StageProgress::done:
@@ -118,7 +118,7 @@ QString AcquirePage::hint() const {
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
   if (isMeasuring()) return tr("Every photograph is saved. Threshold opens when the last is taken.");
-  if (isLeaving())
+  if (isCountingDown())
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
@@ -151,12 +151,12 @@ void AcquirePage::updateCommands() {
 }
 
 Command* AcquirePage::primary() const {
-  if (isLeaving()) return startNow_;
+  if (isCountingDown()) return startNow_;
   return isMeasuring() || isDone() ? next_ : start_;
 }
 
 std::vector<Command*> AcquirePage::secondary() const {
-  if (isLeaving()) return {stay_};
+  if (isCountingDown()) return {stay_};
   if (!isMeasuring()) return {};
   return {isPaused() ? resume_ : pause_, keep_};
 }
@@ -167,7 +167,7 @@ std::optional<double> AcquirePage::progress() const {
 
 std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
-  if (isMeasuring() || isLeaving()) return std::nullopt;
+  if (isMeasuring() || isCountingDown()) return std::nullopt;
   StageProgress progress = session_.progress(Stage::acquisition);
   if (progress == StageProgress::stale)
     return Banner{Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
@@ -300,7 +300,7 @@ void AcquirePage::start() {
 }
 
 void AcquirePage::stay() {
-  if (!isLeaving()) return;
+  if (!isCountingDown()) return;
   leaving_.stop();
   lease_.release();
   tellStatus();
@@ -308,18 +308,18 @@ void AcquirePage::stay() {
 
 void AcquirePage::begin() {
   leaving_.stop();
-  asking_->setClosed(false);
+  question_->setClosed(false);
   lastCount_ = session_.live().pictures().photographs;
   rate_ = 0.0;
   left_ = {};
   trace_.begin();
   second_.start();
-  auto retrying = std::make_shared<Retrying>(trace_, asking_, beforeRetry);
-  AlarmHandler handler = [this, retrying, asking = asking_](const Alarm& alarm) {
+  auto retrying = std::make_shared<RetryingObserver>(trace_, question_, beforeRetry);
+  AlarmHandler handler = [this, retrying, question = question_](const Alarm& alarm) {
     if (retrying->triesAgain(alarm.kind)) return Answer::retry;
     QMetaObject::invokeMethod(
-        this, [this, alarm] { askAbout(alarm); }, Qt::QueuedConnection);
-    return asking->wait();
+        this, [this, alarm] { askAboutAlarm(alarm); }, Qt::QueuedConnection);
+    return question->wait();
   };
   job_.start([work = workOf(session_), handler, retrying](Progress& progress) {
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
@@ -338,11 +338,11 @@ void AcquirePage::begin() {
 void AcquirePage::finish() {
   stay();
   job_.cancel();
-  asking_->setClosed(true);
+  question_->setClosed(true);
   session_.live().resume();
 }
 
-void AcquirePage::askAbout(const Alarm& alarm) {
+void AcquirePage::askAboutAlarm(const Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
                   QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
                   AcquisitionTrace::headingOf(alarm.kind)};

@@ -9,7 +9,7 @@
 #include "jobs/time_left.h"
 #include "linearization/linearization.h"
 #include "wizard/acquire/acquisition_trace.h"
-#include "wizard/acquire/asking.h"
+#include "wizard/acquire/alarm_question.h"
 #include "wizard/devices/device_page.h"
 
 namespace relucent {
@@ -23,7 +23,7 @@ struct BlockLevel {
   PatternRange patterns;  // of a level that has begun they are known
   int through = 0;
   bool isKnown = false;
-  bool isThrough() const { return isKnown && through >= patterns.likely; }
+  bool isComplete() const { return isKnown && through >= patterns.likely; }
 };
 
 /// Step 4: the light transport, photograph by photograph.
@@ -60,7 +60,7 @@ class AcquirePage : public DevicePage {
   /// Of the shown projector and camera.
   LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
   /// Photographs of earlier runs that are in the journal, and all that there are by now.
-  int keptBefore() const { return kept_; }
+  int savedPhotographs() const { return kept_; }
   int photographs() const;
   /// Seconds that it still takes; none before enough is known.
   std::optional<double> secondsLeft() const;
@@ -100,7 +100,7 @@ class AcquirePage : public DevicePage {
   bool hasSound() const { return sound_; }
   void setSound(bool sound);
   /// The time to leave the room runs.
-  bool isLeaving() const { return leaving_.isActive(); }
+  bool isCountingDown() const { return leaving_.isActive(); }
 
   void pause();
   void resume();
@@ -126,7 +126,7 @@ class AcquirePage : public DevicePage {
   AcquisitionSettings settingsOf(Fineness fineness) const;
   void change(const QString& what, const AcquisitionSettings& settings);
   void keep(const AcquisitionSettings& settings);
-  void askAbout(const Alarm& alarm);
+  void askAboutAlarm(const Alarm& alarm);
   Command* answering(Icon icon, Answer answer);
   void ended();
   void tick();
@@ -136,7 +136,7 @@ class AcquirePage : public DevicePage {
   Command *again_, *goOn_;                                    // of the banner
   Command *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
-  std::shared_ptr<Asking> asking_;
+  std::shared_ptr<AlarmQuestion> question_;
   AcquisitionTrace trace_;
   TimeLeft left_;
   std::optional<WorkLeft> forecast_;

@@ -110,7 +110,7 @@ QWidget* inspectorOf(AcquirePage& model) {
   QWidget* run = runOf(model);
   column->addWidget(plan);
   column->addWidget(run);
-  column->addWidget(consentPart(model));
+  column->addWidget(consentWidget(model));
   column->addStretch(1);
   auto refresh = [&model, plan, run] {
     plan->setVisible(!model.isMeasuring());

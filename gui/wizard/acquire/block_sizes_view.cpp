@@ -23,7 +23,7 @@ QString sizeText(const BlockLevel& level) {
 QString patternsText(const BlockLevel& level) {
   QString count = countText(static_cast<std::uint64_t>(std::llround(level.patterns.likely)));
   if (!level.isKnown) return AcquirePage::tr("about %1").arg(count);
-  if (level.through == 0 || level.isThrough()) return count;
+  if (level.through == 0 || level.isComplete()) return count;
   return AcquirePage::tr("%1 of %2").arg(countText(static_cast<std::uint64_t>(level.through)), count);
 }
 
@@ -45,7 +45,7 @@ void fill(QPainter& painter, const QRectF& place, const QColor& colour, double r
 }
 
 /// What is under way, for those who do not see it.
-QString spokenOf(const std::vector<BlockLevel>& levels) {
+QString accessibleText(const std::vector<BlockLevel>& levels) {
   auto now =
       std::find_if(levels.rbegin(), levels.rend(), [](const BlockLevel& level) { return level.isKnown; });
   if (now == levels.rend()) return {};
@@ -67,7 +67,7 @@ BlockSizesView::BlockSizesView(QWidget* parent) : QWidget(parent) {
 void BlockSizesView::show(std::vector<BlockLevel> levels, bool isMeasuring) {
   levels_ = std::move(levels);
   if (std::exchange(isMeasuring_, isMeasuring) != isMeasuring) updateGeometry();
-  setAccessibleDescription(spokenOf(levels_));
+  setAccessibleDescription(accessibleText(levels_));
   update();
 }
 
@@ -118,7 +118,7 @@ void BlockSizesView::paintProgress(QPainter& painter) const {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const BlockLevel& level = levels_[i];
     QRectF column = columnOf(i);
-    const bool isNow = level.isKnown && !level.isThrough();
+    const bool isNow = level.isKnown && !level.isComplete();
     QRectF bar(column.left(), textHeight + 2.0, column.width(), barHeight);
     if (!level.isKnown) {
       drawExpected(painter, bar, barHeight / 2.0);

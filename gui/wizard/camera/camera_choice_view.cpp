@@ -11,7 +11,7 @@
 namespace relucent {
 namespace {
 
-QString factsOf(const CameraTraits& traits) {
+QString traitsText(const CameraTraits& traits) {
   return CameraPage::tr("%1 pixels, %n bit(s), exposures %2 to %3", nullptr, traits.format.bits)
       .arg(sizeText(traits.size.width, traits.size.height), exposureText(traits.exposures.shortest),
            exposureText(traits.exposures.longest));
@@ -31,7 +31,7 @@ class CameraRow : public QFrame {
     texts->addWidget(labelOf(name, "strong"));
     texts->addWidget(labelOf(QString::fromStdString(camera.address), "note"));
     if (camera.usable) {
-      texts->addWidget(labelOf(factsOf(camera.traits), "note"));
+      texts->addWidget(labelOf(traitsText(camera.traits), "note"));
       for (const Message& remark : camera.traits.remarks)
         texts->addWidget(labelOf(fullSentence(remark), "note"));
     } else {

@@ -271,7 +271,7 @@ void CameraPage::start() {
       shared->look = std::move(look);
       if (!std::exchange(shared->posted, true))
         QMetaObject::invokeMethod(
-            this, [this] { takeNews(); }, Qt::QueuedConnection);
+            this, [this] { takeSharedState(); }, Qt::QueuedConnection);
       lock.unlock();
       // Twice a second: the screen's own light falls into the room.
       while (since.elapsed() < 500) {
@@ -283,7 +283,7 @@ void CameraPage::start() {
   tellResult();
 }
 
-void CameraPage::takeNews() {
+void CameraPage::takeSharedState() {
   if (!shared_) return;
   {
     QMutexLocker lock(&shared_->guard);
@@ -303,7 +303,7 @@ void CameraPage::takeNews() {
 }
 
 void CameraPage::ended() {
-  takeNews();
+  takeSharedState();
   lease_.release();
   if (job_.state() == Job::State::failed)
     Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost.")});

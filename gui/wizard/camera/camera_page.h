@@ -91,7 +91,7 @@ class CameraPage : public PageModel {
   void keepLook();
   void start();
   void watch(const Region& area);
-  void takeNews();
+  void takeSharedState();
   void ended();
 
   Session& session_;

@@ -49,7 +49,7 @@ void FlashConsent::show(bool needed, bool given, std::optional<double> changes) 
                  tr("Flashing light can cause seizures. Clear the room and cover the entrance."));
 }
 
-QWidget* consentPart(DevicePage& page) {
+QWidget* consentWidget(DevicePage& page) {
   Session& session = page.session();
   auto* part = new FlashConsent;
   QObject::connect(part, &FlashConsent::given, &session, &Session::setRoomClear);

@@ -33,6 +33,6 @@ class FlashConsent : public QWidget {
 };
 
 /// That of the open venue, for a page whose measurement asks for it.
-QWidget* consentPart(DevicePage& page);
+QWidget* consentWidget(DevicePage& page);
 
 }  // namespace relucent

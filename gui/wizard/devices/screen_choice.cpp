@@ -14,7 +14,7 @@
 namespace relucent {
 namespace {
 
-struct Words {
+struct Translated {
   Q_DECLARE_TR_FUNCTIONS(ScreenChoice)
 };
 
@@ -25,21 +25,21 @@ ScreenChoice choiceOf(const QScreen& screen, bool isOnlyOne) {
   choice.size = {size.width(), size.height()};
   if (screen.refreshRate() > 1.0) choice.frameRate = screen.refreshRate();
   choice.primary = &screen == QGuiApplication::primaryScreen();
-  choice.title = choice.primary ? Words::tr("This computer") : screenTitle(screen);
-  choice.facts = Words::tr("%1, %2 × %3, %4 Hz")
+  choice.title = choice.primary ? Translated::tr("This computer") : screenTitle(screen);
+  choice.facts = Translated::tr("%1, %2 × %3, %4 Hz")
                      .arg(screen.name())
                      .arg(size.width())
                      .arg(size.height())
                      .arg(std::lround(choice.frameRate));
-  choice.refusal = whyNoProjector(screen);
+  choice.refusal = unusableReason(screen);
   if (!choice.primary || !choice.refusal.isEmpty()) return choice;
   if (isOnlyOne)
-    choice.warning = Words::tr(
+    choice.warning = Translated::tr(
         "There is no other screen: the patterns cover this window while they are shown. Plug the projector "
         "in, "
         "and switch the desktop to extended screens, to keep both apart.");
   else
-    choice.refusal = Words::tr("This is the screen that you work on. Choose the projector's.");
+    choice.refusal = Translated::tr("This is the screen that you work on. Choose the projector's.");
   return choice;
 }
 
@@ -56,7 +56,7 @@ std::vector<ScreenChoice> screenChoicesFor(Size projector) {
   std::vector<ScreenChoice> choices = screenChoices();
   for (ScreenChoice& choice : choices)
     if (choice.refusal.isEmpty() && choice.size != projector)
-      choice.refusal = Words::tr("The projector was measured with %1 pixels. Set this screen to that size.")
+      choice.refusal = Translated::tr("The projector was measured with %1 pixels. Set this screen to that size.")
                            .arg(sizeText(projector.width, projector.height));
   return choices;
 }
@@ -72,11 +72,11 @@ QString meaningOfMove(const ScreenRigSettings::Display& measured, const ScreenRi
   const bool alike = measured.manufacturer == now.manufacturer && measured.model == now.model &&
                      measured.serialNumber == now.serialNumber;
   if (!alike)
-    return Words::tr(
+    return Translated::tr(
         "This is another projector than the one that was measured. Its light and its place differ: take a "
         "verification photograph, and measure again where that does not look as predicted.");
   if (!measured.serialNumber.empty() || measured.connector == now.connector) return {};
-  return Words::tr(
+  return Translated::tr(
              "Measured at %1, used at %2. If it is the same projector in the same place, everything that was "
              "measured holds; a verification photograph tells.")
       .arg(QString::fromStdString(measured.connector), QString::fromStdString(now.connector));

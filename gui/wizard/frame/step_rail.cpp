@@ -32,7 +32,7 @@ class Mark : public QWidget {
   }
 };
 
-QString wordOf(const StepStatus& status, bool current, bool locked) {
+QString stateText(const StepStatus& status, bool current, bool locked) {
   if (locked) return StepRail::tr("locked");
   switch (status.state) {
     case StepState::done:
@@ -63,7 +63,7 @@ void StepButton::show(const QString& name, const StepStatus& status, bool curren
   current_ = current;
   locked_ = locked;
   setEnabled(!locked);
-  QString state = wordOf(status, current, locked);
+  QString state = stateText(status, current, locked);
   setAccessibleName(StepRail::tr("Step %1, %2, %3").arg(number_).arg(name, state));
   setAccessibleDescription(status.result);
   setToolTip(status.result);

@@ -150,7 +150,7 @@ QWidget* inspectorOf(LinearizePage& model) {
   for (int count : {9, 17, 33, 65}) levels->addItem(QString::number(count), count);
   row->addWidget(levels);
   column->addLayout(row);
-  column->addWidget(consentPart(model));
+  column->addWidget(consentWidget(model));
   column->addStretch(1);
   QObject::connect(levels, &QComboBox::activated, &model,
                    [&model, levels] { model.setLevels(levels->currentData().toInt()); });

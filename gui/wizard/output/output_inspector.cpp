@@ -102,7 +102,7 @@ QWidget* proofPart(OutputPage& page) {
   drift->setObjectName("check-drift");
   drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
   column->addWidget(drift);
-  column->addWidget(consentPart(page));
+  column->addWidget(consentWidget(page));
   QObject::connect(take, &QPushButton::clicked, &page, &OutputPage::verify);
   QObject::connect(drift, &QPushButton::clicked, &page, &OutputPage::checkDrift);
   auto refresh = [=, &page] {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "output/installation.h"
-#include "output/own_picture.h"
+#include "output/default_picture.h"
 #include "wizard/session/method_name.h"
 
 namespace relucent {
@@ -32,7 +32,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     chosen_.clear();
     reportFile_.clear();
     listScreens();
-    lookForShow();
+    detectInstalledShow();
     preferred_ = QString::fromStdString(session_.settings().content.picture);
     playlist_.open(session_.isOpen() ? QString::fromStdString(session_.path().string()) : QString(),
                    preferred_);
@@ -81,7 +81,7 @@ void OutputPage::finish() {
 
 void OutputPage::enter() {
   listScreens();
-  lookForShow();
+  detectInstalledShow();
 }
 
 StepStatus OutputPage::status() const {
@@ -210,7 +210,7 @@ QString OutputPage::pictureToProve() const {
   qsizetype now = projection_.playing();
   if (now >= 0 && now < items.size() && OutputPlaylist::isStill(items[now])) return items[now].path;
   auto still = std::find_if(items.begin(), items.end(), OutputPlaylist::isStill);
-  return still != items.end() ? still->path : ownPicture();
+  return still != items.end() ? still->path : defaultPicture();
 }
 
 void OutputPage::report() {
@@ -224,10 +224,10 @@ void OutputPage::setStartsWithComputer(bool starts) {
 
 void OutputPage::setConfigFolder(const QString& folder) {
   config_ = folder;
-  lookForShow();
+  detectInstalledShow();
 }
 
-void OutputPage::lookForShow() {
+void OutputPage::detectInstalledShow() {
   const QString venue = QString::fromStdString(session_.path().string());
   installed_ = session_.isOpen() && (relucent::isInstalled(Start::service, config_, venue) ||
                                      relucent::isInstalled(Start::autostart, config_, venue));
@@ -263,7 +263,7 @@ void OutputPage::install() {
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }
-  lookForShow();
+  detectInstalledShow();
 }
 
 void OutputPage::tell(const Failure& failure) {

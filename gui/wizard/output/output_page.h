@@ -101,7 +101,7 @@ class OutputPage : public DevicePage {
 
  private:
   void listScreens();
-  void lookForShow();
+  void detectInstalledShow();
   std::optional<std::size_t> projectorWithoutScreen() const;
   bool coversOperator() const;
   QString screenHint(std::size_t projector) const;

@@ -70,7 +70,7 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     drift_.reset();
     Q_EMIT changed();
   });
-  connect(&session_, &Session::stepsChanged, this, &OutputProof::forgetWhatIsNoProof);
+  connect(&session_, &Session::stepsChanged, this, &OutputProof::dropOutdatedProof);
   connect(&job_, &Job::progressed, this, &OutputProof::progressed);
   connect(&job_, &Job::ended, this, &OutputProof::finished);
 }
@@ -85,7 +85,7 @@ bool OutputProof::holds(const Proof& proof) const {
   return proof.content == session_.settings().content && proof.measured == measurementOf(session_);
 }
 
-void OutputProof::forgetWhatIsNoProof() {
+void OutputProof::dropOutdatedProof() {
   if (!proof_ || !session_.isOpen()) return;
   if (holds(*proof_)) return;
   proof_ = nullptr;

@@ -71,7 +71,7 @@ class OutputProof : public QObject {
   void finished();
   void recall();
   bool holds(const Proof& proof) const;
-  void forgetWhatIsNoProof();
+  void dropOutdatedProof();
 
   Session& session_;
   StepName step_;

@@ -106,7 +106,7 @@ class MirrorView : public ImageView {
 };
 
 /// Whether the widget has a use of its own for letters.
-bool takesLetters(const QWidget* widget) {
+bool acceptsText(const QWidget* widget) {
   return qobject_cast<const QLineEdit*>(widget) != nullptr ||
          qobject_cast<const QAbstractItemView*>(widget) != nullptr ||
          qobject_cast<const QAbstractSpinBox*>(widget) != nullptr ||
@@ -146,7 +146,7 @@ class OutputStage : public QWidget {
     auto* key = static_cast<QKeyEvent*>(event);
     auto* widget = qobject_cast<QWidget*>(watched);
     if (key->key() != Qt::Key_A || key->modifiers() != Qt::NoModifier || widget == nullptr ||
-        widget->window() != window() || takesLetters(QApplication::focusWidget()))
+        widget->window() != window() || acceptsText(QApplication::focusWidget()))
       return false;
     if (!key->isAutoRepeat()) page_.setCompensated(event->type() == QEvent::KeyRelease);
     return true;

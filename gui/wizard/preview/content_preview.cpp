@@ -11,7 +11,7 @@
 #include "compensation/uncorrectable.h"
 #include "image/colour.h"
 #include "image/metrics.h"
-#include "output/own_picture.h"
+#include "output/default_picture.h"
 #include "pipeline/stored_settings.h"
 
 namespace relucent {
@@ -25,7 +25,7 @@ std::shared_ptr<const Image> contentFor(const ContentSettings& settings) {
     } catch (const Error&) {
     }
   }
-  return std::make_shared<Image>(linearContentOf(ownPicture()));
+  return std::make_shared<Image>(linearContentOf(defaultPicture()));
 }
 
 /// Per pixel of the first camera, the brightest light that the projectors give, as a share of the content's

@@ -4,7 +4,7 @@
 #include <QFileInfo>
 
 #include "base/message.h"
-#include "output/own_picture.h"
+#include "output/default_picture.h"
 #include "pipeline/measuring.h"
 #include "pipeline/stored_settings.h"
 #include "views/number_text.h"

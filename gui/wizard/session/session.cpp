@@ -20,9 +20,9 @@ namespace {
 constexpr int audienceLimit = 3;  // patterns a second
 
 /// Holds other screens up as the rig's own projectors, which their pictures are not to be taken for.
-class HeldUp : public RigWatcher {
+class OtherScreensWatcher : public RigWatcher {
  public:
-  explicit HeldUp(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
+  explicit OtherScreensWatcher(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
   void beforeShowing(std::size_t index, RigLight& light) override { live_->beforeShowing(index, light); }
 
  private:
@@ -65,7 +65,7 @@ void SessionDevices::prove(Progress& progress) {
   Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
   for (const ScreenRigSettings& other : askForOtherScreens(std::get<ScreenRigSettings>(settings_)))
     beside.projectors.push_back(delayed(screens_(other), unmeasuredLatency(), sleepFor));
-  beside = watched(std::move(beside), std::make_shared<HeldUp>(live_));
+  beside = watched(std::move(beside), std::make_shared<OtherScreensWatcher>(live_));
   std::vector<Projector*> others;
   for (const std::unique_ptr<Projector>& other : beside.projectors) others.push_back(other.get());
   const ScreenExposure exposureOf = [&](Projector& screen) {
@@ -174,7 +174,7 @@ void Session::adopt(const CalibrationFolder& folder) {
   roomClear_ = false;
   roomLight_.reset();
   slowDown();
-  equip();
+  makeDevices();
   Q_EMIT opened();
   Q_EMIT stepsChanged();
   Q_EMIT acquisitionChanged();
@@ -182,7 +182,7 @@ void Session::adopt(const CalibrationFolder& folder) {
 }
 
 /// Devices by the settings; those of before are let go of.
-void Session::equip() {
+void Session::makeDevices() {
   devices_ = std::make_shared<SessionDevices>(
       settings_.rig, cache_, live_, [this](const ScreenRigSettings& screen) { return openScreen(screen); },
       patience_);
@@ -208,12 +208,12 @@ void Session::changeRig(const RigSettings& rig) {
     try {
       relucent::changeRig(folder, rig);
     } catch (...) {
-      equip();
+      makeDevices();
       throw;
     }
     look(folder);
   }
-  equip();
+  makeDevices();
   Q_EMIT stepsChanged();
 }
 
@@ -224,12 +224,12 @@ void Session::changeScreen(const ScreenRigSettings& screen) {
     try {
       relucent::changeScreen(folder, screen);
     } catch (...) {
-      equip();
+      makeDevices();
       throw;
     }
     look(folder);
   }
-  equip();
+  makeDevices();
   Q_EMIT stepsChanged();
 }
 

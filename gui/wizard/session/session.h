@@ -205,7 +205,7 @@ class Session : public QObject {
   void change(const std::function<void(CalibrationFolder&)>& write);
   void adopt(const CalibrationFolder& folder);
   void slowDown();
-  void equip();
+  void makeDevices();
   void takeBackDevices();
   std::unique_ptr<ScreenProjector> openScreen(const ScreenRigSettings& settings);
 

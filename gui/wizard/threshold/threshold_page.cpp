@@ -13,7 +13,7 @@ namespace {
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
 
-bool dropsNothing(const ThresholdSettings& cut) {
+bool keepsEverything(const ThresholdSettings& cut) {
   return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
 }
 
@@ -24,7 +24,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
       statistics_(
           [this](TransportStatistics statistics) {
             // Lowered to nothing meanwhile, the cut leaves everything.
-            if (!dropsNothing(cut_)) kept_ = statistics;
+            if (!keepsEverything(cut_)) kept_ = statistics;
             tellResult();
           },
           [this](const Failure& failure) {
@@ -33,7 +33,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
       first_(
           [this](TransportStatistics statistics) {
             whole_ = statistics;
-            if (dropsNothing(cut_)) kept_ = statistics;
+            if (keepsEverything(cut_)) kept_ = statistics;
             suggested_ = cutKeeping(statistics.histogram, suggestedShare);
             tellResult();
           },
@@ -101,8 +101,8 @@ void ThresholdPage::adopt() {
 
 void ThresholdPage::compute() {
   if (adopted_) {
-    if (whole_ && dropsNothing(cut_)) kept_ = whole_;
-    if (!dropsNothing(cut_)) {
+    if (whole_ && keepsEverything(cut_)) kept_ = whole_;
+    if (!keepsEverything(cut_)) {
       if (whole_ && !shareOfRow_) kept_ = estimatedAfterCut(*whole_, static_cast<double>(cut_.absolute));
       statistics_.ask(
           [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });

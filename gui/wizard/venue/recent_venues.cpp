@@ -12,7 +12,7 @@
 namespace relucent {
 namespace {
 
-struct Words {
+struct Translated {
   Q_DECLARE_TR_FUNCTIONS(RecentVenues)
 };
 
@@ -20,11 +20,11 @@ constexpr const char* key = "recent/venues";
 
 QString stateOf(const CalibrationFolder& folder) {
   if (progressOf(folder, Stage::acquisition) == StageProgress::open)
-    return progressOf(folder, Stage::linearization) == StageProgress::open ? Words::tr("Nothing measured yet")
-                                                                           : Words::tr("Acquire is next");
-  if (progressOf(folder, Stage::content) == StageProgress::done) return Words::tr("Ready to play");
-  if (progressOf(folder, Stage::content) == StageProgress::stale) return Words::tr("Preview out of date");
-  return Words::tr("Measured");
+    return progressOf(folder, Stage::linearization) == StageProgress::open ? Translated::tr("Nothing measured yet")
+                                                                           : Translated::tr("Acquire is next");
+  if (progressOf(folder, Stage::content) == StageProgress::done) return Translated::tr("Ready to play");
+  if (progressOf(folder, Stage::content) == StageProgress::stale) return Translated::tr("Preview out of date");
+  return Translated::tr("Measured");
 }
 
 }  // namespace

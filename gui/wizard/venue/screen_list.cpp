@@ -111,14 +111,14 @@ Tile* ScreenList::tileOf(const ScreenChoice& choice) {
   name(tile->isChecked());
   connect(tile, &Tile::clicked, this, [this, choice] {
     chosen_ = choice;
-    dropGone();
+    removeAbsent();
     tell_(choice);
   });
   return tile;
 }
 
 /// Another was chosen: nobody waits for the one that went.
-void ScreenList::dropGone() {
+void ScreenList::removeAbsent() {
   for (Tile* tile : findChildren<Tile*>())
     if (tile->isDashed()) tile->deleteLater();
 }

@@ -37,7 +37,7 @@ class ScreenList : public QWidget {
   void add(Tile* tile, Size screen);
   void draw();
   Tile* tileOf(const ScreenChoice& choice);
-  void dropGone();
+  void removeAbsent();
 
   Chosen tell_;
   Offer offer_;

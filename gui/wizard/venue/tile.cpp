@@ -44,14 +44,14 @@ void Tile::init(const QString& name, const QString& sentence) {
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
-int Tile::besides() const {
+int Tile::widthBesideText() const {
   return 2 * (icon_ ? besideIcon : besidePicture);
 }
 
 /// Two lines at least, so that names stand beside names.
 int Tile::sentenceHeight(int width) const {
   QFontMetrics metrics(typeOf(type::note));
-  QRect room(0, 0, std::max(1, width - besides()), std::numeric_limits<short>::max());
+  QRect room(0, 0, std::max(1, width - widthBesideText()), std::numeric_limits<short>::max());
   return std::max(2 * metrics.height(), metrics.boundingRect(room, Qt::TextWordWrap, sentence_).height()) + 4;
 }
 
@@ -76,7 +76,7 @@ QSize Tile::minimumSizeHint() const {
   QRect narrow(0, 0, 1, std::numeric_limits<short>::max());
   int word = QFontMetrics(typeOf(type::note)).boundingRect(narrow, Qt::TextWordWrap, sentence_).width();
   int widest = std::max(word, QFontMetrics(nameFont()).horizontalAdvance(text()));
-  return {std::max(140, widest + besides() + 1), icon_ ? 120 : 160};
+  return {std::max(140, widest + widthBesideText() + 1), icon_ ? 120 : 160};
 }
 
 void Tile::setLargest(QSize size) {
@@ -144,7 +144,7 @@ void Tile::paintEvent(QPaintEvent*) {
   } else {
     paintPicture(painter, QRectF(9, 9, width() - 18.0, std::max(20.0, textTop - 18.0)));
   }
-  double left = besides() / 2.0;
+  double left = widthBesideText() / 2.0;
   QRectF text(left, textTop, width() - 2.0 * left, QFontMetrics(bold).height() + 2.0);
   painter.setPen(isEnabled() ? c.text : c.disabled);
   painter.setFont(bold);

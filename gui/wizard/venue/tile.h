@@ -37,7 +37,7 @@ class Tile : public QAbstractButton {
   void init(const QString& name, const QString& sentence);
   void paintPicture(QPainter& painter, QRectF area) const;
   /// What stands free at both sides of its words.
-  int besides() const;
+  int widthBesideText() const;
   int sentenceHeight(int width) const;
   /// That all its words need.
   int wordsHeight(int width) const;

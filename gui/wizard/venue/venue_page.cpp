@@ -164,14 +164,14 @@ void VenuePage::open(const QString& path) {
     QFileInfo file(path);
     bool within = file.isFile() && file.fileName() == manifestName;
     QDir folder(within ? file.path() : path);
-    if (folder.exists() && !folder.exists(manifestName)) return tellNoVenue(folder);
+    if (folder.exists() && !folder.exists(manifestName)) return reportNoVenue(folder);
     session_.open(folder.path().toStdString());
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder.")});
   }
 }
 
-void VenuePage::tellNoVenue(const QDir& folder) {
+void VenuePage::reportNoVenue(const QDir& folder) {
   int within = 0;
   for (const QString& child : folder.entryList(QDir::Dirs | QDir::NoDotAndDotDot))
     if (folder.exists(child + '/' + manifestName)) ++within;

@@ -121,7 +121,7 @@ class VenuePage : public PageModel {
   CalibrateSettings wanted() const;
   void begin();
   void useScreen();
-  void tellNoVenue(const QDir& folder);
+  void reportNoVenue(const QDir& folder);
   void suggestName();
   QString target() const { return parent_ + '/' + venueName_; }
 

@@ -70,7 +70,7 @@ VenuePage::Problem VenuePage::firstProblem() const {
   if (mode_ == Mode::screen) {
     if (!openScreen_.isChangeable())
       return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
-    if (!openScreen_.isAnother()) return {tr("Choose another screen."), Remedy::screen};
+    if (!openScreen_.isDifferentScreen()) return {tr("Choose another screen."), Remedy::screen};
     return {};
   }
   if (venueName_.trimmed().isEmpty()) return {tr("Give the venue a name."), Remedy::name};

@@ -34,7 +34,7 @@ void VenueScreen::choose(const ScreenChoice& choice) {
   Q_EMIT changed();
 }
 
-bool VenueScreen::isAnother() const {
+bool VenueScreen::isDifferentScreen() const {
   const ScreenRigSettings* screen = session_.screenRig();
   return screen != nullptr && chosen_ && chosen_->display != screen->display;
 }

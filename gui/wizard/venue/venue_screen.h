@@ -28,7 +28,7 @@ class VenueScreen : public QObject {
   void choose(const ScreenChoice& choice);
   void forget() { chosen_.reset(); }
   /// The choice is another screen than the calibration's.
-  bool isAnother() const;
+  bool isDifferentScreen() const;
   /// What the choice, or else the calibration's screen, means for what is measured; empty: nothing.
   QString meaning() const;
   /// Uses the choice from now on. Throws: as Session::changeScreen() and changeRig().

@@ -133,7 +133,7 @@ class DisturbedScreen : public ScreenProjector {
   Size size() const override { return venue_->projector().size(); }
   int bits() const override { return venue_->projector().bits(); }
   void show(const Image& picture) override { venue_->show(picture); }
-  bool hasStood() override { return venue_->hasStood(); }
+  bool stayedVisible() override { return venue_->stayedVisible(); }
   void rest() override {}
 
  private:

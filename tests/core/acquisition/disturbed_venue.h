@@ -80,16 +80,16 @@ class DisturbedVenue {
 
   void show(const Image& picture) {
     projector().show(picture);
-    hasStood_ = true;
+    stayedVisible_ = true;
   }
-  bool hasStood() const { return hasStood_; }
+  bool stayedVisible() const { return stayedVisible_; }
 
   /// 12 bits a sample, exposed now.
   SensorFrame photograph(double seconds) {
     Image signal = look(seconds);
     if (strikes(Fault::vanishingScreen)) {
       projector().show(Image(projector().size(), 3));
-      hasStood_ = false;
+      stayedVisible_ = false;
       // The rows of a rolling shutter that were still to come.
       const Image dark = look(seconds);
       const auto half = static_cast<std::ptrdiff_t>(signal.data().size() / 2);
@@ -120,7 +120,7 @@ class DisturbedVenue {
   CaptureRequest request_;
   std::set<int> photographed_, struck_;
   int toSpoil_ = 0, spoilt_ = 0;
-  bool hasStood_ = false;
+  bool stayedVisible_ = false;
 };
 
 }  // namespace relucent::test

@@ -46,7 +46,7 @@ class TestLookahead : public QObject {
       std::optional<Interruption> interrupted = lookahead.take(
           frame,
           [&](const Numbered&, const Meanwhile& meanwhile) -> Interruptible<std::size_t> {
-            return besides(meanwhile, [&] {
+            return runWithBackground(meanwhile, [&] {
               if (frame + 1 < frames)
                 inTime = prepared[frame + 1].get_future().wait_for(patience) == std::future_status::ready;
               if (frame > 0)
@@ -82,7 +82,7 @@ class TestLookahead : public QObject {
       std::optional<Interruption> interrupted = lookahead.take(
           static_cast<std::size_t>(frame),
           [&](const Numbered& of, const Meanwhile& meanwhile) -> Interruptible<std::size_t> {
-            return besides(meanwhile, [&] { return 10 * of.number; });
+            return runWithBackground(meanwhile, [&] { return 10 * of.number; });
           },
           [&](const Numbered& of, std::size_t shown) {
             wrong += shown != 10 * of.number;
@@ -100,7 +100,7 @@ class TestLookahead : public QObject {
   void aFailingExposureIsThrown() {
     Lookahead<Numbered> lookahead(2, [](std::size_t number, const Numbered*) { return Numbered{number}; });
     auto fails = [&](const Numbered&, const Meanwhile& meanwhile) -> Interruptible<int> {
-      return besides(meanwhile, []() -> int { throw std::runtime_error("unplugged"); });
+      return runWithBackground(meanwhile, []() -> int { throw std::runtime_error("unplugged"); });
     };
     QVERIFY_THROWS_EXCEPTION(std::runtime_error,
                              std::ignore = lookahead.take(0, fails, [](const Numbered&, int) {}));

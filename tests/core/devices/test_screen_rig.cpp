@@ -33,7 +33,7 @@ class ScriptedScreen : public ScreenProjector {
     script_.stands = true;
     script_.events.push_back("show");
   }
-  bool hasStood() override { return script_.stands; }
+  bool stayedVisible() override { return script_.stands; }
   void rest() override { script_.rests = true, script_.stands = false; }
 
  private:

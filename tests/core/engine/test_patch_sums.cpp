@@ -44,9 +44,9 @@ class TestPatchSums : public QObject {
     const float left = std::numeric_limits<float>::quiet_NaN();
     std::vector<float> sums(3 * nodes, left), waiting(PatchSums::placeFloats * patchSums.places(), left);
     for (std::size_t patch = packed.patches().size(); patch-- > 0;)
-      patchSums.handOver(patch, columns.data() + stride * packed.patches()[patch].columnBegin, stride,
+      patchSums.addPatch(patch, columns.data() + stride * packed.patches()[patch].columnBegin, stride,
                          sums.data(), waiting.data());
-    patchSums.addUp(waiting.data(), sums.data());
+    patchSums.addStored(waiting.data(), sums.data());
     QVERIFY(sums == expected);
   }
 
@@ -64,8 +64,8 @@ class TestPatchSums : public QObject {
     const PackedTransport packed(transport, 8);
     const PatchSums patchSums(packed, layout.count());
     std::vector<float> sums(3 * layout.count(), 3.0f);
-    patchSums.handOver(0, nullptr, 4, sums.data(), nullptr);
-    patchSums.addUp(nullptr, sums.data());
+    patchSums.addPatch(0, nullptr, 4, sums.data(), nullptr);
+    patchSums.addStored(nullptr, sums.data());
     QVERIFY(std::all_of(sums.begin(), sums.end(), [](float sum) { return sum == 0.0f; }));
   }
 };

@@ -27,7 +27,7 @@ float meanWeight(const ScatteringPoint& point) {
   SamplePattern samples(4096, 7);
   float sum = 0.0f;
   for (int i = 0; i < samples.count(); ++i)
-    sum += drawBounce(point, samples.point(i, 0, Vector2f::Zero()), samples.point(i, 1, Vector2f::Zero()).x())
+    sum += sampleBounce(point, samples.point(i, 0, Vector2f::Zero()), samples.point(i, 1, Vector2f::Zero()).x())
                .weight.mean();
   return sum / static_cast<float>(samples.count());
 }

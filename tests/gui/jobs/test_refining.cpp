@@ -23,7 +23,7 @@ class TestRefining : public QObject {
 
   QStringList answers_, failures_;
 
-  Refining<QString>::Tell answered() {
+  Refining<QString>::Report answered() {
     return [this](const QString& answer) { answers_.append(answer); };
   }
   Refining<QString>::Failed failed() {
@@ -38,8 +38,8 @@ class TestRefining : public QObject {
 
   void itAnswersSoonAndThenExactly() {
     Refining<QString> refining(answered(), failed());
-    refining.ask([](Progress&, const auto& tellSoon) {
-      tellSoon("soon");
+    refining.ask([](Progress&, const auto& reportSoon) {
+      reportSoon("soon");
       return QString("exactly");
     });
     QVERIFY(refining.isBusy());
@@ -49,8 +49,8 @@ class TestRefining : public QObject {
 
   void aNewerRequestCancelsTheOneUnderWay() {
     Refining<QString> refining(answered(), failed());
-    refining.ask([](Progress& progress, const auto& tellSoon) {
-      tellSoon("soon");
+    refining.ask([](Progress& progress, const auto& reportSoon) {
+      reportSoon("soon");
       workForEver(progress);
       return QString("never");
     });
@@ -83,11 +83,11 @@ class TestRefining : public QObject {
       return QString("never");
     });
     begun.acquire();
-    refining.ask([&](Progress& progress, const auto& tellSoon) {
+    refining.ask([&](Progress& progress, const auto& reportSoon) {
       begun.release();
       go.acquire();
       progress.checkpoint();
-      tellSoon("soon");
+      reportSoon("soon");
       workForEver(progress);
       return QString("never");
     });
@@ -101,8 +101,8 @@ class TestRefining : public QObject {
   void whatIsDroppedSaysNothing() {
     Refining<QString> refining(answered(), failed());
     QSemaphore begun;
-    refining.ask([&begun](Progress& progress, const auto& tellSoon) {
-      tellSoon("soon");
+    refining.ask([&begun](Progress& progress, const auto& reportSoon) {
+      reportSoon("soon");
       begun.release();
       workForEver(progress);
       return QString("never");
@@ -129,8 +129,8 @@ class TestRefining : public QObject {
     bool over = false;
     {
       Refining<QString> refining(answered(), failed());
-      refining.ask([&over](Progress& progress, const auto& tellSoon) {
-        tellSoon("soon");
+      refining.ask([&over](Progress& progress, const auto& reportSoon) {
+        reportSoon("soon");
         try {
           workForEver(progress);
         } catch (...) {

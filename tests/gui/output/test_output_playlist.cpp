@@ -7,7 +7,7 @@
 #include <QtTest>
 
 #include "base/error.h"
-#include "output/own_picture.h"
+#include "output/default_picture.h"
 
 using namespace relucent;
 
@@ -25,7 +25,7 @@ class TestOutputPlaylist : public QObject {
     QTemporaryDir folder;
     OutputPlaylist list;
     list.open(folder.path(), {});
-    QCOMPARE(names(list), QStringList{ownPicture()});
+    QCOMPARE(names(list), QStringList{defaultPicture()});
     list.prefer("/a.png");
     QCOMPARE(names(list), QStringList{"/a.png"});
     QVERIFY(!QFile::exists(list.file()));
@@ -121,7 +121,7 @@ class TestOutputPlaylist : public QObject {
     QTest::addColumn<QString>("path");
     QTest::addColumn<bool>("still");
     QTest::newRow("picture") << "/a/b.png" << true;
-    QTest::newRow("own") << ownPicture() << true;
+    QTest::newRow("own") << defaultPicture() << true;
     QTest::newRow("film") << "/a/b.mp4" << false;
     QTest::newRow("folder of pictures") << QDir::tempPath() << false;
     QTest::newRow("camera") << "camera:USB" << false;

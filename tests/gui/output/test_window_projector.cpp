@@ -90,7 +90,7 @@ class TestWindowProjector : public QObject {
         const Image picture = noiseOf(seed);
         projector.show(picture);
         right += light.look(size).data() == picture.data();
-        right += projector.hasStood();
+        right += projector.stayedVisible();
       }
     });
     QCOMPARE(thrown, std::string());
@@ -105,16 +105,16 @@ class TestWindowProjector : public QObject {
     bool stoodBefore = false, stoodAfter = true, rightAgain = false;
     QCOMPARE(onWorker([&] {
                projector.show(first);
-               stoodBefore = projector.hasStood();
+               stoodBefore = projector.stayedVisible();
              }),
              std::string());
     unplug();
     QTRY_VERIFY(waits);
     const std::string thrown = onWorker(
         [&] {
-          stoodAfter = projector.hasStood();
+          stoodAfter = projector.stayedVisible();
           projector.show(second);
-          rightAgain = light.look(size).data() == second.data() && projector.hasStood();
+          rightAgain = light.look(size).data() == second.data() && projector.stayedVisible();
         },
         [&](QThread& worker) {
           QVERIFY(!worker.wait(100));  // it waits, and this thread goes on
@@ -136,10 +136,10 @@ class TestWindowProjector : public QObject {
       xset(sleep);
       QElapsedTimer timer;
       timer.start();
-      if (shownBefore) stood = projector->hasStood();
+      if (shownBefore) stood = projector->stayedVisible();
       projector->show(noiseOf(6));
       dark.push_back(timer.elapsed());
-      awake = awake && power.state() == DisplayPower::State::awake && projector->hasStood();
+      awake = awake && power.state() == DisplayPower::State::awake && projector->stayedVisible();
     };
     QCOMPARE(onWorker([&] {
                showAfterSleep(false);

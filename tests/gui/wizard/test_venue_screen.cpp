@@ -90,7 +90,7 @@ class TestVenueScreen : public QObject {
     const ScreenChoice small = choiceOf(screen.choices(), "DUMMY2");
     QVERIFY2(small.refusal.contains("1024"), qPrintable(small.refusal));
     screen.choose(small);
-    QVERIFY(!screen.isAnother());
+    QVERIFY(!screen.isDifferentScreen());
   }
 
   void beforeAnythingIsMeasuredAnyScreenWillDo() {
@@ -98,7 +98,7 @@ class TestVenueScreen : public QObject {
     begin(false);
     VenueScreen screen(*session_);
     screen.choose(choiceOf(screen.choices(), "DUMMY2"));
-    QVERIFY(screen.isAnother());
+    QVERIFY(screen.isDifferentScreen());
     QVERIFY(screen.meaning().isEmpty());
     screen.apply();
     QCOMPARE(session_->screenRig()->projector, (Size{800, 600}));

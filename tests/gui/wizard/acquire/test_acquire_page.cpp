@@ -8,7 +8,7 @@
 
 #include "pipeline/measuring.h"
 #include "venue/venue.h"
-#include "wizard/acquire/retrying.h"
+#include "wizard/acquire/retrying_observer.h"
 
 using namespace relucent;
 
@@ -58,25 +58,25 @@ class TestAcquirePage : public QObject {
     AcquirePage page(*session_);
     page.setSecondsToLeave(60);
     page.primary()->trigger();
-    QVERIFY(page.isLeaving() && !page.isMeasuring());
+    QVERIFY(page.isCountingDown() && !page.isMeasuring());
     QVERIFY(session_->devicesUser() == AcquirePage::stepName);
     QVERIFY(page.status().state == StepState::busy && page.hint().contains("60"));
     // Not now: as if nothing had been pressed.
     QCOMPARE(page.secondary().size(), std::size_t{1});
     page.secondary().front()->trigger();
-    QVERIFY(!page.isLeaving() && !page.isMeasuring() && session_->areDevicesFree());
+    QVERIFY(!page.isCountingDown() && !page.isMeasuring() && session_->areDevicesFree());
     // And again, not waiting for the rest of it. The scripts do not exist: it fails, but it has begun.
     page.primary()->trigger();
-    QVERIFY(page.isLeaving());
+    QVERIFY(page.isCountingDown());
     QSignalSpy measured(&page, &AcquirePage::measured);
     page.primary()->trigger();
-    QVERIFY(!page.isLeaving());
+    QVERIFY(!page.isCountingDown());
     QTRY_COMPARE_WITH_TIMEOUT(measured.size(), 1, patience);
     // Going elsewhere calls it off.
     page.primary()->trigger();
-    QVERIFY(page.isLeaving());
+    QVERIFY(page.isCountingDown());
     session_->close();
-    QVERIFY(!page.isLeaving() && session_->areDevicesFree());
+    QVERIFY(!page.isCountingDown() && session_->areDevicesFree());
   }
 
   /// Law: each level has four times the blocks of the one before; patterns are planned, then known, then
@@ -100,7 +100,7 @@ class TestAcquirePage : public QObject {
     QVERIFY(!levels.empty() && levels.size() <= plan.size());
     double patterns = 0.0;
     for (const BlockLevel& level : levels) {
-      QVERIFY(level.isThrough());
+      QVERIFY(level.isComplete());
       patterns += level.through;
     }
     // References, checks and test patterns belong to no level.
@@ -145,8 +145,8 @@ class TestAcquirePage : public QObject {
     QFETCH(AlarmKind, kind);
     QFETCH(int, tries);
     AcquisitionObserver nobody;
-    auto asking = std::make_shared<Asking>();
-    Retrying retrying(nobody, asking, std::chrono::milliseconds(1));
+    auto question = std::make_shared<AlarmQuestion>();
+    RetryingObserver retrying(nobody, question, std::chrono::milliseconds(1));
     Reading wrong;
     wrong.alarm = kind;
     auto tried = [&] {
@@ -168,7 +168,7 @@ class TestAcquirePage : public QObject {
     // An alarm out of a log, of which nothing was told, is for somebody to decide.
     retrying.checked(Reading());
     QVERIFY(!retrying.triesAgain(kind));
-    asking->setClosed(true);
+    question->setClosed(true);
     QVERIFY(!tried());
   }
 

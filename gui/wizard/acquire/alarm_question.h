@@ -12,7 +12,7 @@
 namespace relucent {
 
 /// A question of the measuring thread to the user, and its answer.
-class Asking {
+class AlarmQuestion {
  public:
   Answer wait() {
     QMutexLocker lock(&guard_);

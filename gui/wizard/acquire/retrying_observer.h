@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sentinels/observer.h"
-#include "wizard/acquire/asking.h"
+#include "wizard/acquire/alarm_question.h"
 
 namespace relucent {
 
@@ -14,11 +14,11 @@ namespace relucent {
 /// stood open, somebody went through the light. Three times at one place, then somebody has to be asked; and
 /// only about what was photographed now: what is read from a log may have been put up with, and trying again
 /// would throw away all that followed. On the measuring thread.
-class Retrying : public AcquisitionObserver {
+class RetryingObserver : public AcquisitionObserver {
  public:
   /// `rest`: before each try.
-  Retrying(AcquisitionObserver& other, std::shared_ptr<Asking> asking, std::chrono::milliseconds rest)
-      : other_(other), asking_(std::move(asking)), rest_(rest) {}
+  RetryingObserver(AcquisitionObserver& other, std::shared_ptr<AlarmQuestion> question, std::chrono::milliseconds rest)
+      : other_(other), question_(std::move(question)), rest_(rest) {}
 
   void checked(const Reading& reading) override {
     isNew_ = reading.alarm.has_value();
@@ -37,12 +37,12 @@ class Retrying : public AcquisitionObserver {
       return false;
     }
     ++tries_;
-    return asking_->rest(rest_);
+    return question_->rest(rest_);
   }
 
  private:
   AcquisitionObserver& other_;
-  std::shared_ptr<Asking> asking_;
+  std::shared_ptr<AlarmQuestion> question_;
   std::chrono::milliseconds rest_;
   int tries_ = 0;
   bool isNew_ = false;  // the last check that was told had an alarm

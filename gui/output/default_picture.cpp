@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "output/own_picture.h"
+#include "output/default_picture.h"
 
 #include <QImage>
 
@@ -8,7 +8,7 @@
 
 namespace relucent {
 
-QString ownPicture() {
+QString defaultPicture() {
   return ":/pictures/demo.png";
 }
 

@@ -8,7 +8,7 @@
 namespace relucent {
 
 /// The product's own picture, a resource, where the user has chosen none.
-QString ownPicture();
+QString defaultPicture();
 /// A picture as linear content; a resource too. Throws: as readLinearContent().
 Image linearContentOf(const QString& file);
 

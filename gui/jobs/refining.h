@@ -24,7 +24,7 @@ class Refining {
   using Work = std::function<Result(Progress& progress, const Report& reportSoon)>;
   using Failed = std::function<void(const Failure&)>;
 
-  Refining(Report told, Failed failed) : report_(std::move(told)), failed_(std::move(failed)) {
+  Refining(Report report, Failed failed) : report_(std::move(report)), failed_(std::move(failed)) {
     QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] { finished(); });
   }
   /// Cancels the current request and waits for its end.

@@ -147,8 +147,9 @@ void Show::writeHealth(ShowState state) {
   state_ = state;
   Playlist::Status content = content_->status();
   const std::vector<Message>& skipped = content.skipped;
-  for (; toldSkipped_ < skipped.size(); ++toldSkipped_)
-    log_.warn(QString::fromStdString("skipped: " + englishSentence(skipped[toldSkipped_])));
+  for (; toldSkipped_ < std::ssize(skipped); ++toldSkipped_)
+    log_.warn(QString::fromStdString("skipped: " +
+                                     englishSentence(skipped[static_cast<std::size_t>(toldSkipped_)])));
 
   QJsonArray displays;
   for (const auto& window : windows_)

@@ -73,7 +73,7 @@ class TestStages : public QObject {
     const auto& camera = std::get<std::optional<CameraCheckResult>>(results);
     QCOMPARE(camera->exposures, (std::vector<double>{0.004, 0.016, 0.064}));
     QCOMPARE(camera->latencySeconds.value(), 0.05);
-    QCOMPARE(camera->verdicts, std::vector<std::string>{"The light is steady."});
+    QCOMPARE(camera->verdicts, std::vector<Message>{Message::plain("The light is steady.")});
     const auto& linearization = std::get<std::optional<LinearizationResult>>(results);
     QCOMPARE(linearization->projectors, std::size_t{1});
     QCOMPARE(linearization->cameras, std::size_t{1});

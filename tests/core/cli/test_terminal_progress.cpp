@@ -62,16 +62,16 @@ class TestTerminalProgress : public QObject {
   void workToComeIsSaidOnce() {
     FakeTerminal fake;
     TerminalProgress progress(fake.terminal());
-    progress.progressed(0.1, "acquisition");
+    progress.progressed(0.1, Message::plain("acquisition"));
     progress.expected({100, 50, 200, 200, 600.0, 0, 0});
     progress.expected({90, 50, 200, 200, 500.0, 0, 0});
     QCOMPARE(fake.text().count("About 100 patterns"), 1);
     QCOMPARE(fake.text().count("patterns to photograph"), 1);
     fake.now += 20.0;
-    progress.progressed(0.3, "level 2");
+    progress.progressed(0.3, Message::plain("level 2"));
     QVERIFY2(fake.text().contains("level 2, about 8 min left"), fake.text().constData());
     fake.now += 600.0;
-    progress.progressed(0.5, "level 3");
+    progress.progressed(0.5, Message::plain("level 3"));
     QVERIFY2(!fake.text().contains("level 3, about 8 min left"), fake.text().constData());
   }
 
@@ -81,7 +81,7 @@ class TestTerminalProgress : public QObject {
     TerminalProgress progress(fake.terminal());
     for (int i = 0; i < 1000; ++i) {  // two seconds
       fake.now = 100.0 + 0.002 * i;
-      progress.progressed(i / 1000.0, "acquisition");
+      progress.progressed(i / 1000.0, Message::plain("acquisition"));
     }
     qsizetype drawings = fake.text().count('\r');
     QVERIFY2(drawings >= 18 && drawings <= 21, QByteArray::number(drawings));
@@ -93,7 +93,7 @@ class TestTerminalProgress : public QObject {
     fake.width = 80;
     {
       TerminalProgress progress(fake.terminal());
-      progress.progressed(0.5, "acquisition");
+      progress.progressed(0.5, Message::plain("acquisition"));
     }
     QVERIFY(fake.text().endsWith("\r\x1b[K"));
   }
@@ -103,7 +103,7 @@ class TestTerminalProgress : public QObject {
     TerminalProgress progress(fake.terminal());
     for (int i = 0; i <= 1000; ++i) {
       fake.now += 0.01;
-      progress.progressed(i / 1000.0, i < 500 ? "linearization" : "acquisition");
+      progress.progressed(i / 1000.0, Message::plain(i < 500 ? "linearization" : "acquisition"));
     }
     QByteArray text = fake.text();
     QVERIFY2(!text.contains('\r') && !text.contains('\x1b'), text);

@@ -113,7 +113,7 @@ class TestSolver : public QObject {
     QTest::addColumn<int>("seed");
     for (Algorithm algorithm : {Algorithm::fista, Algorithm::barzilaiBorwein, Algorithm::steepestDescent})
       for (int seed = 1; seed <= 3; ++seed)
-        QTest::addRow("%s, seed %d", nameOf(algorithm).data(), seed) << static_cast<int>(algorithm) << seed;
+        QTest::addRow("%s, seed %d", std::string(nameOf(algorithm)).c_str(), seed) << static_cast<int>(algorithm) << seed;
   }
   SolverSettings exact(int algorithm) {
     SolverSettings settings;

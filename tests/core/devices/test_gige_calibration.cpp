@@ -120,7 +120,7 @@ class TestGigeCalibration : public QObject {
 
   EvaluateResult quality(const fs::path& calibration) const {
     EvaluateSettings settings;
-    settings.methods = {"none", "mix", "windows"};
+    settings.methods = {Method::none, Method::mix, Method::windows};
     Progress silent;
     return evaluate(calibration, settings, cache(), silent);
   }
@@ -178,7 +178,7 @@ class TestGigeCalibration : public QObject {
         const MethodScore& b = served.images[image].methods[method];
         QCOMPARE(a.method, b.method);
         qInfo("%s, %s: %.2f dB directly, %.2f dB through sockets", direct.images[image].name.c_str(),
-              a.method.c_str(), a.psnrReachable, b.psnrReachable);
+              std::string(nameOf(a.method)).c_str(), a.psnrReachable, b.psnrReachable);
         QVERIFY(std::abs(a.psnrReachable - b.psnrReachable) < 0.3);  // less than anybody could see
       }
   }

@@ -42,7 +42,7 @@ class TestJson : public QObject {
 
   void verifyDocument() {
     VerifyResult result;
-    result.judgement = {Verdict::remeasure, "why"};
+    result.judgement = {Verdict::remeasure, Message::plain("why")};
     result.found.error = 0.25;
     result.found.errorOf = {0.5, 0.25, 0.125, 0.0};
     result.found.adapted = 0.125;
@@ -95,7 +95,7 @@ class TestJson : public QObject {
   void engineBenchDocument() {
     BenchResult result{{"a processor", 2, 1e10, "CPU"},
                        {{"CPU: M", 0.01, 1e8, 0.5, 0.008, {{"Eigen CSR", 4.0}, {"SciPy CSR", 5.0}}}},
-                       {"something was not timed"}};
+                       {Message::plain("something was not timed")}};
     Json document = toJson(result);
     QCOMPARE(document["benchmarks"][0]["best"].get<double>(), 0.008);
     QCOMPARE(document["benchmarks"][0]["times_as_fast_as"].dump(),

@@ -41,8 +41,16 @@ ReportData fullData() {
   data.measured = "2026-01-02T03:04:05Z";
   data.projector = {256, 192};
   data.camera = {160, 120};
-  data.result = {805,  1551,       {41.0, 655.5, 4.25},           30123456, 2345678, 0.012, 0.004,
-                 0.03, 3210000000, {"White is <18 %> too bright"}};
+  data.result = {805,
+                 1551,
+                 {41.0, 655.5, 4.25},
+                 30123456,
+                 2345678,
+                 0.012,
+                 0.004,
+                 0.03,
+                 3210000000,
+                 {Message::plain("White is <18 %> too bright")}};
   std::vector<double> x, y;
   for (int i = 0; i <= 32; ++i) {
     x.push_back(i / 32.0);

@@ -135,7 +135,7 @@ class TestVenueScreen : public QObject {
   void nothingIsChangedWhileSomethingUsesIt() {
     begin(true);
     VenuePage page(*session_, RecentVenues(*settings_));
-    DeviceLease lease = session_->leaseDevices(AcquirePage::stepName);
+    DeviceLease lease = session_->leaseDevices(OutputPage::stepName);
     QVERIFY(page.secondary().empty());
     unplug();
     QVERIFY(!page.banner());

@@ -104,7 +104,7 @@ class TestAcquirePage : public QObject {
       patterns += level.through;
     }
     // References, checks and test patterns belong to no level.
-    QVERIFY(patterns > 0.0 && patterns < page.figure("patterns").value());
+    QVERIFY(patterns > 0.0 && patterns < page.cost().value().patterns);
     QVERIFY(page.floodlightNumber() > 0);
     QCOMPARE(page.floodlight().size(), (Size{40, 30}));
   }

@@ -40,11 +40,4 @@ Error Error::within(std::string_view context) const {
   return Error(kind_, what_, advice_, joined);
 }
 
-namespace detail {
-void failRequire(const std::source_location& location, const std::string& message) {
-  throw std::logic_error(
-      fmt::format("{}:{}: {}: {}", location.file_name(), location.line(), location.function_name(), message));
-}
-}  // namespace detail
-
 }  // namespace relucent

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
+#include "base/require.h"
 
 namespace relucent {
 namespace {

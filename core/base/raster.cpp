@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/raster.h"
 
-#include "base/error.h"
+#include "base/require.h"
 
 namespace relucent {
 

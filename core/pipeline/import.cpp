@@ -198,7 +198,7 @@ Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stag
   if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
   if (pictures.developed)
     import.linearization.findings.emplace_back(RELUCENT_MESSAGE(
-        "calibration.photographs-jpeg-they-made-linear",
+        "import.photographs-are-jpeg",
         "The photographs are JPEG: they were made linear by the curve of sRGB, which cameras follow only "
         "roughly; develop them linearly, as TIFF or EXR, to measure more exactly"));
   return import;

@@ -68,5 +68,5 @@ class TestPreferences : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestPreferences)
+QTEST_MAIN(TestPreferences)
 #include "test_preferences.moc"

@@ -258,5 +258,5 @@ class TestSeveralDevices : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSeveralDevices)
+QTEST_MAIN(TestSeveralDevices)
 #include "test_several_devices.moc"

@@ -227,5 +227,5 @@ class TestWizard : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestWizard)
+QTEST_MAIN(TestWizard)
 #include "test_wizard.moc"

@@ -177,5 +177,5 @@ class TestAcquirePage : public QObject {
   std::unique_ptr<Session> session_;
 };
 
-QTEST_GUILESS_MAIN(TestAcquirePage)
+QTEST_MAIN(TestAcquirePage)
 #include "test_acquire_page.moc"

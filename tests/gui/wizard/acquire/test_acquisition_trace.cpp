@@ -242,5 +242,5 @@ class TestAcquisitionTrace : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestAcquisitionTrace)
+QTEST_MAIN(TestAcquisitionTrace)
 #include "test_acquisition_trace.moc"

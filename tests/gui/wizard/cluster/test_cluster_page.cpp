@@ -148,5 +148,5 @@ class TestClusterPage : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestClusterPage)
+QTEST_MAIN(TestClusterPage)
 #include "test_cluster_page.moc"

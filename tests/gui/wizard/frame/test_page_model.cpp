@@ -113,5 +113,5 @@ class TestPageModel : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestPageModel)
+QTEST_MAIN(TestPageModel)
 #include "test_page_model.moc"

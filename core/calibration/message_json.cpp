@@ -62,6 +62,10 @@ std::optional<Message> messageFrom(const Json& json) {
 }  // namespace
 
 void to_json(Json& json, const Message& message) {
+  if (message.id().empty()) {
+    json = english(message);
+    return;
+  }
   Json arguments = Json::array();
   for (const Argument& argument : message.arguments())
     arguments.push_back(std::visit(ToJson(), argument.value()));
@@ -73,7 +77,7 @@ void to_json(Json& json, const Message& message) {
 
 void from_json(const Json& json, Message& message) {
   if (json.is_string())
-    message = Message::plain(json.get<std::string>());
+    message = json.get<std::string>().empty() ? Message() : Message::plain(json.get<std::string>());
   else
     message = messageFrom(json).value_or(Message::plain(json.at("english").get<std::string>()));
 }

@@ -47,7 +47,7 @@ std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
 /// Pages know no widgets and go on with what they do; the window round them is made anew in its place.
 void WizardWindow::rebuildForLanguage() {
   language_.choose(languageCode_);
-  for (const std::unique_ptr<PageModel>& page : pages_) page->retranslate();
+  for (const std::unique_ptr<PageModel>& page : pages_) page->refresh();
   std::unique_ptr<MainWindow> before = std::exchange(window_, makeWindow());
   window_->setGeometry(before->geometry());
   if (before->isVisible()) {

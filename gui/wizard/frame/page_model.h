@@ -73,8 +73,8 @@ class PageModel : public QObject {
   virtual void finish() {}
   /// What the user changed on this page. Emptied when another calibration is opened.
   QUndoStack& undoStack() { return undo_; }
-  /// The language is another one.
-  void retranslate() { tellStatus(); }
+  /// Looks again at what no signal tells: the language, the free space of a disk, a folder.
+  void refresh() { tellStatus(); }
 
  Q_SIGNALS:
   /// Title, status, hint, commands or banner: what the frame shows.

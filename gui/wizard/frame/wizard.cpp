@@ -33,7 +33,7 @@ bool Wizard::go(std::size_t index) {
     Q_EMIT moved();
   }
   currentPage().enter();
-  Q_EMIT statusChanged();
+  currentPage().refresh();
   return true;
 }
 

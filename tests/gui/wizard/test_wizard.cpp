@@ -23,8 +23,9 @@ class ScriptedPage : public PageModel {
   Command* primary() const override { return nullptr; }
   void enter() override { ++entered; }
   void leave() override { ++left; }
+  void updateCommands() override { ++updated; }
   StepState state = StepState::open;
-  int entered = 0, left = 0;
+  int entered = 0, left = 0, updated = 0;
 };
 
 }  // namespace
@@ -56,6 +57,8 @@ class TestWizard : public QObject {
     QVERIFY(wizard.go(2));
     QCOMPARE(pages[0].left, 1);
     QCOMPARE(pages[2].entered, 1);
+    QVERIFY(pages[2].updated > 0);  // what no signal told meanwhile
+    QCOMPARE(pages[1].updated, 0);
     pages[1].state = StepState::failed;
     QVERIFY(wizard.isLocked(2));
     wizard.back();

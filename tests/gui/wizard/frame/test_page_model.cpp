@@ -107,7 +107,7 @@ class TestPageModel : public QObject {
     ScriptedPage page;
     const Told told(page);
     page.text = "Los";
-    page.retranslate();
+    page.refresh();
     QCOMPARE(page.primary()->text(), QString("Los"));
     QCOMPARE(told.status.size(), 1);
   }

@@ -201,12 +201,12 @@ std::unique_ptr<ScreenProjector> Session::openScreen(const ScreenRigSettings& se
                                            });
 }
 
-void Session::changeRig(const RigSettings& rig) {
+void Session::changeDevices(const std::function<void(CalibrationFolder&)>& write) {
   devices_ = nullptr;  // nobody else is let to a camera that is held
   {
     CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
     try {
-      relucent::changeRig(folder, rig);
+      write(folder);
     } catch (...) {
       makeDevices();
       throw;
@@ -217,20 +217,12 @@ void Session::changeRig(const RigSettings& rig) {
   Q_EMIT stepsChanged();
 }
 
+void Session::changeRig(const RigSettings& rig) {
+  changeDevices([&](CalibrationFolder& folder) { relucent::changeRig(folder, rig); });
+}
+
 void Session::changeScreen(const ScreenRigSettings& screen) {
-  devices_ = nullptr;
-  {
-    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
-    try {
-      relucent::changeScreen(folder, screen);
-    } catch (...) {
-      makeDevices();
-      throw;
-    }
-    look(folder);
-  }
-  makeDevices();
-  Q_EMIT stepsChanged();
+  changeDevices([&](CalibrationFolder& folder) { relucent::changeScreen(folder, screen); });
 }
 
 void Session::close() {

@@ -203,6 +203,8 @@ class Session : public QObject {
   void look(const CalibrationFolder& folder);
   /// Writes into the calibration and looks at it again.
   void change(const std::function<void(CalibrationFolder&)>& write);
+  /// The same with the devices closed meanwhile and opened anew.
+  void changeDevices(const std::function<void(CalibrationFolder&)>& write);
   void adopt(const CalibrationFolder& folder);
   void slowDown();
   void makeDevices();

@@ -1984,7 +1984,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquirePage</name>
+    <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
         <translation>متوقف مؤقتًا، %1</translation>
@@ -2449,7 +2449,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquisitionTrace</name>
+    <name>relucent::gui::AcquisitionTrace</name>
     <message>
         <source>the light flickered</source>
         <translation>ارتعش الضوء</translation>
@@ -2588,7 +2588,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ActionBar</name>
+    <name>relucent::gui::ActionBar</name>
     <message>
         <source>Progress of the measurement</source>
         <translation>تقدّم القياس</translation>
@@ -2599,7 +2599,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CameraPage</name>
+    <name>relucent::gui::CameraPage</name>
     <message>
         <source>Cannot be used: %1</source>
         <translation>لا يمكن استخدامها: ⁨%1⁩</translation>
@@ -2825,7 +2825,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ClusterPage</name>
+    <name>relucent::gui::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>كل ما تم قياسه آمن.</translation>
@@ -3051,7 +3051,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CornerView</name>
+    <name>relucent::gui::CornerView</name>
     <message>
         <source>Top left corner, %1, %2.</source>
         <translation>الزاوية العليا اليسرى، %1، %2.</translation>
@@ -3070,7 +3070,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::DeviceSelector</name>
+    <name>relucent::gui::DeviceSelector</name>
     <message>
         <source>Projector that is shown</source>
         <translation>جهاز العرض المعروض</translation>
@@ -3089,7 +3089,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FailureDialog</name>
+    <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
         <translation>توقف أحد الأجهزة عن الاستجابة</translation>
@@ -3136,7 +3136,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FlashConsent</name>
+    <name>relucent::gui::FlashConsent</name>
     <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>يعرض جهاز العرض أنماطًا تتغيّر بأسرع ما تستطيعه الأجهزة، وربما أكثر من 3 مرات في الثانية.</translation>
@@ -3170,7 +3170,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::HelpWindow</name>
+    <name>relucent::gui::HelpWindow</name>
     <message>
         <source>Help</source>
         <translation>مساعدة</translation>
@@ -3193,7 +3193,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::IdentifyOverlay</name>
+    <name>relucent::gui::IdentifyOverlay</name>
     <message>
         <source>%1, %2 × %3, %4 Hz</source>
         <translation>⁨%1⁩، ⁨%2 × %3⁩، ⁨%4 Hz⁩</translation>
@@ -3208,7 +3208,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::LinearizePage</name>
+    <name>relucent::gui::LinearizePage</name>
     <message>
         <source>The photographs of this step are still in the folder.</source>
         <translation>لقطات هذه الخطوة ما زالت في المجلد.</translation>
@@ -3461,7 +3461,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MainWindow</name>
+    <name>relucent::gui::MainWindow</name>
     <message>
         <source>Dim pictures</source>
         <translation>تعتيم الصور</translation>
@@ -3484,7 +3484,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MatrixView</name>
+    <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
 projector %2</source>
@@ -3523,7 +3523,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPage</name>
+    <name>relucent::gui::OutputPage</name>
     <message>
         <source>Projector&apos;s screen</source>
         <translation>شاشة جهاز العرض</translation>
@@ -3945,14 +3945,14 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPlaylist</name>
+    <name>relucent::gui::OutputPlaylist</name>
     <message>
         <source>Demonstration picture</source>
         <translation>صورة توضيحية</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputProjection</name>
+    <name>relucent::gui::OutputProjection</name>
     <message>
         <source>Open the output again.</source>
         <translation>افتح الخرج مجددًا.</translation>
@@ -3967,7 +3967,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::PlaneView</name>
+    <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
         <translation>%1 بكسل</translation>
@@ -3978,7 +3978,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::PreviewPage</name>
+    <name>relucent::gui::PreviewPage</name>
     <message>
         <source>Demonstration picture</source>
         <translation>صورة توضيحية</translation>
@@ -4261,7 +4261,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::SettingsDialog</name>
+    <name>relucent::gui::SettingsDialog</name>
     <message>
         <source>Settings</source>
         <translation>الإعدادات</translation>
@@ -4347,14 +4347,14 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::Show</name>
+    <name>relucent::gui::Show</name>
     <message>
         <source>A show is playing.</source>
         <translation>هناك عرض قيد التشغيل.</translation>
     </message>
 </context>
 <context>
-    <name>relucent::StatusStrip</name>
+    <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
         <translation>جهاز العرض</translation>
@@ -4409,7 +4409,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::StepRail</name>
+    <name>relucent::gui::StepRail</name>
     <message>
         <source>locked</source>
         <translation>مقفلة</translation>
@@ -4448,7 +4448,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::ThresholdPage</name>
+    <name>relucent::gui::ThresholdPage</name>
     <message>
         <source>%1 of light kept</source>
         <translation>بقي %1 من الضوء</translation>
@@ -4650,7 +4650,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::VenuePage</name>
+    <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
         <translation>غير موصولة. صِلها أو اختر غيرها.</translation>
@@ -5123,7 +5123,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::VtkView</name>
+    <name>relucent::gui::VtkView</name>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>يحتاج هذا المشهد إلى OpenGL 3.2، وهذا الحاسوب يرسم من دونه. كل ما عداه يعمل: تُعرض الصور والخرائط بلا عمق.</translation>

@@ -1972,7 +1972,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquirePage</name>
+    <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
         <translation>Pausiert, %1</translation>
@@ -2397,7 +2397,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquisitionTrace</name>
+    <name>relucent::gui::AcquisitionTrace</name>
     <message>
         <source>the light flickered</source>
         <translation>das Licht flackerte</translation>
@@ -2536,7 +2536,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ActionBar</name>
+    <name>relucent::gui::ActionBar</name>
     <message>
         <source>Progress of the measurement</source>
         <translation>Fortschritt der Messung</translation>
@@ -2547,7 +2547,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CameraPage</name>
+    <name>relucent::gui::CameraPage</name>
     <message>
         <source>Cannot be used: %1</source>
         <translation>Nicht nutzbar: %1</translation>
@@ -2769,7 +2769,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ClusterPage</name>
+    <name>relucent::gui::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>Das Gemessene ist sicher.</translation>
@@ -2975,7 +2975,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CornerView</name>
+    <name>relucent::gui::CornerView</name>
     <message>
         <source>Top left corner, %1, %2.</source>
         <translation>Ecke oben links, %1, %2.</translation>
@@ -2994,7 +2994,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::DeviceSelector</name>
+    <name>relucent::gui::DeviceSelector</name>
     <message>
         <source>Projector that is shown</source>
         <translation>Gezeigter Projektor</translation>
@@ -3013,7 +3013,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FailureDialog</name>
+    <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
         <translation>Ein Gerät antwortet nicht mehr</translation>
@@ -3060,7 +3060,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FlashConsent</name>
+    <name>relucent::gui::FlashConsent</name>
     <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>Der Projektor zeigt Muster, die so schnell wechseln, wie die Geräte es können, vielleicht öfter als 3-mal je Sekunde.</translation>
@@ -3090,7 +3090,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::HelpWindow</name>
+    <name>relucent::gui::HelpWindow</name>
     <message>
         <source>Help</source>
         <translation>Hilfe</translation>
@@ -3113,7 +3113,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::IdentifyOverlay</name>
+    <name>relucent::gui::IdentifyOverlay</name>
     <message>
         <source>%1, %2 × %3, %4 Hz</source>
         <translation>%1, %2 × %3, %4 Hz</translation>
@@ -3128,7 +3128,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::LinearizePage</name>
+    <name>relucent::gui::LinearizePage</name>
     <message>
         <source>The photographs of this step are still in the folder.</source>
         <translation>Die Fotos dieses Schritts liegen noch im Ordner.</translation>
@@ -3373,7 +3373,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MainWindow</name>
+    <name>relucent::gui::MainWindow</name>
     <message>
         <source>Dim pictures</source>
         <translation>Bilder dimmen</translation>
@@ -3396,7 +3396,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MatrixView</name>
+    <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
 projector %2</source>
@@ -3435,7 +3435,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPage</name>
+    <name>relucent::gui::OutputPage</name>
     <message>
         <source>Projector&apos;s screen</source>
         <translation>Bildschirm des Projektors</translation>
@@ -3853,14 +3853,14 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPlaylist</name>
+    <name>relucent::gui::OutputPlaylist</name>
     <message>
         <source>Demonstration picture</source>
         <translation>Demobild</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputProjection</name>
+    <name>relucent::gui::OutputProjection</name>
     <message>
         <source>Open the output again.</source>
         <translation>Öffnen Sie die Ausgabe noch einmal.</translation>
@@ -3875,7 +3875,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::PlaneView</name>
+    <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
@@ -3886,7 +3886,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::PreviewPage</name>
+    <name>relucent::gui::PreviewPage</name>
     <message>
         <source>Demonstration picture</source>
         <translation>Demobild</translation>
@@ -4169,7 +4169,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::SettingsDialog</name>
+    <name>relucent::gui::SettingsDialog</name>
     <message>
         <source>Settings</source>
         <translation>Optionen</translation>
@@ -4251,14 +4251,14 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::Show</name>
+    <name>relucent::gui::Show</name>
     <message>
         <source>A show is playing.</source>
         <translation>Eine Show läuft.</translation>
     </message>
 </context>
 <context>
-    <name>relucent::StatusStrip</name>
+    <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
         <translation>Projektor</translation>
@@ -4313,7 +4313,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::StepRail</name>
+    <name>relucent::gui::StepRail</name>
     <message>
         <source>locked</source>
         <translation>gesperrt</translation>
@@ -4352,7 +4352,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::ThresholdPage</name>
+    <name>relucent::gui::ThresholdPage</name>
     <message>
         <source>%1 of light kept</source>
         <translation>%1 Licht behalten</translation>
@@ -4550,7 +4550,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::VenuePage</name>
+    <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
         <translation>Getrennt. Schließen Sie ihn an oder wählen Sie einen anderen.</translation>
@@ -5015,7 +5015,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::VtkView</name>
+    <name>relucent::gui::VtkView</name>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>Diese Ansicht braucht OpenGL 3.2, und dieser Computer zeichnet ohne. Alles andere funktioniert: Bilder und Karten werden ohne Tiefe gezeigt.</translation>

@@ -34,7 +34,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquirePage</name>
+    <name>relucent::gui::AcquirePage</name>
     <message numerus="yes">
         <source>%n pattern(s), %1</source>
         <translation>
@@ -107,7 +107,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CameraPage</name>
+    <name>relucent::gui::CameraPage</name>
     <message numerus="yes">
         <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
         <translation>
@@ -117,7 +117,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ClusterPage</name>
+    <name>relucent::gui::ClusterPage</name>
     <message numerus="yes">
         <source>%n cluster(s)</source>
         <translation>
@@ -155,7 +155,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FlashConsent</name>
+    <name>relucent::gui::FlashConsent</name>
     <message numerus="yes">
         <source>The projector shows patterns that change about %n time(s) a second.</source>
         <translation>
@@ -165,7 +165,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::LinearizePage</name>
+    <name>relucent::gui::LinearizePage</name>
     <message numerus="yes">
         <source>%n level(s) a colour, random order, drift removed</source>
         <translation>
@@ -182,7 +182,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::OutputPage</name>
+    <name>relucent::gui::OutputPage</name>
     <message numerus="yes">
         <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>
         <translation>
@@ -192,7 +192,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::SettingsDialog</name>
+    <name>relucent::gui::SettingsDialog</name>
     <message numerus="yes">
         <source>At most %n change(s) a second</source>
         <translation>
@@ -202,7 +202,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ThresholdPage</name>
+    <name>relucent::gui::ThresholdPage</name>
     <message numerus="yes">
         <source>%n pixel(s)</source>
         <translation>
@@ -212,7 +212,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::VenuePage</name>
+    <name>relucent::gui::VenuePage</name>
     <message numerus="yes">
         <source>About %n pattern(s), %1</source>
         <translation>

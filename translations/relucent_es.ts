@@ -1972,7 +1972,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquirePage</name>
+    <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
         <translation>En pausa, %1</translation>
@@ -2397,7 +2397,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquisitionTrace</name>
+    <name>relucent::gui::AcquisitionTrace</name>
     <message>
         <source>the light flickered</source>
         <translation>la luz parpadeó</translation>
@@ -2536,7 +2536,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ActionBar</name>
+    <name>relucent::gui::ActionBar</name>
     <message>
         <source>Progress of the measurement</source>
         <translation>Progreso de la medición</translation>
@@ -2547,7 +2547,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CameraPage</name>
+    <name>relucent::gui::CameraPage</name>
     <message>
         <source>Cannot be used: %1</source>
         <translation>No se puede usar: %1</translation>
@@ -2769,7 +2769,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ClusterPage</name>
+    <name>relucent::gui::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>Lo medido está a salvo.</translation>
@@ -2975,7 +2975,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CornerView</name>
+    <name>relucent::gui::CornerView</name>
     <message>
         <source>Top left corner, %1, %2.</source>
         <translation>Esquina superior izquierda, %1, %2.</translation>
@@ -2994,7 +2994,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::DeviceSelector</name>
+    <name>relucent::gui::DeviceSelector</name>
     <message>
         <source>Projector that is shown</source>
         <translation>Proyector mostrado</translation>
@@ -3013,7 +3013,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FailureDialog</name>
+    <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
         <translation>Un dispositivo ha dejado de responder</translation>
@@ -3060,7 +3060,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FlashConsent</name>
+    <name>relucent::gui::FlashConsent</name>
     <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>El proyector muestra patrones que cambian tan rápido como permiten los dispositivos, quizá más de 3 veces por segundo.</translation>
@@ -3090,7 +3090,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::HelpWindow</name>
+    <name>relucent::gui::HelpWindow</name>
     <message>
         <source>Help</source>
         <translation>Ayuda</translation>
@@ -3113,7 +3113,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::IdentifyOverlay</name>
+    <name>relucent::gui::IdentifyOverlay</name>
     <message>
         <source>%1, %2 × %3, %4 Hz</source>
         <translation>%1, %2 × %3, %4 Hz</translation>
@@ -3128,7 +3128,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::LinearizePage</name>
+    <name>relucent::gui::LinearizePage</name>
     <message>
         <source>The photographs of this step are still in the folder.</source>
         <translation>Las fotografías de este paso siguen en la carpeta.</translation>
@@ -3373,7 +3373,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MainWindow</name>
+    <name>relucent::gui::MainWindow</name>
     <message>
         <source>Dim pictures</source>
         <translation>Atenuar imágenes</translation>
@@ -3396,7 +3396,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MatrixView</name>
+    <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
 projector %2</source>
@@ -3435,7 +3435,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPage</name>
+    <name>relucent::gui::OutputPage</name>
     <message>
         <source>Projector&apos;s screen</source>
         <translation>Pantalla del proyector</translation>
@@ -3853,14 +3853,14 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPlaylist</name>
+    <name>relucent::gui::OutputPlaylist</name>
     <message>
         <source>Demonstration picture</source>
         <translation>Imagen de demostración</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputProjection</name>
+    <name>relucent::gui::OutputProjection</name>
     <message>
         <source>Open the output again.</source>
         <translation>Abra la salida de nuevo.</translation>
@@ -3875,7 +3875,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::PlaneView</name>
+    <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
@@ -3886,7 +3886,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::PreviewPage</name>
+    <name>relucent::gui::PreviewPage</name>
     <message>
         <source>Demonstration picture</source>
         <translation>Imagen de demostración</translation>
@@ -4169,7 +4169,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::SettingsDialog</name>
+    <name>relucent::gui::SettingsDialog</name>
     <message>
         <source>Settings</source>
         <translation>Ajustes</translation>
@@ -4251,14 +4251,14 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::Show</name>
+    <name>relucent::gui::Show</name>
     <message>
         <source>A show is playing.</source>
         <translation>Hay un show en reproducción.</translation>
     </message>
 </context>
 <context>
-    <name>relucent::StatusStrip</name>
+    <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
         <translation>Proyector</translation>
@@ -4313,7 +4313,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::StepRail</name>
+    <name>relucent::gui::StepRail</name>
     <message>
         <source>locked</source>
         <translation>bloqueado</translation>
@@ -4352,7 +4352,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::ThresholdPage</name>
+    <name>relucent::gui::ThresholdPage</name>
     <message>
         <source>%1 of light kept</source>
         <translation>%1 de luz conservada</translation>
@@ -4550,7 +4550,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::VenuePage</name>
+    <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
         <translation>Desconectada. Conéctela o elija otra.</translation>
@@ -5015,7 +5015,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>relucent::VtkView</name>
+    <name>relucent::gui::VtkView</name>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>Esta vista necesita OpenGL 3.2 y este equipo dibuja sin él. Todo lo demás funciona: imágenes y mapas se muestran sin profundidad.</translation>

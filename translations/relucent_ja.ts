@@ -1969,7 +1969,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquirePage</name>
+    <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
         <translation>一時停止中、%1</translation>
@@ -2384,7 +2384,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::AcquisitionTrace</name>
+    <name>relucent::gui::AcquisitionTrace</name>
     <message>
         <source>the light flickered</source>
         <translation>光がちらつきました</translation>
@@ -2523,7 +2523,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ActionBar</name>
+    <name>relucent::gui::ActionBar</name>
     <message>
         <source>Progress of the measurement</source>
         <translation>測定の進行状況</translation>
@@ -2534,7 +2534,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CameraPage</name>
+    <name>relucent::gui::CameraPage</name>
     <message>
         <source>Cannot be used: %1</source>
         <translation>使用できません：%1</translation>
@@ -2755,7 +2755,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::ClusterPage</name>
+    <name>relucent::gui::ClusterPage</name>
     <message>
         <source>What is measured is safe.</source>
         <translation>測定済みのデータは無事です。</translation>
@@ -2956,7 +2956,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::CornerView</name>
+    <name>relucent::gui::CornerView</name>
     <message>
         <source>Top left corner, %1, %2.</source>
         <translation>左上の角、%1, %2。</translation>
@@ -2975,7 +2975,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::DeviceSelector</name>
+    <name>relucent::gui::DeviceSelector</name>
     <message>
         <source>Projector that is shown</source>
         <translation>表示中のプロジェクター</translation>
@@ -2994,7 +2994,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FailureDialog</name>
+    <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
         <translation>機器が応答しなくなりました</translation>
@@ -3041,7 +3041,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::FlashConsent</name>
+    <name>relucent::gui::FlashConsent</name>
     <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
         <translation>プロジェクターが、機器の最高速で切り替わるパターンを表示します。毎秒 3 回を超えることがあります。</translation>
@@ -3070,7 +3070,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::HelpWindow</name>
+    <name>relucent::gui::HelpWindow</name>
     <message>
         <source>Help</source>
         <translation>ヘルプ</translation>
@@ -3093,7 +3093,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::IdentifyOverlay</name>
+    <name>relucent::gui::IdentifyOverlay</name>
     <message>
         <source>%1, %2 × %3, %4 Hz</source>
         <translation>%1、%2 × %3、%4 Hz</translation>
@@ -3108,7 +3108,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::LinearizePage</name>
+    <name>relucent::gui::LinearizePage</name>
     <message>
         <source>The photographs of this step are still in the folder.</source>
         <translation>このステップの写真はフォルダーに残っています。</translation>
@@ -3351,7 +3351,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MainWindow</name>
+    <name>relucent::gui::MainWindow</name>
     <message>
         <source>Dim pictures</source>
         <translation>画像を減光</translation>
@@ -3374,7 +3374,7 @@
     </message>
 </context>
 <context>
-    <name>relucent::MatrixView</name>
+    <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
 projector %2</source>
@@ -3413,7 +3413,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPage</name>
+    <name>relucent::gui::OutputPage</name>
     <message>
         <source>Projector&apos;s screen</source>
         <translation>プロジェクターの画面</translation>
@@ -3830,14 +3830,14 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::OutputPlaylist</name>
+    <name>relucent::gui::OutputPlaylist</name>
     <message>
         <source>Demonstration picture</source>
         <translation>デモ画像</translation>
     </message>
 </context>
 <context>
-    <name>relucent::OutputProjection</name>
+    <name>relucent::gui::OutputProjection</name>
     <message>
         <source>Open the output again.</source>
         <translation>出力をもう一度開いてください。</translation>
@@ -3852,7 +3852,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::PlaneView</name>
+    <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
@@ -3863,7 +3863,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::PreviewPage</name>
+    <name>relucent::gui::PreviewPage</name>
     <message>
         <source>Demonstration picture</source>
         <translation>デモ画像</translation>
@@ -4146,7 +4146,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::SettingsDialog</name>
+    <name>relucent::gui::SettingsDialog</name>
     <message>
         <source>Settings</source>
         <translation>設定</translation>
@@ -4227,14 +4227,14 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::Show</name>
+    <name>relucent::gui::Show</name>
     <message>
         <source>A show is playing.</source>
         <translation>ショーを再生中です。</translation>
     </message>
 </context>
 <context>
-    <name>relucent::StatusStrip</name>
+    <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
         <translation>プロジェクター</translation>
@@ -4289,7 +4289,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::StepRail</name>
+    <name>relucent::gui::StepRail</name>
     <message>
         <source>locked</source>
         <translation>ロック中</translation>
@@ -4328,7 +4328,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::ThresholdPage</name>
+    <name>relucent::gui::ThresholdPage</name>
     <message>
         <source>%1 of light kept</source>
         <translation>光の %1 を保持</translation>
@@ -4525,7 +4525,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::VenuePage</name>
+    <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
         <translation>接続が外れています。接続するか、別の画面を選んでください。</translation>
@@ -4988,7 +4988,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>relucent::VtkView</name>
+    <name>relucent::gui::VtkView</name>
     <message>
         <source>This view needs OpenGL 3.2, and this computer draws without it. Everything else works: pictures and maps are shown without depth.</source>
         <translation>この表示には OpenGL 3.2 が必要ですが、このコンピューターでは利用できません。ほかはすべて動作し、画像とマップは奥行きなしで表示されます。</translation>

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/acquisition.h"
+#include "relucent/acquisition/acquisition.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "acquisition/forecast.h"
-#include "acquisition/growth.h"
-#include "acquisition/repair.h"
-#include "base/error.h"
+#include "relucent/acquisition/forecast.h"
+#include "relucent/acquisition/growth.h"
+#include "relucent/acquisition/repair.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 // Shares of the time: the tree takes nearly all of it.
@@ -29,15 +29,15 @@ double shareOf(const std::vector<std::uint8_t>& flags) {
 }
 
 /// The images under full red, green and blue, or their variances, of all projectors summed.
-Stack summed(const std::vector<std::vector<ColourBlock>>& roots, std::size_t rows) {
+Stack summed(const std::vector<std::vector<transport::ColourBlock>>& roots, std::size_t rows) {
   Stack sum(3 * rows, 0.0f);
-  for (const std::vector<ColourBlock>& root : roots)
+  for (const std::vector<transport::ColourBlock>& root : roots)
     for (std::size_t row = 0; row < rows; ++row)
       Eigen::Map<Eigen::Vector3f>(&sum[3 * row]) += root[row].rowwise().sum();
   return sum;
 }
 
-double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
+double unresolvedEnergy(const transport::TransportMatrix& transport, const Stack& flood) {
   Stack explained = transport.floodlight();
   double all = 0.0, missing = 0.0;
   for (std::size_t i = 0; i < flood.size(); ++i) {
@@ -49,7 +49,7 @@ double unresolvedEnergy(const TransportMatrix& transport, const Stack& flood) {
 
 /// What the user should know of a measurement.
 std::vector<Message> findingsOf(double drift, double unusable, double flagged,
-                                const Supervision& supervision) {
+                                const sentinels::Supervision& supervision) {
   std::vector<Message> findings;
   if (std::abs(drift) > driftLimit)
     findings.push_back(
@@ -77,29 +77,29 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
 }
 
 /// Tells of the tree's progress, and from every level on what there is still to do.
-class TreeObserver : public AcquisitionObserver {
+class TreeObserver : public sentinels::AcquisitionObserver {
  public:
   using LevelBegins = std::function<void(const std::vector<int>& levels)>;
 
-  TreeObserver(AcquisitionObserver& other, LevelBegins levelBegins)
+  TreeObserver(sentinels::AcquisitionObserver& other, LevelBegins levelBegins)
       : other_(other), levelBegins_(std::move(levelBegins)) {}
 
-  void checked(const Reading& reading) override { other_.checked(reading); }
-  void takenAgain(const Retake& retake) override { other_.takenAgain(retake); }
+  void checked(const sentinels::Reading& reading) override { other_.checked(reading); }
+  void takenAgain(const sentinels::Retake& retake) override { other_.takenAgain(retake); }
   void grew(const std::vector<int>& levels, int through) override {
     if (through == 0) levelBegins_(levels);
     other_.grew(levels, through);
   }
 
  private:
-  AcquisitionObserver& other_;
+  sentinels::AcquisitionObserver& other_;
   LevelBegins levelBegins_;
 };
 
 /// The parts of a measurement, in order, on shots that may be gone back over.
 class Measurement {
  public:
-  Measurement(const AcquisitionRun& run, Supervision& supervision)
+  Measurement(const AcquisitionRun& run, sentinels::Supervision& supervision)
       : run_(run),
         supervision_(supervision),
         shotsBefore_(run.shots.shots()),
@@ -107,17 +107,17 @@ class Measurement {
         photographer_(run.shots, run.linearization) {}
 
   /// Returns: no other interruption than beginAgain.
-  Interruptible<Acquisition> measure(Progress& progress) {
+  sentinels::Interruptible<transport::Acquisition> measure(Progress& progress) {
     expect(progress, {});
     Progress referencePart =
         progress.part(referenceShare, RELUCENT_MESSAGE("stage.black-full-light", "black and full light"));
-    const References references =
-        measureReferences(photographer_, run_.settings.references, run_.settings.dimShare, referencePart);
+    const photography::References references = photography::measureReferences(
+        photographer_, run_.settings.references, run_.settings.dimShare, referencePart);
     const Scheme scheme = schemeOf(run_.settings, references);
-    Watch watch(photographer_, references, {run_.settings.checkInterval, run_.settings.mayBeMirrored},
-                supervision_);
-    std::optional<Interruption> interrupted = watch.begin(referencePart);
-    if (interrupted == Interruption::beginAgain) return *interrupted;
+    sentinels::Watch watch(photographer_, references,
+                           {run_.settings.checkInterval, run_.settings.mayBeMirrored}, supervision_);
+    std::optional<sentinels::Interruption> interrupted = watch.begin(referencePart);
+    if (interrupted == sentinels::Interruption::beginAgain) return *interrupted;
 
     Progress treePart =
         progress.part(treeShare, RELUCENT_MESSAGE("stage.light-transport", "light transport"));
@@ -125,19 +125,20 @@ class Measurement {
                           [&](const std::vector<int>& levels) { expect(progress, levels); });
     const TreeContext context{watch, scheme, observer};
     Tree tree = emptyTree(references, references.usable);
-    std::optional<Interruption> dropped = growTree(tree, context, interrupted.has_value(), treePart);
-    if (dropped == Interruption::beginAgain) return *dropped;
+    std::optional<sentinels::Interruption> dropped =
+        growTree(tree, context, interrupted.has_value(), treePart);
+    if (dropped == sentinels::Interruption::beginAgain) return *dropped;
 
     Progress verificationPart =
         progress.part(verificationShare, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
     VerifiedTransport verified = unverified(tree, references);
     if (!interrupted && !dropped) {
       interrupted = verify(verified, context, verificationPart);
-      if (interrupted == Interruption::beginAgain) return *interrupted;
+      if (interrupted == sentinels::Interruption::beginAgain) return *interrupted;
     }
     for (std::size_t row = 0; row < verified.flagged.size(); ++row)
       if (!references.usable[row] || tree.unknown[row]) verified.flagged[row] = 1;
-    Acquisition acquisition = finished(std::move(verified), watch);
+    transport::Acquisition acquisition = finished(std::move(verified), watch);
     progress.report(1.0);
     return acquisition;
   }
@@ -149,17 +150,18 @@ class Measurement {
                              run_.linearization.times, state));
   }
 
-  static VerifiedTransport unverified(Tree& tree, const References& references) {
+  static VerifiedTransport unverified(Tree& tree, const photography::References& references) {
     std::size_t rows = references.usable.size();
     Stack leafVariance = leafVarianceOf(tree);
-    return {TransportMatrix(references.cameras, references.projectors, takeLeaves(tree, references)),
-            std::move(leafVariance), std::vector<std::uint8_t>(rows, 0),
-            std::vector<Stack>(verificationSizes, Stack(3 * rows, 0.0f))};
+    return {
+        transport::TransportMatrix(references.cameras, references.projectors, takeLeaves(tree, references)),
+        std::move(leafVariance), std::vector<std::uint8_t>(rows, 0),
+        std::vector<Stack>(verificationSizes, Stack(3 * rows, 0.0f))};
   }
 
   /// Whoever asked to stop and keep waits for the test patterns alone.
-  std::optional<Interruption> verify(VerifiedTransport& verified, const TreeContext& context,
-                                     Progress& progress) const {
+  std::optional<sentinels::Interruption> verify(VerifiedTransport& verified, const TreeContext& context,
+                                                Progress& progress) const {
     const AcquisitionSettings& settings = run_.settings;
     if (progress.stopAndKeep()) return verifyOnly(verified, context, settings, progress);
     if (auto interrupted = context.watch.check(progress)) return interrupted;
@@ -169,8 +171,8 @@ class Measurement {
     return context.watch.check(progress);
   }
 
-  Acquisition finished(VerifiedTransport verified, const Watch& watch) const {
-    const References& references = watch.references();
+  transport::Acquisition finished(VerifiedTransport verified, const sentinels::Watch& watch) const {
+    const photography::References& references = watch.references();
     std::size_t rows = references.usable.size();
     Stack flood = summed(references.root, rows);
     double unresolved = unresolvedEnergy(verified.transport, flood);
@@ -193,27 +195,28 @@ class Measurement {
   }
 
   const AcquisitionRun& run_;
-  Supervision& supervision_;
+  sentinels::Supervision& supervision_;
   int shotsBefore_, exposuresBefore_;
-  Photographer photographer_;
+  photography::Photographer photographer_;
 };
 
 }  // namespace
 
-Acquisition acquire(const AcquisitionRun& run, Progress& progress) {
+transport::Acquisition acquire(const AcquisitionRun& run, Progress& progress) {
   std::vector<Message> wrong = problems(run.settings);
   require(wrong.empty(), "{}", fmt::join(wrong, "; "));
-  Linearization used = run.linearization;
+  linearization::Linearization used = run.linearization;
   if (run.settings.singleExposure) used.exposures = {used.exposures.back()};
-  AcquisitionObserver nobody;
-  Supervision supervision{run.handler, run.observer ? *run.observer : nobody};
+  sentinels::AcquisitionObserver nobody;
+  sentinels::Supervision supervision{run.handler, run.observer ? *run.observer : nobody};
   const AcquisitionRun adapted{run.shots, used, run.settings};
   const int shotsBefore = run.shots.shots();
   while (true) {
-    Interruptible<Acquisition> measured = Measurement(adapted, supervision).measure(progress);
+    sentinels::Interruptible<transport::Acquisition> measured =
+        Measurement(adapted, supervision).measure(progress);
     if (measured) return *std::move(measured);
     run.shots.goBackTo(shotsBefore);
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/settings.h"
-#include "linearization/linearization.h"
-#include "sentinels/observer.h"
-#include "transport/acquisition.h"
+#include "relucent/acquisition/settings.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/sentinels/observer.h"
+#include "relucent/transport/acquisition.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// What the light transport is measured with. Referred to, not kept: all of it outlives the measurement.
 struct AcquisitionRun {
-  ShotTaker& shots;
-  const Linearization& linearization;
+  rig::ShotTaker& shots;
+  const linearization::Linearization& linearization;
   const AcquisitionSettings& settings;
   /// Asked what to do about an alarm. Empty, and nobody is there: an alarm is Error{device}, and running the
   /// acquisition again goes on from what is safe.
-  AlarmHandler handler{};
-  AcquisitionObserver* observer = nullptr;  // is told of it; null: nobody
+  sentinels::AlarmHandler handler{};
+  sentinels::AcquisitionObserver* observer = nullptr;  // is told of it; null: nobody
 };
 
 /// Measures the light transport by the scheme of the settings.  Source: core/acquisition/README.md; the tree
@@ -24,6 +24,6 @@ struct AcquisitionRun {
 /// measures, sentinels watch the light and the view. After an alarm that was retried, the result is the same
 /// bits as if it had not happened. Stop and keep: ends after the level under way with a valid, coarser T.
 /// Throws: Error{device, input, disk}; Cancelled.
-Acquisition acquire(const AcquisitionRun& run, Progress& progress);
+transport::Acquisition acquire(const AcquisitionRun& run, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/block_sparse.h"
+#include "relucent/transport/block_sparse.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 inline constexpr int quadrants = 4;
 
 /// The children of all active pairs while they are being measured, and what stays with their parents.
 class Children {
  public:
-  using Code = BlockSparseWriter::Code;
+  using Code = transport::BlockSparseWriter::Code;
 
   Children(std::size_t pairs, bool mayDivide, bool restToParent)
       : code_(quadrants * pairs),
@@ -55,4 +55,4 @@ class Children {
   std::vector<std::uint8_t> active_;  // per pair, a bit a quadrant
 };
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

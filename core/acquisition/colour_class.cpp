@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/colour_class.h"
+#include "relucent/acquisition/colour_class.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
-using Code = BlockSparseWriter::Code;
+using Code = transport::BlockSparseWriter::Code;
 
 // A child is at most as bright as its parent, but for the noise of both.
 constexpr float brighterThanParent = 1.1f;
@@ -24,11 +24,11 @@ constexpr std::size_t mostRows = 100;
 constexpr float unevenness = 0.25f;
 
 /// What a row's leaves send to the camera, per projector channel, with these shares of their blocks lit.
-ColourBlock underPattern(const std::vector<BlockSparse>& leaves, std::size_t row,
-                         const std::vector<float>& shares) {
+transport::ColourBlock underPattern(const std::vector<transport::BlockSparse>& leaves, std::size_t row,
+                                    const std::vector<float>& shares) {
   float sum[9] = {};
   float scale = 0.0f;
-  for (const BlockSparse& level : leaves) {
+  for (const transport::BlockSparse& level : leaves) {
     scale = level.scale(row);
     for (std::size_t entry = level.rowBegin(row); entry < level.rowBegin(row + 1); ++entry) {
       float share = shares[level.column(entry)];
@@ -37,13 +37,13 @@ ColourBlock underPattern(const std::vector<BlockSparse>& leaves, std::size_t row
       for (std::size_t i = 0; i < 9; ++i) sum[i] += share * static_cast<float>(code[i]);
     }
   }
-  ColourBlock block;
+  transport::ColourBlock block;
   for (int i = 0; i < 9; ++i) block.data()[i] = scale * sum[i];
   return block;
 }
 
 /// The light of the lit channels in one camera channel.
-float inLight(const ColourBlock& block, std::size_t cameraChannel, const LitChannels& light) {
+float inLight(const transport::ColourBlock& block, std::size_t cameraChannel, const LitChannels& light) {
   float sum = 0.0f;
   for (std::size_t k = 0; k < 3; ++k)
     if (light[k]) sum += block.data()[3 * cameraChannel + k];
@@ -71,7 +71,7 @@ ColourClass::ColourClass(Tree& tree, std::span<const LitPair> seen, const TreeCo
 std::shared_ptr<const LitQuadrant> ColourClass::lit(int quadrant, std::vector<std::uint8_t> pixels) const {
   auto result = std::make_shared<LitQuadrant>();
   result->quadrant = quadrant;
-  result->predicted.assign(seen_.size(), ColourBlock::Zero());
+  result->predicted.assign(seen_.size(), transport::ColourBlock::Zero());
   if (scheme_.subtractsLeaves) {
     std::vector<float> shares = litShares(pixels, tree_.layout);
     parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
@@ -91,8 +91,8 @@ ClassFrame ColourClass::frame(std::shared_ptr<const LitQuadrant> quadrant, const
   return frame;
 }
 
-Interruptible<HdrFrame> ColourClass::photograph(const ClassFrame& frame, const Progress& progress,
-                                                const Meanwhile& meanwhile) const {
+sentinels::Interruptible<hdr::HdrFrame> ColourClass::photograph(
+    const ClassFrame& frame, const Progress& progress, const photography::Meanwhile& meanwhile) const {
   if (frame.demands.empty()) return watch_.lightOfAll(frame.pattern, progress, meanwhile);
   return watch_.light(frame.pattern, frame.demands, progress, meanwhile);
 }
@@ -103,8 +103,8 @@ void ColourClass::settle(Children& children) {
 
 bool ColourClass::contradictsParent(std::size_t i) const {
   auto [row, pair] = seen_[i];
-  ColourBlock parent = tree_.active.block(row, pair), spread = tree_.spread.block(row, pair);
-  ColourBlock sum = ColourBlock::Zero(), variance = spread.cwiseProduct(spread);
+  transport::ColourBlock parent = tree_.active.block(row, pair), spread = tree_.spread.block(row, pair);
+  transport::ColourBlock sum = transport::ColourBlock::Zero(), variance = spread.cwiseProduct(spread);
   for (std::size_t k = quadrants * i; k < quadrants * (i + 1); ++k) {
     sum += measured_[k].value;
     variance += measured_[k].variance;
@@ -124,12 +124,13 @@ bool ColourClass::contradictsParents() {
   return contradicting >= fewestContradictions + seen_.size() / mostRows;
 }
 
-std::vector<Demand> ColourClass::demands(const LitQuadrant& quadrant, const LitChannels& light) const {
-  const HdrFrame& black = watch_.black();
-  std::vector<Demand> demands(references_.usable.size());
+std::vector<photography::Demand> ColourClass::demands(const LitQuadrant& quadrant,
+                                                      const LitChannels& light) const {
+  const hdr::HdrFrame& black = watch_.black();
+  std::vector<photography::Demand> demands(references_.usable.size());
   parallelFor(0, seen_.size(), 1024, [&](std::size_t i) {
     std::size_t row = seen_[i].row;
-    ColourBlock parent = tree_.active.block(row, seen_[i].pair);
+    transport::ColourBlock parent = tree_.active.block(row, seen_[i].pair);
     float brightest = 0.0f, expected = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
       float around = black.radiance[3 * row + c] + inLight(quadrant.predicted[i], c, light);
@@ -146,12 +147,12 @@ std::size_t ColourClass::projectorOf(const LitPair& seen) const {
   return static_cast<std::size_t>(tree_.layout.node(tree_.active.column(seen.pair)).projector);
 }
 
-void ColourClass::extract(const ClassFrame& frame, const HdrFrame& seen) {
+void ColourClass::extract(const ClassFrame& frame, const hdr::HdrFrame& seen) {
   const LitChannels& light = frame.light;
   parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
     if (!wanted_[i]) return;
     std::size_t row = seen_[i].row, projector = projectorOf(seen_[i]);
-    ColourBlock shares =
+    transport::ColourBlock shares =
         channelShares(light, references_.root[projector][row], references_.rootVariance[projector][row]);
     Estimate& child = measured_[quadrants * i + static_cast<std::size_t>(frame.quadrant->quadrant)];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -170,10 +171,10 @@ void ColourClass::extract(const ClassFrame& frame, const HdrFrame& seen) {
   });
 }
 
-Code ColourClass::leafCode(std::size_t row, const ColourBlock& value) const {
+Code ColourClass::leafCode(std::size_t row, const transport::ColourBlock& value) const {
   float scale = tree_.active.scale(row);
-  ColourBlock rounded = value + tree_.rounding[row];
-  Code code = codeOf(rounded, scale);
+  transport::ColourBlock rounded = value + tree_.rounding[row];
+  Code code = transport::codeOf(rounded, scale);
   for (std::size_t c = 0; c < 9; ++c) rounded.data()[c] -= scale * static_cast<float>(code[c]);
   tree_.rounding[row] = rounded;
   return code;
@@ -184,11 +185,11 @@ void ColourClass::settle(std::size_t i, Children& children) const {
   if (tree_.unknown[row]) return;
 
   std::array<Estimate, quadrants> estimate;
-  std::array<Node, quadrants> node;
+  std::array<transport::Node, quadrants> node;
   std::array<int, quadrants> quadrant;
-  std::array<ColourBlock, quadrants> noise;
+  std::array<transport::ColourBlock, quadrants> noise;
   std::size_t count = 0;
-  Node parent = tree_.layout.node(tree_.active.column(pair));
+  transport::Node parent = tree_.layout.node(tree_.active.column(pair));
   for (int q = 0; q < quadrants; ++q) {
     if (!childOf(tree_.layout, parent, q, node[count])) continue;
     estimate[count] = measured_[quadrants * i + static_cast<std::size_t>(q)];
@@ -198,16 +199,16 @@ void ColourClass::settle(std::size_t i, Children& children) const {
     quadrant[count++] = q;
   }
   if (scheme_.reconciles) {
-    ColourBlock spread = tree_.spread.block(row, pair);
+    transport::ColourBlock spread = tree_.spread.block(row, pair);
     reconcile({tree_.active.block(row, pair), spread.cwiseProduct(spread)}, {estimate.data(), count});
   }
 
   float scale = tree_.active.scale(row);
-  ColourBlock rest = ColourBlock::Zero();
+  transport::ColourBlock rest = transport::ColourBlock::Zero();
   for (std::size_t k = 0; k < count; ++k) {
     bool followed = scheme_.follows(row, estimate[k].value, noise[k]);
     if (followed && node[k].level > 0) {
-      children.set(pair, quadrant[k], codeOf(estimate[k].value, scale));
+      children.set(pair, quadrant[k], transport::codeOf(estimate[k].value, scale));
       children.activate(pair, quadrant[k], spreadCode(estimate[k].variance, scale));
     } else if (scheme_.restToParent && !followed) {
       rest += estimate[k].value;
@@ -219,4 +220,4 @@ void ColourClass::settle(std::size_t i, Children& children) const {
   if (scheme_.restToParent) children.setRest(pair, leafCode(row, rest));
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

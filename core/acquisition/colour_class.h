@@ -5,18 +5,18 @@
 #include <span>
 #include <vector>
 
-#include "acquisition/estimate.h"
-#include "acquisition/frames.h"
-#include "acquisition/tree.h"
-#include "acquisition/tree_context.h"
+#include "relucent/acquisition/estimate.h"
+#include "relucent/acquisition/frames.h"
+#include "relucent/acquisition/tree.h"
+#include "relucent/acquisition/tree_context.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// One quadrant of the blocks of a colour, the same in every light.
 struct LitQuadrant {
   int quadrant = 0;
-  std::vector<std::uint8_t> lit;       // as from litPixels()
-  std::vector<ColourBlock> predicted;  // what stored leaves send to each camera pixel of the class
+  std::vector<std::uint8_t> lit;                  // as from litPixels()
+  std::vector<transport::ColourBlock> predicted;  // what stored leaves send to each camera pixel of the class
 };
 
 /// A photograph to be taken: all that can be computed before it is.
@@ -24,7 +24,7 @@ struct ClassFrame {
   std::shared_ptr<const LitQuadrant> quadrant;
   LitChannels light{};
   Stack pattern;
-  std::vector<Demand> demands;  // empty: all exposures
+  std::vector<photography::Demand> demands;  // empty: all exposures
 };
 
 /// The blocks that one colour of the schedule lights together: their quadrants are measured one after the
@@ -38,11 +38,11 @@ class ColourClass {
   std::shared_ptr<const LitQuadrant> lit(int quadrant, std::vector<std::uint8_t> pixels) const;
   ClassFrame frame(std::shared_ptr<const LitQuadrant> quadrant, const LitChannels& light) const;
 
-  Interruptible<HdrFrame> photograph(const ClassFrame& frame, const Progress& progress,
-                                     const Meanwhile& meanwhile) const;
+  sentinels::Interruptible<hdr::HdrFrame> photograph(const ClassFrame& frame, const Progress& progress,
+                                                     const photography::Meanwhile& meanwhile) const;
 
   /// What a photograph says about the children.
-  void extract(const ClassFrame& frame, const HdrFrame& seen);
+  void extract(const ClassFrame& frame, const hdr::HdrFrame& seen);
 
   /// After all quadrants: whether many camera pixels contradict what their parents sent before, which is what
   /// a disturbance during some of the photographs looks like. Those are extracted anew from the next frames
@@ -53,20 +53,20 @@ class ColourClass {
   void settle(Children& children);
 
  private:
-  std::vector<Demand> demands(const LitQuadrant& quadrant, const LitChannels& light) const;
+  std::vector<photography::Demand> demands(const LitQuadrant& quadrant, const LitChannels& light) const;
   bool contradictsParent(std::size_t i) const;
   void settle(std::size_t i, Children& children) const;
   /// A value as codes of a row, what the rounding leaves over handed on to the row's next leaf.
-  BlockSparseWriter::Code leafCode(std::size_t row, const ColourBlock& value) const;
+  transport::BlockSparseWriter::Code leafCode(std::size_t row, const transport::ColourBlock& value) const;
   std::size_t projectorOf(const LitPair& seen) const;
 
   Tree& tree_;
   std::span<const LitPair> seen_;
-  Watch& watch_;
-  const References& references_;
+  sentinels::Watch& watch_;
+  const photography::References& references_;
   const Scheme& scheme_;
   std::vector<Estimate> measured_;    // as seen_, four each
   std::vector<std::uint8_t> wanted_;  // as seen_: to be measured
 };
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/estimate.h"
+#include "relucent/acquisition/estimate.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 void reconcile(const Estimate& parent, std::span<Estimate> children) {
-  ColourBlock sum = ColourBlock::Zero(), variance = parent.variance;
+  transport::ColourBlock sum = transport::ColourBlock::Zero(), variance = parent.variance;
   for (const Estimate& child : children) {
     sum += child.value;
     variance += child.variance;
@@ -19,4 +19,4 @@ void reconcile(const Estimate& parent, std::span<Estimate> children) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -3,14 +3,14 @@
 
 #include <span>
 
-#include "transport/block_sparse.h"
+#include "relucent/transport/block_sparse.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// A value with its variance, for all nine channel pairs.
 struct Estimate {
-  ColourBlock value = ColourBlock::Zero();
-  ColourBlock variance = ColourBlock::Zero();
+  transport::ColourBlock value = transport::ColourBlock::Zero();
+  transport::ColourBlock variance = transport::ColourBlock::Zero();
 };
 
 /// Makes measured children agree with their measured parent: the least squares solution of
@@ -19,4 +19,4 @@ struct Estimate {
 /// error that all children share, such as that of e, adds up.
 void reconcile(const Estimate& parent, std::span<Estimate> children);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/forecast.h"
+#include "relucent/acquisition/forecast.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "acquisition/children.h"
-#include "transport/node_layout.h"
+#include "relucent/acquisition/children.h"
+#include "relucent/transport/node_layout.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 constexpr PatternRange usualColours{3.0, 30.0, 100.0};
@@ -25,7 +25,7 @@ constexpr double childrenBytes = 40.0 * 4.0 * 36.0;
 constexpr double programBytes = 60e6;
 constexpr double framesInMemory = 8.0;  // radiance, variance, validity of merged brackets, and raw ones
 
-double blocksOf(const NodeLayout& layout, int level) {
+double blocksOf(const transport::NodeLayout& layout, int level) {
   double blocks = 0.0;
   for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector)
     if (level < layout.levels(projector))
@@ -43,7 +43,7 @@ double checksWithin(double patterns, int interval) {
 
 std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t lights,
                                         std::span<const int> known, double factor) {
-  NodeLayout layout(projectors);
+  transport::NodeLayout layout(projectors);
   double each = quadrants * static_cast<double>(lights);
   PatternRange colours{std::min(1.0, factor) * usualColours.least, factor * usualColours.likely,
                        factor * usualColours.most};
@@ -76,7 +76,7 @@ std::vector<PatternRange> levelPatterns(const Rasters& projectors, const Acquisi
   return levelPatterns(projectors, lights, known, colourFactor(settings.relativeThreshold));
 }
 
-ForecastDevices forecastDevices(const Rig& rig, const std::vector<double>& exposures) {
+ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& exposures) {
   double mean = exposures.empty() ? 0.0
                                   : std::accumulate(exposures.begin(), exposures.end(), 0.0) /
                                         static_cast<double>(exposures.size());
@@ -84,7 +84,7 @@ ForecastDevices forecastDevices(const Rig& rig, const std::vector<double>& expos
 }
 
 WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
-                  const ShotTimes& benchmark, const AcquisitionState& state) {
+                  const rig::ShotTimes& benchmark, const AcquisitionState& state) {
   const Rasters& cameras = devices.cameras;
   const Rasters& projectors = devices.projectors;
   auto projectorCount = static_cast<double>(projectors.devices());
@@ -111,7 +111,7 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   work.mostShots = left(total(&PatternRange::most));
 
   bool enough = state.times.shots >= enoughShots;
-  const ShotTimes& times = enough || benchmark.shots == 0 ? state.times : benchmark;
+  const rig::ShotTimes& times = enough || benchmark.shots == 0 ? state.times : benchmark;
   bool all = settings.scheme == AcquisitionScheme::sen || settings.singleExposure;
   double usual =
       settings.singleExposure ? 1.0 : std::min<double>(2.0, static_cast<double>(devices.exposures));
@@ -137,4 +137,4 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   return work;
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

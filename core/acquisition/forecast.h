@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "acquisition/settings.h"
-#include "base/progress.h"
-#include "linearization/linearization.h"
-#include "rig/shot.h"
+#include "relucent/acquisition/settings.h"
+#include "relucent/base/progress.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/rig/shot.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// Patterns of one level, or what may be expected of it.
 struct PatternRange {
@@ -38,7 +38,7 @@ std::vector<PatternRange> levelPatterns(const Rasters& projectors, const Acquisi
 struct AcquisitionState {
   std::vector<int> levels{};  // patterns of the levels that have begun, coarsest first
   int shots = 0;              // taken or read so far
-  ShotTimes times{};          // of the shots that it took
+  rig::ShotTimes times{};     // of the shots that it took
 };
 
 /// What of the devices decides how long an acquisition takes.
@@ -47,7 +47,7 @@ struct ForecastDevices {
   std::size_t exposures = 0;  // that a pattern may be photographed with
   double meanExposure = 0.0;  // seconds
 };
-ForecastDevices forecastDevices(const Rig& rig, const std::vector<double>& exposures);
+ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& exposures);
 
 /// What an acquisition has still to do. Exact are the references, the checks between a known number of
 /// patterns, and the verification; the tree's patterns are as levelPatterns() says; what is measured again
@@ -59,6 +59,6 @@ ForecastDevices forecastDevices(const Rig& rig, const std::vector<double>& expos
 /// T is taken to hold 120 leaves of 22 bytes a camera pixel; simulated venues have 65 to 180.
 /// Pure arithmetic, no devices: for a page that asks before anything is measured as well.
 WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
-                  const ShotTimes& benchmark, const AcquisitionState& state);
+                  const rig::ShotTimes& benchmark, const AcquisitionState& state);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/frames.h"
+#include "relucent/acquisition/frames.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "acquisition/children.h"
-#include "base/error.h"
+#include "relucent/acquisition/children.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
-bool childOf(const NodeLayout& layout, const Node& parent, int quadrant, Node& child) {
+bool childOf(const transport::NodeLayout& layout, const transport::Node& parent, int quadrant,
+             transport::Node& child) {
   child = {parent.projector, parent.level - 1, 2 * parent.x + quadrant % 2, 2 * parent.y + quadrant / 2};
   Size grid = layout.gridSize(static_cast<std::size_t>(parent.projector), child.level);
   return child.x < grid.width && child.y < grid.height;
 }
 
-PairsByColour::PairsByColour(const BlockSparse& active, const Schedule& schedule)
+PairsByColour::PairsByColour(const transport::BlockSparse& active, const Schedule& schedule)
     : start(schedule.colours + 1, 0) {
   for (std::size_t pair = 0; pair < active.blocks(); ++pair)
     ++start[schedule.colour(active.column(pair)) + 1];
@@ -28,17 +29,17 @@ PairsByColour::PairsByColour(const BlockSparse& active, const Schedule& schedule
                                                             static_cast<std::uint32_t>(pair)};
 }
 
-std::vector<std::uint8_t> litPixels(const Schedule& schedule, const NodeLayout& layout, std::uint32_t colour,
-                                    int quadrant) {
+std::vector<std::uint8_t> litPixels(const Schedule& schedule, const transport::NodeLayout& layout,
+                                    std::uint32_t colour, int quadrant) {
   const Rasters& projectors = layout.projectors();
   std::vector<std::uint8_t> lit;
   for (std::size_t i = 0; i < schedule.colourOf.size(); ++i) {
-    Node child;
+    transport::Node child;
     if (schedule.colourOf[i] != colour ||
         !childOf(layout, layout.node(schedule.firstNode + i), quadrant, child))
       continue;
     if (lit.empty()) lit.assign(projectors.count(), 0);
-    Block block = layout.block(child);
+    transport::Block block = layout.block(child);
     auto projector = static_cast<std::size_t>(child.projector);
     for (int y = block.y0; y < block.y1; ++y) {
       std::size_t begin = projectors.offset(projector) + indexOf(projectors.size(projector), {block.x0, y});
@@ -48,7 +49,7 @@ std::vector<std::uint8_t> litPixels(const Schedule& schedule, const NodeLayout& 
   return lit;
 }
 
-std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const NodeLayout& layout) {
+std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const transport::NodeLayout& layout) {
   Stack pattern(3 * lit.size(), 0.0f);
   for (std::size_t i = 0; i < lit.size(); ++i) pattern[3 * i] = lit[i];
   Stack means = layout.means(pattern);
@@ -57,11 +58,12 @@ std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const NodeLay
   return shares;
 }
 
-std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const NodeLayout& layout, int level) {
+std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const transport::NodeLayout& layout,
+                                       int level) {
   std::vector<std::uint8_t> used(quadrants * schedule.colours, 0);
   for (std::size_t i = 0; i < schedule.colourOf.size(); ++i) {
     if (schedule.colourOf[i] == Schedule::dark) continue;
-    Node node = layout.node(schedule.firstNode + i), child;
+    transport::Node node = layout.node(schedule.firstNode + i), child;
     require(node.level == level, "a schedule for level {}, not {}", node.level, level);
     for (int quadrant = 0; quadrant < quadrants; ++quadrant)
       if (childOf(layout, node, quadrant, child))
@@ -70,9 +72,9 @@ std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const NodeLayou
   return used;
 }
 
-int framesOf(const Schedule& schedule, const NodeLayout& layout, int level) {
+int framesOf(const Schedule& schedule, const transport::NodeLayout& layout, int level) {
   std::vector<std::uint8_t> used = litQuadrants(schedule, layout, level);
   return static_cast<int>(std::count(used.begin(), used.end(), 1));
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

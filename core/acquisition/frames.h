@@ -5,13 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "acquisition/schedule.h"
-#include "transport/node_layout.h"
+#include "relucent/acquisition/schedule.h"
+#include "relucent/transport/node_layout.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// The child of `parent` in a quadrant, 0 to 3 row by row, if it is not cut off by the border.
-bool childOf(const NodeLayout& layout, const Node& parent, int quadrant, Node& child);
+bool childOf(const transport::NodeLayout& layout, const transport::Node& parent, int quadrant,
+             transport::Node& child);
 
 /// A camera pixel and the one of its active nodes that a colour lights.
 struct LitPair {
@@ -21,7 +22,7 @@ struct LitPair {
 
 /// The active pairs, colour after colour.
 struct PairsByColour {
-  PairsByColour(const BlockSparse& active, const Schedule& schedule);
+  PairsByColour(const transport::BlockSparse& active, const Schedule& schedule);
   std::span<const LitPair> of(std::uint32_t colour) const {
     return {seen.data() + start[colour], start[colour + 1] - start[colour]};
   }
@@ -31,16 +32,17 @@ struct PairsByColour {
 };
 
 /// Which projector pixels a colour lights in a quadrant, one value a pixel. Empty: none.
-std::vector<std::uint8_t> litPixels(const Schedule& schedule, const NodeLayout& layout, std::uint32_t colour,
-                                    int quadrant);
+std::vector<std::uint8_t> litPixels(const Schedule& schedule, const transport::NodeLayout& layout,
+                                    std::uint32_t colour, int quadrant);
 
 /// The share of every node's block that is lit.
-std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const NodeLayout& layout);
+std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const transport::NodeLayout& layout);
 
 /// Quadrant q of colour c lights anything: [quadrants * c + q].
-std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const NodeLayout& layout, int level);
+std::vector<std::uint8_t> litQuadrants(const Schedule& schedule, const transport::NodeLayout& layout,
+                                       int level);
 
 /// Quadrants of colours that light anything: the patterns of one level, in one light.
-int framesOf(const Schedule& schedule, const NodeLayout& layout, int level);
+int framesOf(const Schedule& schedule, const transport::NodeLayout& layout, int level);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/growth.h"
+#include "relucent/acquisition/growth.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "acquisition/forecast.h"
-#include "acquisition/refinement.h"
-#include "base/message.h"
+#include "relucent/acquisition/forecast.h"
+#include "relucent/acquisition/refinement.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 /// The blocks of one level that matter, in colours.
 Schedule scheduleOf(const Tree& tree, int level) {
-  const NodeLayout& layout = tree.layout;
+  const transport::NodeLayout& layout = tree.layout;
   std::size_t nodes = 0, firstNode = 0;
   for (std::size_t projector = layout.projectors().devices(); projector-- > 0;) {
     if (level >= layout.levels(projector)) continue;
@@ -41,13 +41,13 @@ class Shares {
 };
 
 /// Divides one level, unless it is interrupted: then the tree is as it was.
-std::optional<Interruption> divided(Tree& tree, const LevelPlan& plan, const TreeContext& context,
-                                    Progress& part) {
+std::optional<sentinels::Interruption> divided(Tree& tree, const LevelPlan& plan, const TreeContext& context,
+                                               Progress& part) {
   if (auto interrupted = context.watch.check(part)) return interrupted;
-  std::vector<ColourBlock> rounding = tree.rounding;
+  std::vector<transport::ColourBlock> rounding = tree.rounding;
   std::vector<LeafNoise> leafNoise = tree.leafNoise;
   std::vector<std::uint8_t> unknown = tree.unknown;
-  std::optional<Interruption> interrupted = divide(tree, plan, context, part);
+  std::optional<sentinels::Interruption> interrupted = divide(tree, plan, context, part);
   if (interrupted) {
     tree.rounding = std::move(rounding);
     tree.leafNoise = std::move(leafNoise);
@@ -58,9 +58,9 @@ std::optional<Interruption> divided(Tree& tree, const LevelPlan& plan, const Tre
 
 }  // namespace
 
-std::optional<Interruption> growTree(Tree& tree, const TreeContext& context, bool rootsOnly,
-                                     Progress& progress) {
-  std::optional<Interruption> interrupted;
+std::optional<sentinels::Interruption> growTree(Tree& tree, const TreeContext& context, bool rootsOnly,
+                                                Progress& progress) {
+  std::optional<sentinels::Interruption> interrupted;
   LevelPlan plan;
   Shares shares;
   std::size_t lights = context.scheme.lights.size();
@@ -85,7 +85,7 @@ std::optional<Interruption> growTree(Tree& tree, const TreeContext& context, boo
                                    .with(as::label(last - level + 1), as::label(last), plan.patterns.back()));
       interrupted = divided(tree, plan, context, part);
       if (!interrupted) continue;
-      if (interrupted == Interruption::beginAgain) return interrupted;
+      if (interrupted == sentinels::Interruption::beginAgain) return interrupted;
     }
     stopDividing(tree, context.references());
   }
@@ -100,4 +100,4 @@ Stack leafVarianceOf(const Tree& tree) {
   return variance;
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "photography/photographer.h"
-#include "sentinels/interruption.h"
+#include "relucent/photography/photographer.h"
+#include "relucent/sentinels/interruption.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// Takes numbered frames so that computation goes on beside the exposures:
 ///
@@ -33,12 +33,12 @@ class Lookahead {
   /// `meanwhile` and returns what the frame showed, or the interruption that is then returned; workOut(frame,
   /// shown) is done during the next exposure, or by finish().
   template <typename Expose, typename WorkOut>
-  [[nodiscard]] std::optional<Interruption> take(std::size_t number, const Expose& expose,
-                                                 const WorkOut& workOut) {
+  [[nodiscard]] std::optional<sentinels::Interruption> take(std::size_t number, const Expose& expose,
+                                                            const WorkOut& workOut) {
     if (!ahead_ || aheadNumber_ != number) ahead_ = prepared(number);
     last_ = std::move(ahead_);
     ahead_ = nullptr;
-    Meanwhile meanwhile = [this, number] {
+    photography::Meanwhile meanwhile = [this, number] {
       tbb::parallel_invoke([this] { finish(); },
                            [this, number] {
                              if (number + 1 < frames_) ahead_ = prepared(number + 1);
@@ -71,4 +71,4 @@ class Lookahead {
   std::function<void()> unfinished_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/refinement.h"
+#include "relucent/acquisition/refinement.h"
 
 #include <limits>
 #include <memory>
 
-#include "acquisition/colour_class.h"
-#include "acquisition/lookahead.h"
-#include "base/error.h"
+#include "relucent/acquisition/colour_class.h"
+#include "relucent/acquisition/lookahead.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 /// A photograph of one colour of the schedule, in one quadrant and one light.
@@ -40,7 +40,7 @@ class Division {
           return prepare(number, before);
         }) {}
 
-  std::optional<Interruption> run() {
+  std::optional<sentinels::Interruption> run() {
     std::size_t first = 0;
     while (first < frames_.size()) {
       std::size_t end = first;
@@ -84,7 +84,7 @@ class Division {
   }
 
   /// The frames [first, end) of one colour, and all of them again where they contradict what was seen before.
-  std::optional<Interruption> measureColour(std::size_t first, std::size_t end) {
+  std::optional<sentinels::Interruption> measureColour(std::size_t first, std::size_t end) {
     constexpr int mostRounds = 3;
     int begun = context_.watch.shots();
     for (int round = 0; round == 0 || (round < mostRounds && blocks_->contradictsParents()); ++round) {
@@ -100,14 +100,14 @@ class Division {
     return std::nullopt;
   }
 
-  std::optional<Interruption> take(std::size_t number) {
+  std::optional<sentinels::Interruption> take(std::size_t number) {
     return lookahead_.take(
         number,
-        [&](const PreparedFrame& prepared, const Meanwhile& meanwhile) {
+        [&](const PreparedFrame& prepared, const photography::Meanwhile& meanwhile) {
           blocks_ = prepared.blocks;
           return blocks_->photograph(prepared.frame, progress_, meanwhile);
         },
-        [](const PreparedFrame& prepared, const HdrFrame& seen) {
+        [](const PreparedFrame& prepared, const hdr::HdrFrame& seen) {
           prepared.blocks->extract(prepared.frame, seen);
         });
   }
@@ -125,15 +125,16 @@ class Division {
 
 }  // namespace
 
-int patternsOf(const Schedule& schedule, const Scheme& scheme, const NodeLayout& layout, int level) {
+int patternsOf(const Schedule& schedule, const Scheme& scheme, const transport::NodeLayout& layout,
+               int level) {
   return static_cast<int>(scheme.lights.size()) * framesOf(schedule, layout, level);
 }
 
-std::optional<Interruption> divide(Tree& tree, const LevelPlan& plan, const TreeContext& context,
-                                   Progress& progress) {
+std::optional<sentinels::Interruption> divide(Tree& tree, const LevelPlan& plan, const TreeContext& context,
+                                              Progress& progress) {
   require(tree.active.blocks() <= std::numeric_limits<std::uint32_t>::max(), "{} active pairs",
           tree.active.blocks());
   return Division(tree, plan, context, progress).run();
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -4,14 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "acquisition/schedule.h"
-#include "acquisition/tree.h"
-#include "acquisition/tree_context.h"
+#include "relucent/acquisition/schedule.h"
+#include "relucent/acquisition/tree.h"
+#include "relucent/acquisition/tree_context.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// What the schedule of one level costs: up to four quadrants a colour, each in every light of the scheme.
-int patternsOf(const Schedule& schedule, const Scheme& scheme, const NodeLayout& layout, int level);
+int patternsOf(const Schedule& schedule, const Scheme& scheme, const transport::NodeLayout& layout,
+               int level);
 
 /// One level of the tree that is to be measured.
 struct LevelPlan {
@@ -28,7 +29,7 @@ struct LevelPlan {
 /// sign, as cutting it off would add energy. An interruption leaves the pairs as they were, but `rounding`,
 /// `leafNoise` and `unknown` as they are amid the level.
 /// Throws: Error; Cancelled.
-[[nodiscard]] std::optional<Interruption> divide(Tree& tree, const LevelPlan& plan,
-                                                 const TreeContext& context, Progress& progress);
+[[nodiscard]] std::optional<sentinels::Interruption> divide(Tree& tree, const LevelPlan& plan,
+                                                            const TreeContext& context, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/repair.h"
+#include "relucent/acquisition/repair.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "acquisition/growth.h"
-#include "acquisition/verification.h"
-#include "base/message.h"
+#include "relucent/acquisition/growth.h"
+#include "relucent/acquisition/verification.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 constexpr int mostRepairs = 2;
@@ -25,11 +25,12 @@ void adoptVerification(VerifiedTransport& verified, const Verification& verifica
 }
 
 /// `first`, with the rows of `second` that are chosen.
-BlockSparse mixed(const BlockSparse& first, const BlockSparse& second,
-                  const std::vector<std::uint8_t>& chosen, const References& references) {
-  BlockSparseWriter writer(first.columns(), references.fullScale, first.blocks());
+transport::BlockSparse mixed(const transport::BlockSparse& first, const transport::BlockSparse& second,
+                             const std::vector<std::uint8_t>& chosen,
+                             const photography::References& references) {
+  transport::BlockSparseWriter writer(first.columns(), references.fullScale, first.blocks());
   for (std::size_t row = 0; row < first.rows(); ++row) {
-    const BlockSparse& from = chosen[row] ? second : first;
+    const transport::BlockSparse& from = chosen[row] ? second : first;
     for (std::size_t entry = from.rowBegin(row); entry < from.rowBegin(row + 1); ++entry)
       writer.add(from.column(entry), from.code(entry));
     writer.endRow();
@@ -50,7 +51,7 @@ class Repair {
          const AcquisitionSettings& settings)
       : verified_(verified), rows_(std::move(rows)), context_(context), settings_(settings) {}
 
-  std::optional<Interruption> run(Progress& progress) {
+  std::optional<sentinels::Interruption> run(Progress& progress) {
     for (int round = 1; round <= mostRepairs; ++round) {
       std::size_t ill = countOf(verified_.flagged);
       if (ill == 0) break;
@@ -66,15 +67,15 @@ class Repair {
   }
 
  private:
-  std::optional<Interruption> repair(int round, Progress& part) {
+  std::optional<sentinels::Interruption> repair(int round, Progress& part) {
     const std::vector<std::uint8_t> flagged = verified_.flagged;
     Tree tree = emptyTree(context_.references(), flagged);
-    AcquisitionObserver nobody;  // is to hear of the whole tree alone
+    sentinels::AcquisitionObserver nobody;  // is to hear of the whole tree alone
     if (auto interrupted = growTree(tree, {context_.watch, context_.scheme, nobody}, false, part))
       return interrupted;
     Stack leafVariance = leafVarianceOf(tree);
-    BlockSparse again = takeLeaves(tree, context_.references());
-    Interruptible<Verification> after = verify(
+    transport::BlockSparse again = takeLeaves(tree, context_.references());
+    sentinels::Interruptible<Verification> after = verify(
         with(again, flagged), context_, {settings_, flagged, round * settings_.verificationPatterns}, part);
     if (!after) return after.interruption();
     if (auto interrupted = context_.watch.check(part)) return interrupted;
@@ -88,10 +89,11 @@ class Repair {
     return std::nullopt;
   }
 
-  TransportMatrix with(const BlockSparse& again, const std::vector<std::uint8_t>& chosen) const {
-    const References& references = context_.references();
-    return TransportMatrix(references.cameras, references.projectors,
-                           mixed(verified_.transport.leaves(), again, chosen, references));
+  transport::TransportMatrix with(const transport::BlockSparse& again,
+                                  const std::vector<std::uint8_t>& chosen) const {
+    const photography::References& references = context_.references();
+    return transport::TransportMatrix(references.cameras, references.projectors,
+                                      mixed(verified_.transport.leaves(), again, chosen, references));
   }
 
   void adopt(const Verification& after, const std::vector<std::uint8_t>& better) {
@@ -113,23 +115,25 @@ class Repair {
 
 }  // namespace
 
-std::optional<Interruption> verifyOnly(VerifiedTransport& verified, const TreeContext& context,
-                                       const AcquisitionSettings& settings, Progress& progress) {
-  Interruptible<Verification> found =
+std::optional<sentinels::Interruption> verifyOnly(VerifiedTransport& verified, const TreeContext& context,
+                                                  const AcquisitionSettings& settings, Progress& progress) {
+  sentinels::Interruptible<Verification> found =
       verify(verified.transport, context, {settings, context.references().usable}, progress);
   if (!found) return found.interruption();
   adoptVerification(verified, *found);
   return std::nullopt;
 }
 
-std::optional<Interruption> verifyAndRepair(VerifiedTransport& verified, const TreeContext& context,
-                                            const AcquisitionSettings& settings, Progress& progress) {
+std::optional<sentinels::Interruption> verifyAndRepair(VerifiedTransport& verified,
+                                                       const TreeContext& context,
+                                                       const AcquisitionSettings& settings,
+                                                       Progress& progress) {
   Progress firstPart = progress.part(0.5, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
-  Interruptible<Verification> found =
+  sentinels::Interruptible<Verification> found =
       verify(verified.transport, context, {settings, context.references().usable}, firstPart);
   if (!found) return found.interruption();
   adoptVerification(verified, *found);
   return Repair(verified, found->rows, context, settings).run(progress);
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -5,15 +5,15 @@
 #include <optional>
 #include <vector>
 
-#include "acquisition/settings.h"
-#include "acquisition/tree_context.h"
-#include "transport/transport_matrix.h"
+#include "relucent/acquisition/settings.h"
+#include "relucent/acquisition/tree_context.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// T while it is being verified, and what the verification found so far.
 struct VerifiedTransport {
-  TransportMatrix transport;
+  transport::TransportMatrix transport;
   Stack leafVariance;                 // see Acquisition
   std::vector<std::uint8_t> flagged;  // per camera pixel: wrong
   std::vector<Stack> residual;        // per block size of the test patterns, radiance
@@ -23,17 +23,19 @@ struct VerifiedTransport {
 
 /// Verification of T: error, flags and residual maps. After an interruption they are as they were. Throws: as
 /// Watch::check().
-[[nodiscard]] std::optional<Interruption> verifyOnly(VerifiedTransport& verified, const TreeContext& context,
-                                                     const AcquisitionSettings& settings, Progress& progress);
+[[nodiscard]] std::optional<sentinels::Interruption> verifyOnly(VerifiedTransport& verified,
+                                                                const TreeContext& context,
+                                                                const AcquisitionSettings& settings,
+                                                                Progress& progress);
 
 /// The same; then flagged camera pixels are measured again, at most twice. Only the blocks that they need are
 /// lit: as they are few, so are the conflicts, and many blocks share a frame. A row measured again replaces
 /// the old one if it predicts other test patterns better than that did its own; what stays flagged is left as
 /// a mask. A second time only if the first healed half of them. After an interruption T is as the last repair
 /// that was finished left it. Throws: as Watch::check().
-[[nodiscard]] std::optional<Interruption> verifyAndRepair(VerifiedTransport& verified,
-                                                          const TreeContext& context,
-                                                          const AcquisitionSettings& settings,
-                                                          Progress& progress);
+[[nodiscard]] std::optional<sentinels::Interruption> verifyAndRepair(VerifiedTransport& verified,
+                                                                     const TreeContext& context,
+                                                                     const AcquisitionSettings& settings,
+                                                                     Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/reverification.h"
+#include "relucent/acquisition/reverification.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "acquisition/verification.h"
-#include "base/error.h"
-#include "photography/photographer.h"
+#include "relucent/acquisition/verification.h"
+#include "relucent/base/error.h"
+#include "relucent/photography/photographer.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 // Of the lamp: less is a covered lens or a projector that is off.
@@ -43,7 +43,7 @@ std::vector<float> tolerableNoise(const Stack& flood, const AcquisitionSettings&
   return tolerable;
 }
 
-HdrFrame less(HdrFrame frame, const HdrFrame& black) {
+hdr::HdrFrame less(hdr::HdrFrame frame, const hdr::HdrFrame& black) {
   for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
     frame.radiance[i] -= black.radiance[i];
     frame.variance[i] += black.variance[i];
@@ -75,19 +75,22 @@ void findChanged(Reverification& found, const Verification& verification,
 
 }  // namespace
 
-Reverification verifyAgain(const AcquisitionRun& run, const Acquisition& acquisition, Progress& progress) {
-  Photographer photographer(run.shots, run.linearization);
-  const TransportMatrix& transport = acquisition.transport;
+Reverification verifyAgain(const AcquisitionRun& run, const transport::Acquisition& acquisition,
+                           Progress& progress) {
+  photography::Photographer photographer(run.shots, run.linearization);
+  const transport::TransportMatrix& transport = acquisition.transport;
   require(photographer.cameras().count() == transport.cameras().count() &&
               photographer.projectors().count() == transport.projectors().count(),
           "{} camera and {} projector pixels for a T of {} and {}", photographer.cameras().count(),
           photographer.projectors().count(), transport.cameras().count(), transport.projectors().count());
 
-  HdrFrame black = photographer.takeAll(Stack(3 * transport.projectors().count(), 0.0f), progress);
+  hdr::HdrFrame black = photographer.takeAll(Stack(3 * transport.projectors().count(), 0.0f), progress);
   std::vector<std::uint8_t> counted(acquisition.flagged.size());
   for (std::size_t row = 0; row < counted.size(); ++row) counted[row] = acquisition.flagged[row] == 0 ? 1 : 0;
   std::vector<float> tolerable = tolerableNoise(acquisition.flood, run.settings);
-  auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) -> Interruptible<HdrFrame> {
+  auto light =
+      [&](const Stack& pattern,
+          const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<hdr::HdrFrame> {
     return less(photographer.take(pattern, demands, progress), black);
   };
   AcquisitionSettings patterns = run.settings;
@@ -187,4 +190,4 @@ Judgement judge(const Reverification& found, double errorThen) {
                     as::share(found.changedShare, as::decimals(1)))};
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -4,10 +4,10 @@
 #include <array>
 #include <string_view>
 
-#include "acquisition/acquisition.h"
-#include "base/message.h"
+#include "relucent/acquisition/acquisition.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// What a second look at a measured venue finds. Errors are relative,
 ///   |measured - e - T p| / |measured - e|,
@@ -33,7 +33,8 @@ struct Reverification {
 /// ten patterns; nothing of the calibration is changed. Nothing is watched meanwhile, so the run needs
 /// neither handler nor observer. Throws: Error{device, input}; Cancelled; require() that the sizes are those
 /// of T.
-Reverification verifyAgain(const AcquisitionRun& run, const Acquisition& acquisition, Progress& progress);
+Reverification verifyAgain(const AcquisitionRun& run, const transport::Acquisition& acquisition,
+                           Progress& progress);
 
 /// What follows from it.
 enum class Verdict {
@@ -51,4 +52,4 @@ struct Judgement {
 /// `errorThen`: of the same patterns when T was measured.
 Judgement judge(const Reverification& found, double errorThen);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

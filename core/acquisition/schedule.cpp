@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/schedule.h"
+#include "relucent/acquisition/schedule.h"
 
 #include <algorithm>
 #include <bit>
 #include <numeric>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 constexpr int improvementRounds = 12;
 
 /// The camera pixels of every node: the pairs the other way round.
 struct Footprints {
-  Footprints(const BlockSparse& pairs, std::size_t firstNode, std::size_t nodes) : start(nodes + 1, 0) {
+  Footprints(const transport::BlockSparse& pairs, std::size_t firstNode, std::size_t nodes)
+      : start(nodes + 1, 0) {
     for (std::size_t entry = 0; entry < pairs.blocks(); ++entry) ++start[pairs.column(entry) - firstNode + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
     row.resize(pairs.blocks());
@@ -70,7 +71,7 @@ Schedule colouredInOrder(const std::vector<std::uint32_t>& order, const Footprin
 }
 
 /// How many other nodes each node conflicts with.
-std::vector<std::size_t> degrees(const BlockSparse& pairs, std::size_t firstNode,
+std::vector<std::size_t> degrees(const transport::BlockSparse& pairs, std::size_t firstNode,
                                  const Footprints& footprints) {
   std::size_t nodes = footprints.start.size() - 1;
   std::vector<std::size_t> degree(nodes, 0);
@@ -100,7 +101,7 @@ std::vector<std::uint32_t> descending(std::vector<std::uint32_t> nodes, const Ke
 
 }  // namespace
 
-Schedule schedule(const BlockSparse& pairs, std::size_t firstNode, std::size_t nodes) {
+Schedule schedule(const transport::BlockSparse& pairs, std::size_t firstNode, std::size_t nodes) {
   Footprints footprints(pairs, firstNode, nodes);
   std::vector<std::uint32_t> lit;
   for (std::uint32_t node = 0; node < nodes; ++node)
@@ -121,4 +122,4 @@ Schedule schedule(const BlockSparse& pairs, std::size_t firstNode, std::size_t n
   return best;
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "transport/block_sparse.h"
+#include "relucent/transport/block_sparse.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// Which blocks of the projectors are lit together. Blocks conflict if some camera pixel sees both; blocks
 /// of one colour never do, so each camera pixel's light in such a frame comes from one of them.
@@ -28,6 +28,6 @@ struct Schedule {
 /// 2. The same with the nodes of most conflicts first; the schedule with fewer colours is kept.
 /// 3. A few rounds over whole colour classes, in reverse order: never worse, often better.
 /// Source: Sen et al. 2005 for the conflict graph; Welsh & Powell 1967 for 1 and 2; Culberson 1992 for 3.
-Schedule schedule(const BlockSparse& pairs, std::size_t firstNode, std::size_t nodes);
+Schedule schedule(const transport::BlockSparse& pairs, std::size_t firstNode, std::size_t nodes);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/scheme.h"
+#include "relucent/acquisition/scheme.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 // A flood's sum below this many standard deviations says nothing about its mixing.
@@ -22,7 +22,8 @@ std::vector<float> scaled(std::vector<float> values, double factor) {
 
 }  // namespace
 
-bool Scheme::follows(std::size_t row, const ColourBlock& value, const ColourBlock& variance) const {
+bool Scheme::follows(std::size_t row, const transport::ColourBlock& value,
+                     const transport::ColourBlock& variance) const {
   auto sigmas = static_cast<float>(noiseSigmas);
   for (int i = 0; i < 9; ++i) {
     float noise = sigmas * std::sqrt(std::max(0.0f, variance.data()[i]));
@@ -31,7 +32,7 @@ bool Scheme::follows(std::size_t row, const ColourBlock& value, const ColourBloc
   return false;
 }
 
-Scheme schemeOf(const AcquisitionSettings& settings, const References& references) {
+Scheme schemeOf(const AcquisitionSettings& settings, const photography::References& references) {
   Scheme scheme;
   scheme.lights = lightsOf(settings.colours);
   if (settings.scheme == AcquisitionScheme::adaptive) {
@@ -50,9 +51,9 @@ Scheme schemeOf(const AcquisitionSettings& settings, const References& reference
   return scheme;
 }
 
-ColourBlock channelShares(const LitChannels& light, const ColourBlock& flood,
-                          const ColourBlock& floodVariance) {
-  ColourBlock shares = ColourBlock::Zero();
+transport::ColourBlock channelShares(const LitChannels& light, const transport::ColourBlock& flood,
+                                     const transport::ColourBlock& floodVariance) {
+  transport::ColourBlock shares = transport::ColourBlock::Zero();
   for (int c = 0; c < 3; ++c) {
     float sum = 0.0f, variance = 0.0f, lit = 0.0f;
     for (int k = 0; k < 3; ++k) {
@@ -69,4 +70,4 @@ ColourBlock channelShares(const LitChannels& light, const ColourBlock& flood,
   return shares;
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "acquisition/settings.h"
-#include "photography/references.h"
+#include "relucent/acquisition/settings.h"
+#include "relucent/photography/references.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// The projector channels that a pattern is shown in at once.
 using LitChannels = std::array<bool, 3>;
@@ -37,16 +37,17 @@ struct Scheme {
   std::vector<LitChannels> lights;  // shown one after the other
 
   /// Whether any of a child's nine values is above what the scheme follows.
-  bool follows(std::size_t row, const ColourBlock& value, const ColourBlock& variance) const;
+  bool follows(std::size_t row, const transport::ColourBlock& value,
+               const transport::ColourBlock& variance) const;
 };
 
-Scheme schemeOf(const AcquisitionSettings& settings, const References& references);
+Scheme schemeOf(const AcquisitionSettings& settings, const photography::References& references);
 
 /// How a camera channel's light under `light` divides into projector channels: rows sum to 1 over the
 /// channels that are lit, and are 0 elsewhere. One channel: all its own. White: as in the reference floods,
 ///   share(c, k) = M(c, k) / sum_k M(c, k),
 /// or evenly, where the flood M of the camera pixel is not above its noise.
-ColourBlock channelShares(const LitChannels& light, const ColourBlock& flood,
-                          const ColourBlock& floodVariance);
+transport::ColourBlock channelShares(const LitChannels& light, const transport::ColourBlock& flood,
+                                     const transport::ColourBlock& floodVariance);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

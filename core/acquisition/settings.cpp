@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/settings.h"
+#include "relucent/acquisition/settings.h"
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 std::vector<Message> problems(const AcquisitionSettings& settings) {
   std::vector<Message> found;
@@ -64,4 +64,4 @@ AcquisitionSettings settingsOf(AcquisitionMode mode) {
   return settings;
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/enum_names.h"
-#include "base/message.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// Block sizes of the verification patterns, in turn: 1, 2, 4, 8 pixels.
 inline constexpr int verificationSizes = 4;
@@ -59,4 +59,4 @@ constexpr EnumNames<AcquisitionMode> namesOf(AcquisitionMode) {
 }
 AcquisitionSettings settingsOf(AcquisitionMode mode);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

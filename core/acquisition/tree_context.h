@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "acquisition/scheme.h"
-#include "sentinels/observer.h"
-#include "sentinels/watch.h"
+#include "relucent/acquisition/scheme.h"
+#include "relucent/sentinels/observer.h"
+#include "relucent/sentinels/watch.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// What a tree is measured with. Referred to, not kept: all of it outlives the tree's measurement.
 struct TreeContext {
-  Watch& watch;
+  sentinels::Watch& watch;
   const Scheme& scheme;
-  AcquisitionObserver& observer;  // is told how far the tree is
+  sentinels::AcquisitionObserver& observer;  // is told how far the tree is
 
-  const References& references() const { return watch.references(); }
+  const photography::References& references() const { return watch.references(); }
 };
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

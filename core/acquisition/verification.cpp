@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "acquisition/verification.h"
+#include "relucent/acquisition/verification.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "acquisition/scheme.h"
-#include "base/parallel.h"
-#include "base/random.h"
+#include "relucent/acquisition/scheme.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 namespace {
 
 /// A prediction and the variance that it inherits: a leaf was measured with about the noise of a frame.
@@ -18,8 +18,8 @@ struct Prediction {
   float leafNoise = 0.0f;  // times a frame's variance
 };
 
-Prediction predict(const TransportMatrix& transport, std::size_t row, const Stack& means) {
-  const BlockSparse& leaves = transport.leaves();
+Prediction predict(const transport::TransportMatrix& transport, std::size_t row, const Stack& means) {
+  const transport::BlockSparse& leaves = transport.leaves();
   Prediction prediction;
   for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
     Eigen::Map<const Eigen::Vector3f> mean(&means[3 * static_cast<std::size_t>(leaves.column(entry))]);
@@ -31,7 +31,7 @@ Prediction predict(const TransportMatrix& transport, std::size_t row, const Stac
   return prediction;
 }
 
-std::vector<Prediction> predictions(const TransportMatrix& transport, const Stack& pattern,
+std::vector<Prediction> predictions(const transport::TransportMatrix& transport, const Stack& pattern,
                                     const std::vector<std::uint8_t>& rows) {
   Stack means = transport.layout().means(pattern);
   std::vector<Prediction> predicted(rows.size());
@@ -41,9 +41,10 @@ std::vector<Prediction> predictions(const TransportMatrix& transport, const Stac
   return predicted;
 }
 
-std::vector<Demand> demandsOf(const Expectation& expected, const std::vector<Prediction>& predicted,
-                              const std::vector<std::uint8_t>& rows) {
-  std::vector<Demand> demands(rows.size());
+std::vector<photography::Demand> demandsOf(const Expectation& expected,
+                                           const std::vector<Prediction>& predicted,
+                                           const std::vector<std::uint8_t>& rows) {
+  std::vector<photography::Demand> demands(rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (!rows[row]) continue;
     float brightest = 0.0f;
@@ -55,7 +56,7 @@ std::vector<Demand> demandsOf(const Expectation& expected, const std::vector<Pre
 }
 
 /// One pattern's share of the sums; the squares of the differences are added to `map`.
-std::vector<Residual> compared(const HdrFrame& seen, const std::vector<Prediction>& predicted,
+std::vector<Residual> compared(const hdr::HdrFrame& seen, const std::vector<Prediction>& predicted,
                                const std::vector<std::uint8_t>& rows, Stack& map) {
   std::vector<Residual> residual(rows.size());
   parallelFor(0, rows.size(), 1024, [&](std::size_t row) {
@@ -106,8 +107,8 @@ void Residual::add(const Residual& other) {
   predicted += other.predicted;
 }
 
-Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
-                                   const VerificationTask& task, Progress& progress) {
+sentinels::Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
+                                              const VerificationTask& task, Progress& progress) {
   const std::vector<std::uint8_t>& rows = task.rows;
   const int wanted = task.settings.verificationPatterns;
   std::size_t count = rows.size();
@@ -119,7 +120,7 @@ Interruptible<Verification> verify(const Expectation& expected, const LightSourc
   for (int number = task.first; any && number < task.first + wanted; ++number) {
     Stack pattern = verificationPattern(expected.transport.projectors(), number, task.settings.seed);
     std::vector<Prediction> predicted = predictions(expected.transport, pattern, rows);
-    Interruptible<HdrFrame> seen = light(pattern, demandsOf(expected, predicted, rows));
+    sentinels::Interruptible<hdr::HdrFrame> seen = light(pattern, demandsOf(expected, predicted, rows));
     if (!seen) return seen.interruption();
 
     auto size = static_cast<std::size_t>(number % verificationSizes);
@@ -141,9 +142,10 @@ Interruptible<Verification> verify(const Expectation& expected, const LightSourc
   return verification;
 }
 
-Interruptible<Verification> verify(const TransportMatrix& transport, const TreeContext& context,
-                                   const VerificationTask& task, Progress& progress) {
-  auto light = [&](const Stack& pattern, const std::vector<Demand>& demands) {
+sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& transport,
+                                              const TreeContext& context, const VerificationTask& task,
+                                              Progress& progress) {
+  auto light = [&](const Stack& pattern, const std::vector<photography::Demand>& demands) {
     return context.watch.light(pattern, demands, progress);
   };
   return verify({transport, context.watch.black().radiance, context.scheme.tolerable}, light, task, progress);
@@ -164,4 +166,4 @@ double errorOf(const std::vector<Residual>& rows) {
   return light > 0.0 ? std::sqrt(squared / light) : 0.0;
 }
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

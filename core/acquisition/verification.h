@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 
-#include "acquisition/settings.h"
-#include "acquisition/tree_context.h"
-#include "transport/transport_matrix.h"
+#include "relucent/acquisition/settings.h"
+#include "relucent/acquisition/tree_context.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::acquisition {
 
 /// Sums over patterns, of one camera pixel or of all.
 struct Residual {
@@ -44,12 +44,12 @@ struct Verification {
 };
 
 /// The light of a pattern, radiance less e.
-using LightSource =
-    std::function<Interruptible<HdrFrame>(const Stack& pattern, const std::vector<Demand>& demands)>;
+using LightSource = std::function<sentinels::Interruptible<hdr::HdrFrame>(
+    const Stack& pattern, const std::vector<photography::Demand>& demands)>;
 
 /// What a held-out photograph is compared with, and how good it has to be.
 struct Expectation {
-  const TransportMatrix& transport;
+  const transport::TransportMatrix& transport;
   const Stack& black;                   // e
   const std::vector<float>& tolerable;  // deviation of a frame that is good enough, per camera pixel
 };
@@ -64,13 +64,14 @@ struct VerificationTask {
 /// Photographs random binary patterns of blocks of 1, 2, 4 and 8 pixels, every channel of every block lit or
 /// not by chance, and compares them with T p.
 /// Returns: as `light`.  Throws: what that throws; Cancelled.
-Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
-                                   const VerificationTask& task, Progress& progress);
+sentinels::Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
+                                              const VerificationTask& task, Progress& progress);
 /// The same while T is being measured. Throws: as Watch::check().
-Interruptible<Verification> verify(const TransportMatrix& transport, const TreeContext& context,
-                                   const VerificationTask& task, Progress& progress);
+sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& transport,
+                                              const TreeContext& context, const VerificationTask& task,
+                                              Progress& progress);
 
 /// The pattern `number` of those: a projector stack of zeros and ones.
 Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed);
 
-}  // namespace relucent
+}  // namespace relucent::acquisition

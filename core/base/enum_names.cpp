@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/enum_names.h"
+#include "relucent/base/enum_names.h"
 
 #include <fmt/ranges.h>
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 namespace relucent {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 namespace relucent {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/message.h"
-#include "base/require.h"  // IWYU pragma: export: whoever reports failures also checks contracts
+#include "relucent/base/message.h"
+#include "relucent/base/require.h"  // IWYU pragma: export: whoever reports failures also checks contracts
 
 namespace relucent {
 

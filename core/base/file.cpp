@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/file.h"
+#include "relucent/base/file.h"
 
 #include <fmt/format.h>
 
@@ -7,16 +7,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.h"
-#include "platform/files.h"
-#include "platform/process.h"
+#include "relucent/base/error.h"
+#include "relucent/platform/files.h"
+#include "relucent/platform/process.h"
 
 namespace relucent {
 namespace fs = std::filesystem;
 namespace {
 
 Message adviceFor(const std::error_code& code) {
-  if (isDiskFull(code))
+  if (platform::isDiskFull(code))
     return RELUCENT_MESSAGE("disk.free-space-or-choose-another",
                             "free some space there or choose another disk, then try again");
   switch (code.value()) {
@@ -58,7 +58,7 @@ Message failureOf(Action action, const std::string& reason) {
   failDisk(action, path, std::error_code(code, std::generic_category()));
 }
 
-void checkSynced(const FileOutcome& outcome, const fs::path& path) {
+void checkSynced(const platform::FileOutcome& outcome, const fs::path& path) {
   if (outcome.code) failDisk(outcome.opened ? Action::write : Action::open, path, outcome.code);
 }
 
@@ -77,22 +77,22 @@ std::string readFile(const fs::path& path) {
 
 void writeFileAtomically(const fs::path& path, std::string_view content) {
   writeFileAtomically(path, [&](const fs::path& temporary) {
-    if (const FileOutcome outcome = writeContent(temporary, content); outcome.code)
+    if (const platform::FileOutcome outcome = platform::writeContent(temporary, content); outcome.code)
       failDisk(Action::write, path, outcome.code);
   });
 }
 
 void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  fs::path temporary = path.parent_path() / fmt::format(".{}.part{}{}", path.stem().string(), processNumber(),
-                                                        path.extension().string());
+  fs::path temporary = path.parent_path() / fmt::format(".{}.part{}{}", path.stem().string(),
+                                                        platform::processNumber(), path.extension().string());
   try {
     write(temporary);
-    checkSynced(syncFile(temporary), temporary);
+    checkSynced(platform::syncFile(temporary), temporary);
     std::error_code code;
     fs::rename(temporary, path, code);
     if (code) failDisk(Action::write, path, code);
     fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    checkSynced(syncFolder(folder), folder);
+    checkSynced(platform::syncFolder(folder), folder);
   } catch (...) {
     std::error_code ignored;
     fs::remove(temporary, ignored);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "base/fingerprint.h"
+#include "relucent/base/fingerprint.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 namespace relucent {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
+#include "relucent/base/message.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/require.h"
+#include "relucent/base/require.h"
 
 namespace relucent {
 namespace {

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
 namespace relucent {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "base/progress.h"
+#include "relucent/base/progress.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 namespace relucent {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/message.h"
-#include "base/raster.h"
+#include "relucent/base/message.h"
+#include "relucent/base/raster.h"
 
 namespace relucent {
 

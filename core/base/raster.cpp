@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-#include "base/require.h"
+#include "relucent/base/require.h"
 
 namespace relucent {
 

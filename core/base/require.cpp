@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/require.h"
+#include "relucent/base/require.h"
 
 namespace relucent::detail {
 

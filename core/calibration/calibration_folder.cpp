@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/calibration_folder.h"
+#include "relucent/calibration/calibration_folder.h"
 
 #include <fmt/chrono.h>
 
 #include <algorithm>
 #include <chrono>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "calibration/json.h"
-#include "platform/files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/platform/files.h"
 
 #ifndef RELUCENT_VERSION
 #define RELUCENT_VERSION "development"
 #endif
 
-namespace relucent {
+namespace relucent::calibration {
 namespace fs = std::filesystem;
 namespace {
 
@@ -59,7 +59,7 @@ bool holdsAnything(const fs::path& folder) {
 
 /// Throws: Error{input} if another program holds a lock that excludes this one; Error{disk} if the folder
 /// cannot be opened.
-FolderLock locked(const fs::path& folder, CalibrationFolder::Access access) try {
+platform::FolderLock locked(const fs::path& folder, CalibrationFolder::Access access) try {
   return {folder, access};
 } catch (const std::system_error& failure) {
   if (failure.code() == std::errc::operation_would_block)
@@ -77,7 +77,7 @@ FolderLock locked(const fs::path& folder, CalibrationFolder::Access access) try 
       folder.string());
 }
 
-void checkSynced(const FileOutcome& outcome, const fs::path& path) {
+void checkSynced(const platform::FileOutcome& outcome, const fs::path& path) {
   if (outcome.code)
     throw Error(ErrorKind::disk,
                 RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(outcome.code.message()),
@@ -136,7 +136,7 @@ Json readManifest(const fs::path& file) {
 
 }  // namespace
 
-CalibrationFolder::CalibrationFolder(fs::path path, FolderLock lock, Access access, Json manifest)
+CalibrationFolder::CalibrationFolder(fs::path path, platform::FolderLock lock, Access access, Json manifest)
     : path_(std::move(path)),
       lock_(std::move(lock)),
       access_(access),
@@ -167,7 +167,7 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
                                          "choose another name for the calibration"),
                 path.string());
   createFolder(path);
-  FolderLock lock = locked(path, Access::write);
+  platform::FolderLock lock = locked(path, Access::write);
   if (fs::exists(path / manifestName, code))
     throw Error(
         ErrorKind::input,
@@ -212,7 +212,7 @@ CalibrationFolder CalibrationFolder::open(const fs::path& given, Access access) 
                                          "check the name, or make one by `calibrate`"),
                 path.string());
 
-  FolderLock lock = locked(path, access);
+  platform::FolderLock lock = locked(path, access);
   Json manifest = readManifest(path / manifestName);
   if (access == Access::write) {
     removeLeftovers(path, isManifestLeftover);
@@ -261,12 +261,12 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
       createFolder(temporary);
       writeFiles(temporary);
       for (const fs::directory_entry& entry : fs::directory_iterator(temporary)) {
-        checkSynced(syncFile(entry.path()), entry.path());
+        checkSynced(platform::syncFile(entry.path()), entry.path());
         files[entry.path().filename().string()] = entry.file_size();
       }
-      checkSynced(syncFolder(temporary), temporary);
+      checkSynced(platform::syncFolder(temporary), temporary);
       fs::rename(temporary, results / name);
-      checkSynced(syncFolder(results), results);
+      checkSynced(platform::syncFolder(results), results);
     } catch (const fs::filesystem_error& error) {
       removeLeftovers(results, isResultLeftover);
       throw Error(ErrorKind::disk,
@@ -341,4 +341,4 @@ fs::path fileOf(const StageResult& result, const std::string& name) {
   return path;
 }
 
-}  // namespace relucent
+}  // namespace relucent::calibration

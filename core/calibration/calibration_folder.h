@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "calibration/json_fwd.h"
-#include "calibration/stage.h"
-#include "platform/folder_lock.h"
+#include "relucent/calibration/json_fwd.h"
+#include "relucent/calibration/stage.h"
+#include "relucent/platform/folder_lock.h"
 
-namespace relucent {
+namespace relucent::calibration {
 
 /// A file that belongs to a stage's result, as it was when it was stored.
 struct ResultFile {
@@ -40,7 +40,7 @@ struct StageResult {
 /// for is stale and stays, and is current again when the settings are set back.
 class CalibrationFolder {
  public:
-  using Access = FolderLock::Kind;
+  using Access = platform::FolderLock::Kind;
   static constexpr int version = 1;
   static constexpr const char* manifestName = "calibration.relucent";
 
@@ -80,14 +80,14 @@ class CalibrationFolder {
   bool isCurrent(Stage stage, const std::string& inputs) const;
 
  private:
-  CalibrationFolder(std::filesystem::path path, FolderLock lock, Access access, Json manifest);
+  CalibrationFolder(std::filesystem::path path, platform::FolderLock lock, Access access, Json manifest);
   void writeManifest(const Json& manifest) const;
   void replaceManifest(Json manifest);
   StageResult resultFrom(Stage stage, const Json& entry) const;
   const Json* entriesOf(Stage stage) const;
 
   std::filesystem::path path_;
-  FolderLock lock_;
+  platform::FolderLock lock_;
   Access access_;
   std::shared_ptr<const Json> manifest_;
 };
@@ -96,4 +96,4 @@ class CalibrationFolder {
 /// Throws: Error{format} if it is missing or not as long as it was when it was stored.
 std::filesystem::path fileOf(const StageResult& result, const std::string& name);
 
-}  // namespace relucent
+}  // namespace relucent::calibration

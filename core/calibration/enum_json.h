@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/enum_names.h"
-#include "calibration/json.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/calibration/json.h"
 
 /// Enumerations in files are their names (base/enum_names.h). A name that is unknown is an
 /// Error{format} that lists the known ones: taking another value in its place would go unnoticed.

@@ -3,4 +3,4 @@
 
 #include <nlohmann/json.hpp>
 
-#include "calibration/json_fwd.h"
+#include "relucent/calibration/json_fwd.h"

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/message_json.h"
+#include "relucent/calibration/message_json.h"
 
 #include <optional>
 
 namespace relucent {
+
+using calibration::Json;
+
 namespace {
 
 struct ToJson {

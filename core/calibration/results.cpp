@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/results.h"
+#include "relucent/calibration/results.h"
 
 #include <algorithm>
 #include <map>
 
-#include "base/error.h"
-#include "calibration/message_json.h"
-#include "calibration/results_json.h"
-#include "image/exr.h"
-#include "image/stack_files.h"
-#include "transport/files.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/message_json.h"
+#include "relucent/calibration/results_json.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/stack_files.h"
+#include "relucent/transport/files.h"
 
-namespace relucent {
+namespace relucent::calibration {
 namespace fs = std::filesystem;
 namespace {
 
@@ -21,31 +21,32 @@ const Json& listIn(const Json& values, const char* key) {
   return list.is_array() ? list : list.at(0);  // throws what readingJson() translates
 }
 
-Json toJson(const ResponseCurve& curve) {
+Json toJson(const hdr::ResponseCurve& curve) {
   return Json{{"x", curve.x()}, {"y", curve.y()}};
 }
 
-ResponseCurve curveFrom(const Json& json) {
+hdr::ResponseCurve curveFrom(const Json& json) {
   try {
-    return ResponseCurve(json.at("x").get<std::vector<double>>(), json.at("y").get<std::vector<double>>());
+    return hdr::ResponseCurve(json.at("x").get<std::vector<double>>(),
+                              json.at("y").get<std::vector<double>>());
   } catch (const Error& cause) {
     throw Error(ErrorKind::format, cause.summary(), damagedAdvice);
   }
 }
 
-Json toJson(const std::array<ResponseCurve, 3>& curves) {
+Json toJson(const std::array<hdr::ResponseCurve, 3>& curves) {
   Json json = Json::array();
-  for (const ResponseCurve& curve : curves) json.push_back(toJson(curve));
+  for (const hdr::ResponseCurve& curve : curves) json.push_back(toJson(curve));
   return json;
 }
 
-std::array<ResponseCurve, 3> curvesFrom(const Json& json) {
+std::array<hdr::ResponseCurve, 3> curvesFrom(const Json& json) {
   return {curveFrom(json.at(0)), curveFrom(json.at(1)), curveFrom(json.at(2))};
 }
 
-Json toJson(const CameraModel& camera) {
+Json toJson(const hdr::CameraModel& camera) {
   Json times = Json::array();
-  for (const ExposureTime& time : camera.times)
+  for (const hdr::ExposureTime& time : camera.times)
     times.push_back({{"reported", time.reported}, {"scale", time.scale}});
   return Json{{"response", toJson(camera.response)},
               {"read_noise", camera.readNoise},
@@ -54,8 +55,8 @@ Json toJson(const CameraModel& camera) {
               {"times", times}};
 }
 
-CameraModel cameraFrom(const Json& json) {
-  CameraModel camera;
+hdr::CameraModel cameraFrom(const Json& json) {
+  hdr::CameraModel camera;
   camera.response = curvesFrom(json.at("response"));
   camera.readNoise = json.at("read_noise");
   camera.gain = json.at("gain");
@@ -75,19 +76,19 @@ Rasters rastersFrom(const Json& json) {
 }
 
 Stack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
-  std::vector<Image> images;
+  std::vector<image::Image> images;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    fs::path path = fileOf(result, stackFileName(map, camera));
-    images.push_back(readRgbExr(path, cameras.size(camera)));
-    checkFinite(images.back(), path);
+    fs::path path = fileOf(result, image::stackFileName(map, camera));
+    images.push_back(image::readRgbExr(path, cameras.size(camera)));
+    image::checkFinite(images.back(), path);
   }
-  return stackFromImages(images, cameras);
+  return image::stackFromImages(images, cameras);
 }
 
 /// Calibrations of earlier versions lack some.
 bool hasMap(const StageResult& result, const std::string& map) {
   return std::any_of(result.files.begin(), result.files.end(),
-                     [&](const ResultFile& file) { return file.name == stackFileName(map, 0); });
+                     [&](const ResultFile& file) { return file.name == image::stackFileName(map, 0); });
 }
 
 /// Verification's residuals by the blocks of its patterns: 1, 2, 4, 8 pixels.
@@ -108,7 +109,7 @@ constexpr const char* varianceUnits = "(camera signal per second)^2";
 
 namespace {
 
-Json timesToJson(const ShotTimes& times) {
+Json timesToJson(const rig::ShotTimes& times) {
   return {{"shots", times.shots},
           {"exposures", times.exposures},
           {"showing", times.showing},
@@ -122,8 +123,8 @@ Json timesToJson(const ShotTimes& times) {
 }
 
 /// A calibration of an older version has none.
-ShotTimes timesFrom(const Json& json) {
-  ShotTimes times;
+rig::ShotTimes timesFrom(const Json& json) {
+  rig::ShotTimes times;
   times.shots = json.value("shots", 0);
   times.exposures = json.value("exposures", 0);
   times.showing = json.value("showing", 0.0);
@@ -140,12 +141,12 @@ ShotTimes timesFrom(const Json& json) {
 }  // namespace
 
 StageResult storeLinearization(CalibrationFolder& folder, const std::string& inputs,
-                               const Linearization& linearization, const StageCost& cost) {
+                               const linearization::Linearization& linearization, const StageCost& cost) {
   Json projectors = Json::array();
-  for (const ProjectorResponse& projector : linearization.projectors)
+  for (const linearization::ProjectorResponse& projector : linearization.projectors)
     projectors.push_back(toJson(projector.channels));
   Json cameras = Json::array();
-  for (const CameraModel& camera : linearization.cameras) cameras.push_back(toJson(camera));
+  for (const hdr::CameraModel& camera : linearization.cameras) cameras.push_back(toJson(camera));
   return folder.store(Stage::linearization, inputs,
                       Json{{"projectors", projectors},
                            {"cameras", cameras},
@@ -156,9 +157,9 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
                            {"cost", toJson(cost)}});
 }
 
-Linearization loadLinearization(const StageResult& result) {
+linearization::Linearization loadLinearization(const StageResult& result) {
   return readingJson(result, [](const Json& values) {
-    Linearization linearization;
+    linearization::Linearization linearization;
     for (const Json& projector : listIn(values, "projectors"))
       linearization.projectors.push_back({curvesFrom(projector)});
     for (const Json& camera : listIn(values, "cameras")) linearization.cameras.push_back(cameraFrom(camera));
@@ -171,7 +172,7 @@ Linearization loadLinearization(const StageResult& result) {
 }
 
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
-                             const Acquisition& acquisition, const StageCost& cost) {
+                             const transport::Acquisition& acquisition, const StageCost& cost) {
   const Rasters& cameras = acquisition.transport.cameras();
   Json values{{"cameras", toJson(cameras)},
               {"projectors", toJson(acquisition.transport.projectors())},
@@ -183,26 +184,27 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"findings", acquisition.findings},
               {"cost", toJson(cost)}};
   return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
-    saveTransport(path / "transport.npz", acquisition.transport);
-    writeStack(path, "black", acquisition.black, cameras, radianceUnits);
-    writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
-    writeStack(path, "flood", acquisition.flood, cameras, radianceUnits);
-    writeStack(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
+    transport::saveTransport(path / "transport.npz", acquisition.transport);
+    image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);
+    image::writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
+    image::writeStack(path, "flood", acquisition.flood, cameras, radianceUnits);
+    image::writeStack(path, "flood-variance", acquisition.floodVariance, cameras, varianceUnits);
     if (!acquisition.leafVariance.empty())
-      writeStack(path, "leaf-variance", acquisition.leafVariance, cameras, varianceUnits);
+      image::writeStack(path, "leaf-variance", acquisition.leafVariance, cameras, varianceUnits);
     for (std::size_t size = 0; size < acquisition.residual.size(); ++size)
-      writeStack(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
-    writeStack(path, "flagged", stackFromFlags(acquisition.flagged), cameras, "1 where verification failed");
+      image::writeStack(path, residualName(size), acquisition.residual[size], cameras, radianceUnits);
+    image::writeStack(path, "flagged", image::stackFromFlags(acquisition.flagged), cameras,
+                      "1 where verification failed");
   });
 }
 
-Acquisition loadAcquisition(const StageResult& result) {
+transport::Acquisition loadAcquisition(const StageResult& result) {
   return readingJson(result, [&](const Json& values) {
-    Acquisition acquisition;
+    transport::Acquisition acquisition;
     Rasters cameras = rastersFrom(values.at("cameras"));
     Rasters projectors = rastersFrom(values.at("projectors"));
     fs::path transport = fileOf(result, "transport.npz");
-    acquisition.transport = loadTransport(transport);
+    acquisition.transport = transport::loadTransport(transport);
     if (acquisition.transport.cameras() != cameras || acquisition.transport.projectors() != projectors)
       throw Error(
           ErrorKind::format,
@@ -228,4 +230,4 @@ Acquisition loadAcquisition(const StageResult& result) {
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::calibration

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "calibration/calibration_folder.h"
-#include "linearization/linearization.h"
-#include "transport/acquisition.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/transport/acquisition.h"
 
 /// Results of the stages on disk and back, the same bits. What is small is JSON in the manifest, met in this
 /// folder only. `inputs` is the fingerprint of all that the stage was given (stage_fingerprint.h); the cost
 /// is kept with the result. Storing throws Error{disk}; reading throws Error{format} if a file or a value is
 /// missing, damaged or contradicts another.
-namespace relucent {
+namespace relucent::calibration {
 
 /// Curves, camera models and findings, all in the manifest.
 StageResult storeLinearization(CalibrationFolder& folder, const std::string& inputs,
-                               const Linearization& linearization, const StageCost& cost);
-Linearization loadLinearization(const StageResult& result);
+                               const linearization::Linearization& linearization, const StageCost& cost);
+linearization::Linearization loadLinearization(const StageResult& result);
 
 /// transport.npz (the leaves, see transport/files.h), and per camera black, flood, their variances and the
 /// flags as OpenEXR; figures and findings in the manifest.
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
-                             const Acquisition& acquisition, const StageCost& cost);
-Acquisition loadAcquisition(const StageResult& result);
+                             const transport::Acquisition& acquisition, const StageCost& cost);
+transport::Acquisition loadAcquisition(const StageResult& result);
 
 /// Keeps how the inverse is made, for the settings as they are.
 StageResult storeInverse(CalibrationFolder& folder, const InverseResult& result);
@@ -51,4 +51,4 @@ ResultOf<stage> resultFrom(const StageResult& stored) {
 /// The results of all stages: of each the one for the settings as they are, else the newest.
 StageResults resultsIn(const CalibrationFolder& folder);
 
-}  // namespace relucent
+}  // namespace relucent::calibration

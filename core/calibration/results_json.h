@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "base/error.h"
-#include "calibration/calibration_folder.h"
-#include "calibration/json.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/json.h"
 
 /// What the files of this folder that turn results into JSON and back have in common.
-namespace relucent {
+namespace relucent::calibration {
 
 inline constexpr auto damagedAdvice = RELUCENT_ENGLISH_MESSAGE(
     "calibration.restore-or-calibrate-again", "restore the calibration from a copy, or calibrate again");
@@ -32,4 +32,4 @@ Json toJson(const StageCost& cost);
 /// As lists of width and height.
 std::vector<Size> sizesFrom(const Json& json);
 
-}  // namespace relucent
+}  // namespace relucent::calibration

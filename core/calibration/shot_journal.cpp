@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/shot_journal.h"
+#include "relucent/calibration/shot_journal.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/fingerprint.h"
-#include "calibration/enum_json.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/calibration/enum_json.h"
 
-namespace relucent {
+namespace relucent::calibration {
 namespace fs = std::filesystem;
 namespace {
 
@@ -50,7 +50,7 @@ bool appendCodes(std::string& samples, const std::vector<float>& signal, int bit
 }
 
 /// Appends the samples of a frame in the smallest form that loses nothing; its name goes into the header.
-SampleCoding appendFrame(std::string& samples, const RawFrame& frame) {
+SampleCoding appendFrame(std::string& samples, const rig::RawFrame& frame) {
   const std::vector<float>& signal = frame.signal.data();
   if (frame.bits >= 1 && frame.bits <= 8 && appendCodes<std::uint8_t>(samples, signal, frame.bits))
     return SampleCoding::codes8;
@@ -77,17 +77,17 @@ std::string checksumOf(const Json& headerWithoutChecksum, std::string_view sampl
   return Fingerprint().add(headerWithoutChecksum.dump()).add(samples).hex();
 }
 
-std::string serialise(const Shot& shot) {
+std::string serialise(const rig::Shot& shot) {
   std::size_t samplesAtMost = 0;
   for (const auto& exposure : shot.frames)
-    for (const RawFrame& frame : exposure) samplesAtMost += frame.signal.data().size() * sizeof(float);
+    for (const rig::RawFrame& frame : exposure) samplesAtMost += frame.signal.data().size() * sizeof(float);
   std::string samples;
   samples.reserve(samplesAtMost);
 
   Json frames = Json::array();
   for (const auto& exposure : shot.frames) {
     Json cameras = Json::array();
-    for (const RawFrame& frame : exposure) {
+    for (const rig::RawFrame& frame : exposure) {
       SampleCoding coding = appendFrame(samples, frame);
       cameras.push_back({{"width", frame.signal.width()},
                          {"height", frame.signal.height()},
@@ -132,9 +132,10 @@ std::size_t bytesOf(const Json& frame) {
          bytesOf(frame.at("samples").get<SampleCoding>());
 }
 
-RawFrame frameFrom(const Json& description, const char*& from) {
+rig::RawFrame frameFrom(const Json& description, const char*& from) {
   Size size{description.at("width"), description.at("height")};
-  RawFrame frame{Image(size, description.at("channels")), description.at("bits"), description.at("seconds")};
+  rig::RawFrame frame{image::Image(size, description.at("channels")), description.at("bits"),
+                      description.at("seconds")};
   switch (description.at("samples").get<SampleCoding>()) {
     case SampleCoding::codes8:
       from = readSamples<std::uint8_t>(from, frame.signal.data(), fullScale(frame.bits));
@@ -150,7 +151,7 @@ RawFrame frameFrom(const Json& description, const char*& from) {
 }
 
 /// The shot in a file's content; none unless every byte is as it was written.
-std::optional<Shot> parse(const std::string& content) {
+std::optional<rig::Shot> parse(const std::string& content) {
   std::size_t line = content.find('\n');
   if (line == std::string::npos) return std::nullopt;
   Json header =
@@ -168,11 +169,11 @@ std::optional<Shot> parse(const std::string& content) {
     for (const Json& frame : exposure) expected += bytesOf(frame);
   if (expected != samples.size()) return std::nullopt;
 
-  Shot shot{
+  rig::Shot shot{
       {header.at("stage"), header.at("number")}, header.at("fingerprint"), {}, header.at("exposures_asked")};
   const char* from = samples.data();
   for (const Json& exposure : header.at("frames")) {
-    std::vector<RawFrame>& cameras = shot.frames.emplace_back();
+    std::vector<rig::RawFrame>& cameras = shot.frames.emplace_back();
     for (const Json& frame : exposure) cameras.push_back(frameFrom(frame, from));
   }
   return shot;
@@ -199,18 +200,18 @@ ShotJournal::ShotJournal(fs::path folder) : folder_(std::move(folder)) {
   for (const fs::path& path : leftovers) fs::remove(path, ignored);
 }
 
-fs::path ShotJournal::pathOf(const ShotId& id, const std::string& fingerprint) const {
+fs::path ShotJournal::pathOf(const rig::ShotId& id, const std::string& fingerprint) const {
   require(isPlain(id.stage) && isPlain(fingerprint), "'{}' and '{}' must be letters, digits, - and _",
           id.stage, fingerprint);
   return folder_ / fmt::format("{}-{:06}-{}.shot", id.stage, id.number, fingerprint.substr(0, 8));
 }
 
-std::optional<Shot> ShotJournal::find(const ShotId& id, const std::string& fingerprint) {
+std::optional<rig::Shot> ShotJournal::find(const rig::ShotId& id, const std::string& fingerprint) {
   fs::path path = pathOf(id, fingerprint);
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return std::nullopt;
   try {
-    std::optional<Shot> shot = parse(readFile(path));
+    std::optional<rig::Shot> shot = parse(readFile(path));
     if (!shot || shot->id != id || shot->fingerprint != fingerprint) return std::nullopt;
     return shot;
   } catch (const Error&) {
@@ -220,11 +221,11 @@ std::optional<Shot> ShotJournal::find(const ShotId& id, const std::string& finge
   }
 }
 
-void ShotJournal::keep(const Shot& shot) {
+void ShotJournal::keep(const rig::Shot& shot) {
   writeFileAtomically(pathOf(shot.id, shot.fingerprint), serialise(shot));
 }
 
-void ShotJournal::forget(const ShotId& id, const std::string& fingerprint) {
+void ShotJournal::forget(const rig::ShotId& id, const std::string& fingerprint) {
   fs::path path = pathOf(id, fingerprint);
   std::error_code code;
   fs::remove(path, code);
@@ -238,4 +239,4 @@ void ShotJournal::forget(const ShotId& id, const std::string& fingerprint) {
         path.string());
 }
 
-}  // namespace relucent
+}  // namespace relucent::calibration

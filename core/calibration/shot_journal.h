@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "rig/shot.h"
+#include "relucent/rig/shot.h"
 
-namespace relucent {
+namespace relucent::calibration {
 
 /// Shots on disk, one file each: what makes a measurement resumable.
 ///
@@ -15,24 +15,24 @@ namespace relucent {
 /// compressed, because that would take longer than the photograph (figures: core/calibration/README.md).
 ///
 /// Names: <stage>-<number>-<fingerprint>.shot, so that shots taken with other settings stay.
-class ShotJournal : public ShotLog {
+class ShotJournal : public rig::ShotLog {
  public:
   /// Creates `folder`, and clears away what an interrupted write left there. Throws: Error{disk}.
   explicit ShotJournal(std::filesystem::path folder);
 
   /// The same bits that keep() was given. A file that is foreign, damaged or cut short counts as none.
-  std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override;
+  std::optional<rig::Shot> find(const rig::ShotId& id, const std::string& fingerprint) override;
   /// Throws: Error{disk}; then everything kept before is as it was.
-  void keep(const Shot& shot) override;
+  void keep(const rig::Shot& shot) override;
   /// Throws: Error{disk}.
-  void forget(const ShotId& id, const std::string& fingerprint) override;
+  void forget(const rig::ShotId& id, const std::string& fingerprint) override;
 
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  std::filesystem::path pathOf(const ShotId& id, const std::string& fingerprint) const;
+  std::filesystem::path pathOf(const rig::ShotId& id, const std::string& fingerprint) const;
 
   std::filesystem::path folder_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::calibration

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <tuple>
 
-#include "base/enum_names.h"
-#include "calibration/stage_results.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/calibration/stage_results.h"
 
-namespace relucent {
+namespace relucent::calibration {
 
 /// The stages of a calibration in their order.
 enum class Stage { camera, linearization, acquisition, threshold, inverse, clustering, content };
@@ -95,4 +95,4 @@ struct OptionalResults<std::tuple<Records...>> {
 };
 using StageResults = OptionalResults<std::remove_const_t<decltype(stageTable)>>::type;
 
-}  // namespace relucent
+}  // namespace relucent::calibration

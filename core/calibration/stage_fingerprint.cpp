@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_fingerprint.h"
 
-#include "base/fingerprint.h"
-#include "calibration/json.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/calibration/json.h"
 
-namespace relucent {
+namespace relucent::calibration {
 namespace {
 
 std::string hashOf(const Json& json) {
@@ -32,4 +32,4 @@ std::string fingerprintOf(const CalibrationFolder& folder, Stage stage) {
   return fingerprintAfter(inputs, description, folder.settings());
 }
 
-}  // namespace relucent
+}  // namespace relucent::calibration

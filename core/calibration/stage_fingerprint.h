@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "calibration/calibration_folder.h"
+#include "relucent/calibration/calibration_folder.h"
 
-namespace relucent {
+namespace relucent::calibration {
 
 /// A fingerprint of everything that a stage's result depends on, as the manifest says it: the devices, and
 /// the settings of this stage and of all before it. Each includes that of its predecessor, so that a changed
@@ -20,4 +20,4 @@ std::string fingerprintOf(const CalibrationFolder& folder, Stage stage);
 /// Version 1 adds nothing, so that what was measured before stages had versions is still current.
 std::string fingerprintAfter(const std::string& inputs, const StageDescription& stage, const Json& settings);
 
-}  // namespace relucent
+}  // namespace relucent::calibration

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/stage_progress.h"
+#include "relucent/calibration/stage_progress.h"
 
-#include "calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_fingerprint.h"
 
-namespace relucent {
+namespace relucent::calibration {
 
 StageProgress progressOf(const CalibrationFolder& folder, Stage stage) {
   if (currentResultOf(folder, stage)) return StageProgress::done;
@@ -19,4 +19,4 @@ std::optional<StageResult> resultOf(const CalibrationFolder& folder, Stage stage
   return folder.latest(stage);
 }
 
-}  // namespace relucent
+}  // namespace relucent::calibration

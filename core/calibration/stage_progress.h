@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "calibration/calibration_folder.h"
+#include "relucent/calibration/calibration_folder.h"
 
-namespace relucent {
+namespace relucent::calibration {
 
 /// Where a stage stands.
 enum class StageProgress {
@@ -21,4 +21,4 @@ std::optional<StageResult> currentResultOf(const CalibrationFolder& folder, Stag
 /// The same, else the newest of all; none if the stage was never done.
 std::optional<StageResult> resultOf(const CalibrationFolder& folder, Stage stage);
 
-}  // namespace relucent
+}  // namespace relucent::calibration

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/message_json.h"
-#include "calibration/results.h"
-#include "calibration/results_json.h"
-#include "calibration/stage_fingerprint.h"
-#include "calibration/stage_progress.h"
+#include "relucent/calibration/message_json.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/results_json.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_progress.h"
 
-namespace relucent {
+namespace relucent::calibration {
 namespace {
 
 /// Sets `value` where the document has it.
@@ -164,4 +164,4 @@ StageResults resultsIn(const CalibrationFolder& folder) {
   return resultsOf(folder, std::make_index_sequence<stageCount>{});
 }
 
-}  // namespace relucent
+}  // namespace relucent::calibration

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "base/raster.h"
+#include "relucent/base/message.h"
+#include "relucent/base/raster.h"
 
 /// What the results of the stages say, one struct a stage: what the manifest keeps of them for people and for
 /// later stages. The large parts are files beside it (results.h). What a manifest of an earlier version lacks
 /// has its default.
-namespace relucent {
+namespace relucent::calibration {
 
 /// How well an import predicts the patterns that it held out: normalised root mean squares.
 struct ImportScore {
@@ -81,4 +81,4 @@ struct ContentResult {
   double deltaE = 0.0;     // mean CIEDE2000, predicted
 };
 
-}  // namespace relucent
+}  // namespace relucent::calibration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/arguments.h"
+#include "relucent/cli/arguments.h"
 
 #include <fmt/format.h>
 
@@ -8,18 +8,18 @@
 #include <charconv>
 #include <cstdlib>
 
-#include "cli/options.h"
-#include "pipeline/versions.h"
+#include "relucent/cli/options.h"
+#include "relucent/pipeline/versions.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
 constexpr const char* programName = "relucent-cli";
 
 std::string version() {
-  std::vector<LibraryVersion> libraries = coreLibraries();
+  std::vector<pipeline::LibraryVersion> libraries = pipeline::coreLibraries();
   libraries.insert(libraries.begin(), {"CLI11", CLI11_VERSION});
-  return versionText(programName, libraries);
+  return pipeline::versionText(programName, libraries);
 }
 
 std::function<Command()> addVenuesOptions(CLI::App*) {
@@ -139,4 +139,4 @@ std::filesystem::path defaultCache() {
   return {};
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

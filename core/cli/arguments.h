@@ -7,23 +7,23 @@
 #include <variant>
 #include <vector>
 
-#include "pipeline/acquisition_bench.h"
-#include "pipeline/bench.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/check.h"
-#include "pipeline/compensate.h"
-#include "pipeline/difference.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/export.h"
-#include "pipeline/import.h"
-#include "pipeline/plan.h"
-#include "pipeline/prove.h"
-#include "pipeline/relight.h"
-#include "pipeline/report.h"
-#include "pipeline/separate.h"
-#include "pipeline/verify.h"
+#include "relucent/pipeline/acquisition_bench.h"
+#include "relucent/pipeline/bench.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/check.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/difference.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/export.h"
+#include "relucent/pipeline/import.h"
+#include "relucent/pipeline/plan.h"
+#include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/report.h"
+#include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/verify.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 /// What the command line asks for, one struct a subcommand.
 struct PrintText {  // --help, --version
@@ -34,12 +34,12 @@ struct ListVenues {};
 struct ListDevices {};
 /// How projector and camera work together.
 struct CheckRig {
-  CheckSettings settings;
+  pipeline::CheckSettings settings;
   std::filesystem::path cache;
 };
 struct Calibrate {
   std::filesystem::path calibration;
-  CalibrateSettings settings;
+  pipeline::CalibrateSettings settings;
   std::filesystem::path cache;
 };
 struct Resume {
@@ -48,50 +48,50 @@ struct Resume {
 };
 struct Verify {
   std::filesystem::path calibration;
-  VerifySettings settings;
+  pipeline::VerifySettings settings;
   std::filesystem::path cache;
 };
 struct Prove {
   std::filesystem::path calibration;
-  ProveSettings settings;
+  pipeline::ProveSettings settings;
   std::filesystem::path cache;
 };
 struct ImportPictures {
   std::filesystem::path calibration;
-  ImportPicturesSettings settings;
+  pipeline::ImportPicturesSettings settings;
 };
 struct Plan {
-  PatternPlanSettings settings;
+  importing::PatternPlanSettings settings;
   std::filesystem::path out;
 };
 struct Compensate {
   std::filesystem::path calibration;
-  CompensateSettings settings;
+  pipeline::CompensateSettings settings;
 };
 struct Evaluate {
   std::filesystem::path calibration;
-  EvaluateSettings settings;
+  pipeline::EvaluateSettings settings;
   std::filesystem::path cache;
 };
 struct Export {
   std::filesystem::path calibration;
-  ExportSettings settings;
+  pipeline::ExportSettings settings;
 };
 struct Relight {
   std::filesystem::path calibration;
-  RelightSettings settings;
+  pipeline::RelightSettings settings;
   bool dual = false;
 };
 struct Separate {
   std::filesystem::path calibration;
-  SeparateSettings settings;
+  pipeline::SeparateSettings settings;
 };
 struct Difference {
-  DifferenceSettings settings;
+  pipeline::DifferenceSettings settings;
 };
 struct Report {
   std::filesystem::path calibration;
-  ReportSettings settings;
+  pipeline::ReportSettings settings;
   std::filesystem::path cache;
 };
 /// What `bench` times: programs of their own, or single parts of core.
@@ -105,8 +105,8 @@ constexpr EnumNames<BenchSuite> namesOf(BenchSuite) {
 struct Bench {
   BenchSuite suite = BenchSuite::parts;
   std::string name;  // of parts: only those that contain it
-  AcquisitionBenchSettings acquisition;
-  BackendChoice backend = BackendChoice::automatic;  // of `engine`
+  pipeline::AcquisitionBenchSettings acquisition;
+  engine::BackendChoice backend = engine::BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
@@ -139,4 +139,4 @@ Size parseSize(const std::string& text);
 /// which means no cache, where there is neither.
 std::filesystem::path defaultCache();
 
-}  // namespace relucent
+}  // namespace relucent::cli

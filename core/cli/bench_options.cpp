@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "cli/options.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
-void addAcquisition(CLI::App* sub, AcquisitionBenchSettings& settings) {
+void addAcquisition(CLI::App* sub, pipeline::AcquisitionBenchSettings& settings) {
   CLI::Option_group* group = sub->add_option_group("acquisition", "Options of `acquisition`");
   group->add_option("--venue", settings.venues, "A simulated venue; may be given several times; default: all")
       ->type_name("NAME");
@@ -37,4 +37,4 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
   };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "cli/options.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
 /// A folder as it is known from everywhere: `resume` may be called elsewhere.
@@ -15,16 +15,16 @@ std::string absolutePath(const std::string& folder) {
 
 std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   struct Places {
-    VenueSettings venue;
-    CommandRigSettings commands;
-    ReplayRigSettings replay;
+    venue::VenueSettings venue;
+    pipeline::CommandRigSettings commands;
+    pipeline::ReplayRigSettings replay;
     Size projector{256, 192};
     Size camera{160, 120};
     std::uint64_t seed = 1;
   };
   auto command = std::make_shared<Calibrate>();
   auto places = std::make_shared<Places>();
-  CalibrateSettings& settings = command->settings;
+  pipeline::CalibrateSettings& settings = command->settings;
 
   addFolder(sub, command->calibration, "Folder of the calibration; created");
   CLI::Option* venue = sub->add_option("--venue", places->venue.name, "A simulated venue, see `venues`")
@@ -42,14 +42,16 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->type_name("N")
       ->capture_default_str();
   // Before all that changes single settings: a mode sets all of them.
-  addNamed<AcquisitionMode>(sub, "--acquisition",
-                            "How the light transport is measured: " + listOfNames<AcquisitionMode>(),
-                            [&settings](AcquisitionMode mode) { settings.acquisition = settingsOf(mode); })
+  addNamed<acquisition::AcquisitionMode>(
+      sub, "--acquisition",
+      "How the light transport is measured: " + listOfNames<acquisition::AcquisitionMode>(),
+      [&settings](acquisition::AcquisitionMode mode) { settings.acquisition = settingsOf(mode); })
       ->type_name("MODE")
       ->default_str("adaptive");
-  addNamed<LitColours>(sub, "--colour",
-                       "Colours of the patterns: " + listOfNames<LitColours>() + "; fast uses white",
-                       [&settings](LitColours colours) { settings.acquisition.colours = colours; })
+  addNamed<acquisition::LitColours>(
+      sub, "--colour",
+      "Colours of the patterns: " + listOfNames<acquisition::LitColours>() + "; fast uses white",
+      [&settings](acquisition::LitColours colours) { settings.acquisition.colours = colours; })
       ->type_name("MODE");
   sub->add_flag("--mirrored", settings.acquisition.mayBeMirrored,
                 "Pictures appear mirrored on purpose: rear projection, a mirror");
@@ -99,7 +101,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
               "A recording to use instead of projector and camera")
           ->type_name("DIR");
 
-  DeviceModelSettings& devices = places->venue.devices;
+  venue::DeviceModelSettings& devices = places->venue.devices;
   CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Simulated imperfections");
   auto simulate = [&](const char* name, auto& value, const char* what) {
     simulated->add_option(name, value, what)->capture_default_str();
@@ -172,4 +174,4 @@ std::function<Command()> addResumeOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

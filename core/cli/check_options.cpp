@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "cli/options.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 std::function<Command()> addDevicesOptions(CLI::App* sub) {
   sub->footer("A camera's address, KIND:PLACE, is what `calibrate --camera` takes:\n" +
-              cameraRegistry().help());
+              devices::cameraRegistry().help());
   return [] { return Command(ListDevices{}); };
 }
 
 std::function<Command()> addCheckOptions(CLI::App* sub) {
   struct Places {
-    CommandRigSettings commands;
-    VenueSettings venue;
+    pipeline::CommandRigSettings commands;
+    venue::VenueSettings venue;
     Size size;
     double frameRate = 60.0;
   };
   auto command = std::make_shared<CheckRig>();
   auto places = std::make_shared<Places>();
-  CommandRigSettings& commands = places->commands;
+  pipeline::CommandRigSettings& commands = places->commands;
 
   CLI::Option* show = sub->add_option("--projector-command", commands.projectorCommand,
                                       "Command that shows the file {image} and returns")
@@ -72,4 +72,4 @@ std::function<Command()> addVerifyOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

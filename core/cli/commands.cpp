@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.h"
+#include "relucent/cli/commands.h"
 
 #include <fmt/format.h>
 
 #include <iostream>
 #include <new>
 
-#include "base/error.h"
-#include "calibration/calibration_folder.h"
-#include "cli/devices_document.h"
-#include "cli/interruption.h"
-#include "cli/terminal_progress.h"
-#include "cli/texts.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/cli/devices_document.h"
+#include "relucent/cli/interruption.h"
+#include "relucent/cli/terminal_progress.h"
+#include "relucent/cli/texts.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
 enum ExitStatus { done = 0, failed = 1, wrongUsage = 2, remeasure = 3, startAgain = 4, interrupted = 130 };
@@ -28,13 +28,13 @@ void refuse(const std::vector<Message>& problems) {
                 RELUCENT_ENGLISH_MESSAGE("command.choose-other-values", "choose other values"));
 }
 
-int statusOf(Verdict verdict) {
+int statusOf(acquisition::Verdict verdict) {
   switch (verdict) {
-    case Verdict::stillGood:
+    case acquisition::Verdict::stillGood:
       return done;
-    case Verdict::remeasure:
+    case acquisition::Verdict::remeasure:
       return remeasure;
-    case Verdict::startAgain:
+    case acquisition::Verdict::startAgain:
       return startAgain;
   }
   return failed;
@@ -53,31 +53,32 @@ struct Executor {
 
   Outcome operator()(const ListVenues&) const {
     std::string text;
-    for (const VenueDescription& venue : venues())
+    for (const venue::VenueDescription& venue : venue::venues())
       text += fmt::format("{:<10} {}\n", venue.name, venue.sentence);
-    return {toJson(venues()), text};
+    return {pipeline::toJson(venue::venues()), text};
   }
 
-  Outcome operator()(const ListDevices&) const { return outcomeOf(cameraRegistry().list()); }
+  Outcome operator()(const ListDevices&) const { return outcomeOf(devices::cameraRegistry().list()); }
 
   Outcome operator()(const CheckRig& command) const {
     refuse(problems(command.settings));
-    const RigCheck found = checkRig(command.settings, command.cache, progress);
+    const pipeline::RigCheck found = pipeline::checkRig(command.settings, command.cache, progress);
     return {toJson(found), textOf(found)};
   }
 
   Outcome operator()(const Calibrate& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(calibrate(command.calibration, command.settings, command.cache, progress));
+    return outcomeOf(pipeline::calibrate(command.calibration, command.settings, command.cache, progress));
   }
 
   Outcome operator()(const Resume& command) const {
-    return outcomeOf(resume(command.calibration, command.cache, progress));
+    return outcomeOf(pipeline::resume(command.calibration, command.cache, progress));
   }
 
   Outcome operator()(const Verify& command) const {
     refuse(problems(command.settings));
-    VerifyResult result = verifyCalibration(command.calibration, command.settings, command.cache, progress);
+    pipeline::VerifyResult result =
+        pipeline::verifyCalibration(command.calibration, command.settings, command.cache, progress);
     Outcome outcome = outcomeOf(result);
     outcome.status = statusOf(result.judgement.verdict);
     return outcome;
@@ -85,22 +86,23 @@ struct Executor {
 
   Outcome operator()(const Prove& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(proveCalibration(command.calibration, command.settings, command.cache, progress));
+    return outcomeOf(
+        pipeline::proveCalibration(command.calibration, command.settings, command.cache, progress));
   }
 
   Outcome operator()(const ImportPictures& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(importPictures(command.calibration, command.settings, progress));
+    return outcomeOf(pipeline::importPictures(command.calibration, command.settings, progress));
   }
 
   Outcome operator()(const Plan& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(exportPlan(command.settings, command.out, progress));
+    return outcomeOf(pipeline::exportPlan(command.settings, command.out, progress));
   }
 
   Outcome operator()(const Compensate& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(compensate(command.calibration, command.settings, progress));
+    return outcomeOf(pipeline::compensate(command.calibration, command.settings, progress));
   }
 
   Outcome operator()(const Evaluate& command) const {
@@ -109,22 +111,22 @@ struct Executor {
   }
 
   Outcome operator()(const Export& command) const {
-    return outcomeOf(exportCalibration(command.calibration, command.settings, progress));
+    return outcomeOf(pipeline::exportCalibration(command.calibration, command.settings, progress));
   }
 
   Outcome operator()(const Relight& command) const {
     return outcomeOf(command.dual ? dual(command.calibration, command.settings, progress)
-                                  : relight(command.calibration, command.settings, progress));
+                                  : pipeline::relight(command.calibration, command.settings, progress));
   }
 
   Outcome operator()(const Separate& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(separate(command.calibration, command.settings, progress));
+    return outcomeOf(pipeline::separate(command.calibration, command.settings, progress));
   }
 
   Outcome operator()(const Difference& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(pictureDifference(command.settings, progress));
+    return outcomeOf(pipeline::pictureDifference(command.settings, progress));
   }
 
   Outcome operator()(const Report& command) const {
@@ -134,16 +136,16 @@ struct Executor {
   Outcome operator()(const Bench& command) const {
     switch (command.suite) {
       case BenchSuite::inverse:
-        return outcomeOf(benchInverse(command.cache, progress));
+        return outcomeOf(pipeline::benchInverse(command.cache, progress));
       case BenchSuite::engine:
-        return outcomeOf(benchEngine(command.backend, progress));
+        return outcomeOf(pipeline::benchEngine(command.backend, progress));
       case BenchSuite::acquisition:
         refuse(problems(command.acquisition));
-        return outcomeOf(benchAcquisition(command.acquisition, command.cache, progress));
+        return outcomeOf(pipeline::benchAcquisition(command.acquisition, command.cache, progress));
       case BenchSuite::parts:
         break;
     }
-    return outcomeOf(bench(command.name, progress));
+    return outcomeOf(pipeline::bench(command.name, progress));
   }
 };
 
@@ -163,7 +165,8 @@ std::string interruptedSentence(const Command& command) {
   if (const auto* calibrate = std::get_if<Calibrate>(&command)) folder = &calibrate->calibration;
   if (const auto* resume = std::get_if<Resume>(&command)) folder = &resume->calibration;
   std::error_code code;
-  if (folder != nullptr && !std::filesystem::exists(*folder / CalibrationFolder::manifestName, code))
+  if (folder != nullptr &&
+      !std::filesystem::exists(*folder / calibration::CalibrationFolder::manifestName, code))
     return "interrupted before anything was measured; run it again.";
   if (folder == nullptr) return "interrupted; nothing on disk is damaged, run it again.";
   return fmt::format("interrupted; every photograph is safe, resume with: relucent-cli resume {}",
@@ -177,7 +180,7 @@ int fail(const std::string& sentence, int status) {
 
 void print(const Outcome& outcome, bool json) {
   if (json)
-    std::cout << outcome.document.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    std::cout << outcome.document.dump(2, ' ', false, calibration::Json::error_handler_t::replace) << "\n";
   else
     std::cout << outcome.text;
   std::cout.flush();
@@ -224,4 +227,4 @@ int runCommandLine(const std::vector<std::string>& arguments) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

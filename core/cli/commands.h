@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "cli/arguments.h"
-#include "pipeline/json.h"
+#include "relucent/cli/arguments.h"
+#include "relucent/pipeline/json.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 /// What a command found: the document for programs and the text for people.
 struct Outcome {
-  Json document;
+  calibration::Json document;
   std::string text;
   int status = 0;  // of the program
 };
@@ -22,4 +22,4 @@ Outcome execute(const Command& command, Progress& progress);
 /// The whole program: parses, executes, prints. Returns the exit status, see the README.
 int runCommandLine(const std::vector<std::string>& arguments);
 
-}  // namespace relucent
+}  // namespace relucent::cli

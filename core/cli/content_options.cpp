@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "cli/options.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
-void addTarget(CLI::App* sub, TargetSettings& target) {
+void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
   sub->add_option_function<std::vector<double>>(
          "--corners",
          [&target](const std::vector<double>& v) {
@@ -15,7 +15,7 @@ void addTarget(CLI::App* sub, TargetSettings& target) {
          "Corners of the content in the camera's view, pixels: x y, clockwise from top left")
       ->expected(8)
       ->type_name("X Y ...");
-  addNamed(sub, "--fit", "Content of another aspect ratio: " + listOfNames<Fit>(), target.fit)
+  addNamed(sub, "--fit", "Content of another aspect ratio: " + listOfNames<compensation::Fit>(), target.fit)
       ->type_name("FIT");
   sub->add_option("--dark-share", target.reachablePercentile,
                   "Percent of the pixels that may be too dark to show white: more makes the picture brighter")
@@ -26,7 +26,7 @@ void addTarget(CLI::App* sub, TargetSettings& target) {
       ->capture_default_str();
 }
 
-void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, Method& method) {
+void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, compensation::Method& method) {
   sub->add_option("--image", image, "Content: PNG, JPEG or TIFF (sRGB), or EXR (linear)")
       ->type_name("FILE")
       ->required();
@@ -37,10 +37,10 @@ void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, Method& meth
 
 std::function<Command()> addCompensateOptions(CLI::App* sub) {
   auto command = std::make_shared<Compensate>();
-  CompensateSettings& settings = command->settings;
+  pipeline::CompensateSettings& settings = command->settings;
   addFolder(sub, command->calibration, "Folder of the calibration");
   addImageAndMethod(sub, settings.image, settings.method);
-  addNamed(sub, "--solver", "Algorithm of optimum: " + listOfNames<SolverSettings::Algorithm>(),
+  addNamed(sub, "--solver", "Algorithm of optimum: " + listOfNames<compensation::SolverSettings::Algorithm>(),
            settings.solver)
       ->type_name("SOLVER");
   sub->add_option("--out", settings.out, "Folder for pattern.png, pattern.exr, target.exr, predicted.exr")
@@ -52,7 +52,7 @@ std::function<Command()> addCompensateOptions(CLI::App* sub) {
 
 std::function<Command()> addProveOptions(CLI::App* sub) {
   auto command = std::make_shared<Prove>();
-  ProveSettings& settings = command->settings;
+  pipeline::ProveSettings& settings = command->settings;
   addFolder(sub, command->calibration, "Folder of the calibration");
   addImageAndMethod(sub, settings.image, settings.method);
   sub->add_option("--shown", settings.shown,
@@ -78,4 +78,4 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "cli/devices_document.h"
+#include "relucent/cli/devices_document.h"
 
 #include <fmt/format.h>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::cli {
 
-Json toJson(const CameraList& devices) {
-  Json support = Json::array();
-  for (const CameraSupport& kind : devices.support)
+calibration::Json toJson(const devices::CameraList& devices) {
+  calibration::Json support = calibration::Json::array();
+  for (const devices::CameraSupport& kind : devices.support)
     support.push_back(
         {{"kind", kind.kind}, {"available", kind.available}, {"sentence", english(kind.sentence)}});
-  Json cameras = Json::array();
-  for (const ListedCamera& camera : devices.cameras) {
-    Json entry = {{"address", camera.address}, {"model", english(camera.model)}, {"usable", camera.usable}};
-    const CameraTraits& traits = camera.traits;
-    Json remarks = Json::array();
+  calibration::Json cameras = calibration::Json::array();
+  for (const devices::ListedCamera& camera : devices.cameras) {
+    calibration::Json entry = {
+        {"address", camera.address}, {"model", english(camera.model)}, {"usable", camera.usable}};
+    const devices::CameraTraits& traits = camera.traits;
+    calibration::Json remarks = calibration::Json::array();
     for (const Message& remark : traits.remarks) remarks.push_back(english(remark));
     if (camera.usable)
       entry.update({{"size", {traits.size.width, traits.size.height}},
@@ -33,10 +34,10 @@ Json toJson(const CameraList& devices) {
   return {{"support", std::move(support)}, {"cameras", std::move(cameras)}};
 }
 
-std::string textOf(const CameraList& devices) {
+std::string textOf(const devices::CameraList& devices) {
   std::string text;
-  for (const ListedCamera& camera : devices.cameras) {
-    const CameraTraits& traits = camera.traits;
+  for (const devices::ListedCamera& camera : devices.cameras) {
+    const devices::CameraTraits& traits = camera.traits;
     text += fmt::format("{}  {}\n", camera.address, camera.model);
     if (!camera.usable) {
       text += fmt::format("  cannot be used: {}\n", camera.problem);
@@ -49,14 +50,15 @@ std::string textOf(const CameraList& devices) {
   }
   if (devices.cameras.empty()) text += "No cameras answer.\n";
   text += "\nKinds of cameras:\n";
-  for (const CameraSupport& kind : devices.support)
+  for (const devices::CameraSupport& kind : devices.support)
     text += fmt::format("  {:<8} {} {}\n", kind.kind, kind.available ? "  " : "no", kind.sentence);
   return text;
 }
 
-Json toJson(const RigCheck& check) {
-  Json verdicts = Json::array();
-  for (const CheckVerdict& verdict : verdictsOf(check)) verdicts.push_back(english(messageOf(verdict)));
+calibration::Json toJson(const pipeline::RigCheck& check) {
+  calibration::Json verdicts = calibration::Json::array();
+  for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(check))
+    verdicts.push_back(english(devices::messageOf(verdict)));
   return {{"latency_frames", check.latency.frames},
           {"latency_seconds", check.latency.seconds},
           {"step", check.latency.step},
@@ -76,10 +78,11 @@ Json toJson(const RigCheck& check) {
           {"verdicts", std::move(verdicts)}};
 }
 
-std::string textOf(const RigCheck& check) {
+std::string textOf(const pipeline::RigCheck& check) {
   std::string text;
-  for (const CheckVerdict& verdict : verdictsOf(check)) text += english(messageOf(verdict)) + "\n";
+  for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(check))
+    text += english(devices::messageOf(verdict)) + "\n";
   return text + fmt::format("Calibrate with --latency {:.3g}\n", check.latency.seconds);
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

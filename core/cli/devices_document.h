@@ -3,24 +3,24 @@
 
 #include <string>
 
-#include "calibration/json.h"
-#include "devices/camera_registry.h"
-#include "pipeline/check.h"
+#include "relucent/calibration/json.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/pipeline/check.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 /// {"support": [{"kind", "available", "sentence"}],
 ///  "cameras": [{"address", "model", "usable", then "problem" or "size": [w, h], "format", "bits",
 ///               "exposures": [shortest, longest], "gain", "software_trigger", "remarks"}]}
-Json toJson(const CameraList& devices);
+calibration::Json toJson(const devices::CameraList& devices);
 
 /// The same for people.
-std::string textOf(const CameraList& devices);
+std::string textOf(const devices::CameraList& devices);
 
 /// {"latency_frames", "latency_seconds", "step", "flicker", "verdicts",
 ///  "screen": {"seen", "share", "late", "mirrored"},
 ///  "light": {"unsteady", "brief_exposure", "flicker", "colours", "bands", "dither"}}
-Json toJson(const RigCheck& check);
-std::string textOf(const RigCheck& check);
+calibration::Json toJson(const pipeline::RigCheck& check);
+std::string textOf(const pipeline::RigCheck& check);
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "cli/options.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 std::function<Command()> addImportOptions(CLI::App* sub) {
   auto command = std::make_shared<ImportPictures>();
@@ -25,7 +25,7 @@ std::function<Command()> addImportOptions(CLI::App* sub) {
 
 std::function<Command()> addPlanOptions(CLI::App* sub) {
   auto command = std::make_shared<Plan>();
-  PatternPlanSettings& settings = command->settings;
+  importing::PatternPlanSettings& settings = command->settings;
   sub->add_option("--export", command->out,
                   "Folder for the pictures, plan.json and instructions.txt; created")
       ->type_name("DIR")
@@ -43,4 +43,4 @@ std::function<Command()> addPlanOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

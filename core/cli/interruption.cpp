@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cli/interruption.h"
+#include "relucent/cli/interruption.h"
 
 #include <atomic>
 #include <cstdlib>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
 std::atomic<StopRequest*> asked{nullptr};
@@ -31,4 +31,4 @@ Interruption::~Interruption() {
   asked = nullptr;
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/progress.h"
-#include "platform/interruption_signals.h"
+#include "relucent/base/progress.h"
+#include "relucent/platform/interruption_signals.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 /// Turns Ctrl-C and the request to terminate into a StopRequest while it lives: the first asks the work to
 /// cancel at its next checkpoint, the second ends the program at once with exit status 130 (what is on
@@ -20,7 +20,7 @@ class Interruption {
 
  private:
   StopRequest stop_;
-  InterruptionSignals signals_;
+  platform::InterruptionSignals signals_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::cli

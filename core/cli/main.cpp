@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.h"
+#include "relucent/cli/commands.h"
 
 int main(int argc, char** argv) {
-  return relucent::runCommandLine({argv + 1, argv + argc});
+  return relucent::cli::runCommandLine({argv + 1, argv + argc});
 }

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <functional>
 
-#include "base/enum_names.h"
-#include "cli/arguments.h"
-#include "devices/camera_registry.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/cli/arguments.h"
+#include "relucent/devices/camera_registry.h"
 
 /// Options that several subcommands share; met inside the parser only.
-namespace relucent {
+namespace relucent::cli {
 
 inline CLI::Option* addFolder(CLI::App* sub, std::filesystem::path& folder, const char* what) {
   return sub->add_option("CALIBRATION", folder, what)->required();
@@ -72,11 +72,12 @@ CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what
 }
 
 /// What --camera says: a camera's address or a size. Throws: WrongUsage.
-inline void readCamera(const std::string& text, CommandRigSettings& commands, Size& size) {
-  if (cameraRegistry().addressFrom(text))
+inline void readCamera(const std::string& text, pipeline::CommandRigSettings& commands, Size& size) {
+  if (devices::cameraRegistry().addressFrom(text))
     commands.cameraAddress = text;
   else if (text.find(':') != std::string::npos)
-    throw WrongUsage(fmt::format("'{}' is no camera: write {}", text, cameraRegistry().addressForms()));
+    throw WrongUsage(
+        fmt::format("'{}' is no camera: write {}", text, devices::cameraRegistry().addressForms()));
   else
     size = parseSize(text);
 }
@@ -100,4 +101,4 @@ std::function<Command()> addDifferenceOptions(CLI::App* sub);
 std::function<Command()> addReportOptions(CLI::App* sub);
 std::function<Command()> addBenchOptions(CLI::App* sub);
 
-}  // namespace relucent
+}  // namespace relucent::cli

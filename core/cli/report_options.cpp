@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "cli/options.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 std::function<Command()> addReportOptions(CLI::App* sub) {
   auto command = std::make_shared<Report>();
@@ -27,4 +27,4 @@ std::function<Command()> addReportOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

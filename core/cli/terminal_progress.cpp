@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal_progress.h"
+#include "relucent/cli/terminal_progress.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "platform/terminal.h"
+#include "relucent/platform/terminal.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 using Seconds = TimeLeft::Seconds;
 
@@ -104,7 +104,7 @@ std::string barLine(std::string_view stage, double fraction, std::string_view ti
 
 TerminalProgress::Terminal TerminalProgress::standardError() {
   auto now = [] { return Seconds(std::chrono::steady_clock::now().time_since_epoch()); };
-  return {&std::cerr, errorTerminalWidth, now};
+  return {&std::cerr, platform::errorTerminalWidth, now};
 }
 
 TerminalProgress::TerminalProgress(Terminal terminal) : terminal_(std::move(terminal)) {}
@@ -160,4 +160,4 @@ void TerminalProgress::finish() {
   barIsShown_ = false;
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -7,9 +7,9 @@
 #include <ostream>
 #include <string>
 
-#include "base/progress.h"
+#include "relucent/base/progress.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 /// How much longer, from how fast it went lately: the mean rate of the last half minute, because a stage
 /// that is read from a journal or a cache says nothing about the next one.
@@ -79,4 +79,4 @@ std::string workSentence(const WorkLeft& work);
 /// left out, the percentage last.
 std::string barLine(std::string_view stage, double fraction, std::string_view timeLeft, int width);
 
-}  // namespace relucent
+}  // namespace relucent::cli

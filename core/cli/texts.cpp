@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "cli/texts.h"
+#include "relucent/cli/texts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
 std::string lines(const std::vector<Message>& sentences) {
@@ -19,7 +19,7 @@ std::string lines(const std::vector<Message>& sentences) {
 
 }  // namespace
 
-std::string textOf(const CalibrateResult& result) {
+std::string textOf(const pipeline::CalibrateResult& result) {
   double seconds = result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse;
   return fmt::format(
              "Calibrated with {} patterns and {} photographs in {:.0f} s.\n"
@@ -31,15 +31,15 @@ std::string textOf(const CalibrateResult& result) {
          lines(result.findings);
 }
 
-std::string textOf(const WrittenFiles& result) {
+std::string textOf(const pipeline::WrittenFiles& result) {
   std::string text;
   for (const std::filesystem::path& file : result.files) text += "Wrote " + file.string() + "\n";
   for (const Message& note : result.notes) text += fmt::format("Note: {}.\n", note);
   return text;
 }
 
-std::string textOf(const VerifyResult& result) {
-  const Reverification& found = result.found;
+std::string textOf(const pipeline::VerifyResult& result) {
+  const acquisition::Reverification& found = result.found;
   std::string text = fmt::format("{}\nError by size of the pattern's blocks:", result.judgement.sentence);
   for (std::size_t size = 0; size < found.errorOf.size(); ++size)
     text += fmt::format("{} {} {:.1f} %", size == 0 ? "" : ",", 1 << size, 100.0 * found.errorOf[size]);
@@ -47,11 +47,11 @@ std::string textOf(const VerifyResult& result) {
       ".\nThe lamp gives {:.1f} % of its light; the room's light changed by {:+.2f} % of the flood image; "
       "{} photographs in {:.0f} s.\n",
       100.0 * found.lamp, 100.0 * found.ambient, found.exposures, result.seconds);
-  return text + textOf(WrittenFiles{result.files});
+  return text + textOf(pipeline::WrittenFiles{result.files});
 }
 
-std::string textOf(const ProveResult& result) {
-  auto line = [](const char* name, const ProvedProjection& proved) {
+std::string textOf(const pipeline::ProveResult& result) {
+  auto line = [](const char* name, const pipeline::ProvedProjection& proved) {
     return fmt::format(
         "{:<8} measured {:>5.1f} dB, colour error {:>4.1f}; predicted {:>5.1f} dB, {:>4.1f}; the photograph "
         "is "
@@ -64,10 +64,10 @@ std::string textOf(const ProveResult& result) {
              "dB where it can be reached, which is {:.1f} % of the picture; colour error (CIEDE2000) over "
              "all of it; {} photographs in {:.0f} s.\n",
              100.0 * result.reachable, result.exposures, result.seconds) +
-         textOf(WrittenFiles{result.files});
+         textOf(pipeline::WrittenFiles{result.files});
 }
 
-std::string textOf(const ImportResult& result) {
+std::string textOf(const pipeline::ImportResult& result) {
   return fmt::format(
              "Imported {} photographs of a {}x{} projector in {:.0f} s; {} of them were not fitted but "
              "predicted.\n"
@@ -79,7 +79,7 @@ std::string textOf(const ImportResult& result) {
          lines(result.findings);
 }
 
-std::string textOf(const CompensateResult& result) {
+std::string textOf(const pipeline::CompensateResult& result) {
   std::string text = fmt::format(
       "Predicted: {:.1f} dB where it can be reached, which is {:.1f} % of the picture; colour error {:.1f} "
       "(CIEDE2000) over all of it; {:.1f} % of the drive values are at their limits.\n",
@@ -92,43 +92,43 @@ std::string textOf(const CompensateResult& result) {
     std::replace(reason.begin(), reason.end(), '_', ' ');
     text += fmt::format("Cannot be corrected: {:.1f} % {}.\n", 100.0 * share, reason);
   }
-  return text + textOf(WrittenFiles{result.files});
+  return text + textOf(pipeline::WrittenFiles{result.files});
 }
 
-std::string textOf(const EvaluateResult& result) {
+std::string textOf(const pipeline::EvaluateResult& result) {
   std::string text =
       fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
-  for (const ImageScore& image : result.images) {
+  for (const pipeline::ImageScore& image : result.images) {
     text += fmt::format("\n{:<12} {:>14} {:>9} {:>7} {:>7} {:>9}\n", image.name, "reachable dB", "all dB",
                         "SSIM", "dE2000", "seconds");
-    for (const MethodScore& score : image.methods)
+    for (const pipeline::MethodScore& score : image.methods)
       text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", nameOf(score.method),
                           score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
   }
   return text;
 }
 
-std::string textOf(const SeparateResult& result) {
+std::string textOf(const pipeline::SeparateResult& result) {
   return fmt::format("{:.1f} % of the light is direct.\n", 100.0 * result.directShare) +
-         textOf(WrittenFiles{result.files});
+         textOf(pipeline::WrittenFiles{result.files});
 }
 
-std::string textOf(const DifferenceResult& result) {
+std::string textOf(const pipeline::DifferenceResult& result) {
   return fmt::format(
              "They differ by {:.4g} (root mean square), {:.2f} % of the second; shown {:.3g} times.\n",
              result.rms, 100.0 * result.relative, result.gain) +
-         textOf(WrittenFiles{result.files});
+         textOf(pipeline::WrittenFiles{result.files});
 }
 
-std::string textOf(const BenchResult& result) {
+std::string textOf(const pipeline::BenchResult& result) {
   std::string text =
       fmt::format("{}, {} threads, copies {:.1f} GB/s\n",
                   result.machine.device.empty() ? result.machine.processor : result.machine.device,
                   result.machine.threads, result.machine.copyBytesPerSecond / 1e9);
-  for (const Benchmark& benchmark : result.benchmarks) {
+  for (const pipeline::Benchmark& benchmark : result.benchmarks) {
     text += fmt::format("{:<32} {:>10.3f} ms {:>8.1f} MB {:>5.0f} % of copying", benchmark.name,
                         1e3 * benchmark.seconds, benchmark.bytes / 1e6, 100.0 * benchmark.shareOfCopy);
-    for (const EngineBenchRatio& ratio : benchmark.timesAsFastAs)
+    for (const engine::EngineBenchRatio& ratio : benchmark.timesAsFastAs)
       text += fmt::format(", {:.1f} times {}", ratio.times, ratio.reference);
     text += "\n";
   }
@@ -137,35 +137,36 @@ std::string textOf(const BenchResult& result) {
 }
 
 /// The last two columns are `clusters` again: inverted by truncated SVD, and in full colour.
-std::string textOf(const InverseBenchResult& result) {
-  const PaperFigures paper;
+std::string textOf(const pipeline::InverseBenchResult& result) {
+  const pipeline::PaperFigures paper;
   std::string text = fmt::format(
       "paper: clustering and inversion {:.0f} to {:.0f} s, row errors {:.0f} to {:.0f} %\n\n"
       "{:<8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12} {:>12} {:>12}\n",
       paper.leastInversionSeconds, paper.mostInversionSeconds, 100.0 * paper.leastError,
       100.0 * paper.mostError, "venue", "clusters s", "largest", "error %", "capped s", "error %", "svd s",
       "windows s", "ridge");
-  for (const VenueInversion& v : result.venues)
+  for (const pipeline::VenueInversion& v : result.venues)
     text += fmt::format(
         "{:<8} {:>10.2f} {:>10} {:>10.0f} {:>10.2f} {:>10.0f} {:>12.2f} {:>12.2f} {:>12.2g}\n", v.venue,
         v.clusterSeconds, v.printed.largest, 100.0 * v.printed.errorMedian, v.cappedSeconds,
         100.0 * v.capped.errorMedian, v.truncatedSeconds, v.windowSeconds, v.ridge);
   text += fmt::format("\n{:<8}", "dB");
-  for (const std::string& method : allNames<Method>()) text += fmt::format(" {:>9}", method);
+  for (const std::string& method : allNames<compensation::Method>()) text += fmt::format(" {:>9}", method);
   text += fmt::format(" {:>9} {:>9}", "by svd", "3x3");
-  for (const VenueInversion& v : result.venues) {
+  for (const pipeline::VenueInversion& v : result.venues) {
     text += fmt::format("\n{:<8}", v.venue);
-    for (Method method : allValues<Method>()) text += fmt::format(" {:>9.2f}", v.quality.at(method));
+    for (compensation::Method method : allValues<compensation::Method>())
+      text += fmt::format(" {:>9.2f}", v.quality.at(method));
     text += fmt::format(" {:>9.2f} {:>9.2f}", v.truncatedQuality, v.fullColourQuality);
   }
   return text + "\n";
 }
 
-std::string textOf(const AcquisitionBenchResult& result) {
+std::string textOf(const pipeline::AcquisitionBenchResult& result) {
   std::string text = fmt::format("{:<8} {:<9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>10} {:>9} {:>9} {:>8}\n",
                                  "venue", "mode", "threshold", "patterns", "exposures", "s", "frobenius",
                                  "median row", "natural %", "random %", "energy");
-  for (const AcquisitionBenchRun& run : result.runs)
+  for (const pipeline::AcquisitionBenchRun& run : result.runs)
     text += fmt::format(
         "{:<8} {:<9} {:>9.3g} {:>9} {:>9} {:>8.1f} {:>10.4f} {:>10.4f} {:>9.2f} {:>9.2f} {:>8.4f}\n",
         run.venue, nameOf(run.mode), run.threshold, run.patterns, run.exposures, run.seconds,
@@ -174,4 +175,4 @@ std::string textOf(const AcquisitionBenchResult& result) {
   return text;
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

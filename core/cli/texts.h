@@ -3,33 +3,33 @@
 
 #include <string>
 
-#include "pipeline/acquisition_bench.h"
-#include "pipeline/bench.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/compensate.h"
-#include "pipeline/difference.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/import.h"
-#include "pipeline/inverse_bench.h"
-#include "pipeline/prove.h"
-#include "pipeline/separate.h"
-#include "pipeline/verify.h"
-#include "pipeline/written_files.h"
+#include "relucent/pipeline/acquisition_bench.h"
+#include "relucent/pipeline/bench.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/difference.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/import.h"
+#include "relucent/pipeline/inverse_bench.h"
+#include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/verify.h"
+#include "relucent/pipeline/written_files.h"
 
-namespace relucent {
+namespace relucent::cli {
 
 /// What a command found, as people read it; --json prints toJson() instead.
-std::string textOf(const CalibrateResult& result);
-std::string textOf(const WrittenFiles& result);
-std::string textOf(const VerifyResult& result);
-std::string textOf(const ProveResult& result);
-std::string textOf(const ImportResult& result);
-std::string textOf(const CompensateResult& result);
-std::string textOf(const EvaluateResult& result);
-std::string textOf(const SeparateResult& result);
-std::string textOf(const DifferenceResult& result);
-std::string textOf(const BenchResult& result);
-std::string textOf(const InverseBenchResult& result);
-std::string textOf(const AcquisitionBenchResult& result);
+std::string textOf(const pipeline::CalibrateResult& result);
+std::string textOf(const pipeline::WrittenFiles& result);
+std::string textOf(const pipeline::VerifyResult& result);
+std::string textOf(const pipeline::ProveResult& result);
+std::string textOf(const pipeline::ImportResult& result);
+std::string textOf(const pipeline::CompensateResult& result);
+std::string textOf(const pipeline::EvaluateResult& result);
+std::string textOf(const pipeline::SeparateResult& result);
+std::string textOf(const pipeline::DifferenceResult& result);
+std::string textOf(const pipeline::BenchResult& result);
+std::string textOf(const pipeline::InverseBenchResult& result);
+std::string textOf(const pipeline::AcquisitionBenchResult& result);
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <memory>
 
-#include "base/message.h"
-#include "cli/options.h"
+#include "relucent/base/message.h"
+#include "relucent/cli/options.h"
 
-namespace relucent {
+namespace relucent::cli {
 namespace {
 
 void addPicture(CLI::App* sub, std::filesystem::path& out) {
@@ -80,7 +80,7 @@ std::function<Command()> addSeparateOptions(CLI::App* sub) {
 
 std::function<Command()> addDifferenceOptions(CLI::App* sub) {
   auto command = std::make_shared<Difference>();
-  DifferenceSettings& settings = command->settings;
+  pipeline::DifferenceSettings& settings = command->settings;
   sub->add_option("A", settings.first, "A picture: PNG, JPEG or TIFF (sRGB), or EXR (linear)")->required();
   sub->add_option("B", settings.second, "The picture to subtract, of the same size")->required();
   sub->add_option_function<std::string>(
@@ -94,4 +94,4 @@ std::function<Command()> addDifferenceOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
-}  // namespace relucent
+}  // namespace relucent::cli

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/approximation.h"
+#include "relucent/clustering/approximation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
-#include "clustering/patches.h"
-#include "image/colour.h"
+#include "relucent/base/parallel.h"
+#include "relucent/clustering/patches.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 constexpr std::size_t chunks = 64;
@@ -30,8 +30,8 @@ class RowScaler {
 
   struct Entry {
     std::uint32_t pixel;
-    ColourBlock original;  // density of the leaf that carries the connection
-    ColourBlock scaled;
+    transport::ColourBlock original;  // density of the leaf that carries the connection
+    transport::ColourBlock scaled;
   };
 
   /// Kept connections by ascending projector pixel. Valid until the next call.
@@ -46,8 +46,8 @@ class RowScaler {
     for (std::size_t k = 0; k < row.size(); ++k) {
       if (!kept[k]) continue;
       std::uint32_t leaf = row[k].leaf;
-      ColourBlock density = leaves_.block(i, leaf) / graph_.nodes().pixels[leaves_.column(leaf)];
-      ColourBlock gained = density * static_cast<float>(gain[k]);
+      transport::ColourBlock density = leaves_.block(i, leaf) / graph_.nodes().pixels[leaves_.column(leaf)];
+      transport::ColourBlock gained = density * static_cast<float>(gain[k]);
       sum += gained.rowwise().sum();
       entries_.push_back({row[k].pixel, density, gained});
     }
@@ -77,7 +77,8 @@ class RowScaler {
 
   Eigen::Vector3f floodFactors(std::size_t i, const Eigen::Vector3f& sum) const {
     Eigen::Vector3f flood(graph_.flood()[3 * i], graph_.flood()[3 * i + 1], graph_.flood()[3 * i + 2]);
-    float seen = luminanceOf(flood[0], flood[1], flood[2]), left = luminanceOf(sum[0], sum[1], sum[2]);
+    float seen = image::luminanceOf(flood[0], flood[1], flood[2]),
+          left = image::luminanceOf(sum[0], sum[1], sum[2]);
     Eigen::Vector3f factor = Eigen::Vector3f::Constant(left > 0.0f ? std::max(0.0f, seen) / left : 1.0f);
     for (int c = 0; c < 3; ++c)
       if (sum[c] > leastChannelShare * sum.maxCoeff()) factor[c] = std::max(0.0f, flood[c]) / sum[c];
@@ -85,7 +86,7 @@ class RowScaler {
   }
 
   const ConnectionGraph& graph_;
-  const BlockSparse& leaves_;
+  const transport::BlockSparse& leaves_;
   const std::vector<std::uint8_t>& kept_;
   const ClusteringSettings& settings_;
   PatchFinder finder_;
@@ -94,10 +95,10 @@ class RowScaler {
 };
 
 /// What T holds for one projector pixel: the sum of all leaves over it, where leaves are nested.
-ColourBlock allLightOf(const ConnectionGraph& graph, std::size_t row, std::uint32_t pixel) {
-  const BlockSparse& leaves = graph.transport().leaves();
-  const NodeTable& nodes = graph.nodes();
-  ColourBlock sum = ColourBlock::Zero();
+transport::ColourBlock allLightOf(const ConnectionGraph& graph, std::size_t row, std::uint32_t pixel) {
+  const transport::BlockSparse& leaves = graph.transport().leaves();
+  const transport::NodeTable& nodes = graph.nodes();
+  transport::ColourBlock sum = transport::ColourBlock::Zero();
   std::size_t entry = leaves.rowBegin(row);
   for (std::uint32_t node = pixel;; node = nodes.parent[node]) {
     while (entry < leaves.rowBegin(row + 1) && leaves.column(entry) < node) ++entry;
@@ -114,7 +115,7 @@ float relativeError(const ConnectionGraph& graph, std::size_t row,
   if (!(whole > 0.0)) return 0.0f;
   double apart = whole;
   for (const RowScaler::Entry& entry : entries) {
-    ColourBlock light = graph.nested(row) ? allLightOf(graph, row, entry.pixel) : entry.original;
+    transport::ColourBlock light = graph.nested(row) ? allLightOf(graph, row, entry.pixel) : entry.original;
     Eigen::Matrix3d scaled = entry.scaled.cast<double>(), original = light.cast<double>();
     apart += scaled.squaredNorm() - 2.0 * scaled.cwiseProduct(original).sum();
   }
@@ -150,7 +151,7 @@ Approximation scaledToFloodlight(const ConnectionGraph& graph, const Grouping& g
 
   Approximation result{{}, std::vector<float>(rows, 0.0f)};
   std::vector<std::uint32_t> column(start.back());
-  std::vector<BlockSparseWriter::Code> code(start.back());
+  std::vector<transport::BlockSparseWriter::Code> code(start.back());
   std::vector<float> scale(rows, 0.0f);
   visitScaledRows(graph, grouping, settings, progress,
                   [&](std::size_t i, const std::vector<RowScaler::Entry>& entries) {
@@ -159,16 +160,16 @@ Approximation scaledToFloodlight(const ConnectionGraph& graph, const Grouping& g
                     std::size_t next = start[i];
                     for (const RowScaler::Entry& entry : entries) {
                       column[next] = entry.pixel;
-                      code[next++] = codeOf(entry.scaled, scale[i]);
+                      code[next++] = transport::codeOf(entry.scaled, scale[i]);
                     }
                     result.error[i] = relativeError(graph, i, entries);
                   });
   progress.report(0.9);
-  const TransportMatrix& transport = graph.transport();
-  result.transport =
-      TransportMatrix(transport.cameras(), transport.projectors(),
-                      BlockSparse::assembled(transport.layout().count(), std::move(start), std::move(column),
-                                             std::move(code), std::move(scale)));
+  const transport::TransportMatrix& transport = graph.transport();
+  result.transport = transport::TransportMatrix(
+      transport.cameras(), transport.projectors(),
+      transport::BlockSparse::assembled(transport.layout().count(), std::move(start), std::move(column),
+                                        std::move(code), std::move(scale)));
   progress.report(1.0);
   return result;
 }
@@ -199,4 +200,4 @@ void summariseErrors(const Grouping& grouping, const std::vector<float>& error,
   statistics.errorP95 = ranked(lit.size() * 95 / 100);
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

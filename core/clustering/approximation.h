@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "clustering/grouping.h"
+#include "relucent/clustering/grouping.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// T~ and its error.
 struct Approximation {
-  TransportMatrix transport;
+  transport::TransportMatrix transport;
   std::vector<float> error;  // per camera pixel, as in Clustering
 };
 
@@ -25,4 +25,4 @@ std::vector<float> errorOfScaled(const ConnectionGraph& graph, const Grouping& g
 void summariseErrors(const Grouping& grouping, const std::vector<float>& error,
                      ClusteringStatistics& statistics);
 
-}  // namespace relucent
+}  // namespace relucent::clustering

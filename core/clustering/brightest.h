@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// The brightest connection of a projector pixel in one number, which threads raise without locks: the
 /// brighter is the higher, of equals the one to the lower camera pixel. 0: there is none.
@@ -27,4 +27,4 @@ class Brightest {
   std::uint64_t key_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/cluster_map.h"
+#include "relucent/clustering/cluster_map.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.h"
-#include "clustering/clustering.h"
+#include "relucent/base/error.h"
+#include "relucent/clustering/clustering.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 /// Calls visit(index, neighbour) for every pixel and the pixels to its right and below it.
@@ -82,4 +82,4 @@ std::vector<std::uint8_t> clusterBorders(const std::vector<std::uint32_t>& map, 
   return border;
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

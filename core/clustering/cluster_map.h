@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// Assigns a colour number to every cluster, so that clusters that touch in a map differ if `colours`
 /// suffice: greedily in the order of the clusters, the least used colour that no neighbour has. Neighbours
@@ -18,4 +18,4 @@ std::vector<std::uint8_t> clusterColours(const std::vector<std::uint32_t>& map, 
 /// Per pixel: the pixel to its right or below belongs to another cluster.
 std::vector<std::uint8_t> clusterBorders(const std::vector<std::uint32_t>& map, const Rasters& rasters);
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/clustering.h"
+#include "relucent/clustering/clustering.h"
 
-#include "base/message.h"
-#include "clustering/approximation.h"
+#include "relucent/base/message.h"
+#include "relucent/clustering/approximation.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 std::vector<Message> problems(const ClusteringSettings& settings) {
   std::vector<Message> found;
@@ -44,4 +44,4 @@ Clustering clustered(const ConnectionGraph& graph, const ClusteringSettings& set
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

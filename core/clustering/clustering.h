@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/enum_names.h"
-#include "base/message.h"
-#include "clustering/connection_graph.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/base/message.h"
+#include "relucent/clustering/connection_graph.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// How line 21 of Algorithm 1 scales the remaining connections.
 enum class Rescaling {
@@ -84,7 +84,7 @@ struct Clustering {
   std::vector<std::uint32_t> cameraCluster;     // cluster of every camera pixel, or noCluster
   std::vector<std::uint32_t> projectorCluster;  // cluster of every projector pixel, or noCluster
   std::vector<ClusterSize> sizes;               // clusters by their lowest projector pixel
-  TransportMatrix transport;                    // the clustered approximation T~: single pixels only
+  transport::TransportMatrix transport;         // the clustered approximation T~: single pixels only
   /// Per camera pixel |T_i - T~_i| / |T_i|, over all of the row's leaves; 0 where T_i = 0.
   std::vector<float> error;
   ClusteringStatistics statistics;
@@ -110,4 +110,4 @@ struct Clustering {
 /// Throws: Error{usage} for wrong settings; Cancelled.
 Clustering clustered(const ConnectionGraph& graph, const ClusteringSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/connection_graph.h"
+#include "relucent/clustering/connection_graph.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 /// Wide leaves of a venue full of scattered light could be expanded to billions of connections; beyond this
@@ -21,7 +21,7 @@ constexpr std::size_t parts = 64;
 /// What of T becomes connections.
 class NearLeaves {
  public:
-  NearLeaves(const TransportMatrix& transport, const NodeTable& nodes)
+  NearLeaves(const transport::TransportMatrix& transport, const transport::NodeTable& nodes)
       : transport_(transport), leaves_(transport.leaves()), nodes_(nodes), level_(nodes.pixels.size()) {
     parallelFor(0, level_.size(), 1024, [&](std::size_t node) {
       level_[node] = static_cast<std::uint8_t>(transport.layout().node(node).level);
@@ -46,8 +46,8 @@ class NearLeaves {
         channel[c] = code[3 * c] + code[3 * c + 1] + code[3 * c + 2];
         steps[c] += channel[c];
       }
-      float luminance = luminanceOf(static_cast<float>(channel[0]), static_cast<float>(channel[1]),
-                                    static_cast<float>(channel[2]));
+      float luminance = image::luminanceOf(static_cast<float>(channel[0]), static_cast<float>(channel[1]),
+                                           static_cast<float>(channel[2]));
       float density = leaves_.scale(row) * luminance / nodes_.pixels[leaves_.column(entry)];
       into.density[entry - begin] = density;
       into.brightest = std::max(into.brightest, density);
@@ -80,9 +80,9 @@ class NearLeaves {
       row.push_back({index, leaf, bright});
       return;
     }
-    const NodeLayout& layout = transport_.layout();
-    Node node = layout.node(index);
-    Block block = layout.block(node);
+    const transport::NodeLayout& layout = transport_.layout();
+    transport::Node node = layout.node(index);
+    transport::Block block = layout.block(node);
     auto device = static_cast<std::size_t>(node.projector);
     const Rasters& projectors = layout.projectors();
     for (int y = block.y0; y < block.y1; ++y)
@@ -93,9 +93,9 @@ class NearLeaves {
   }
 
  private:
-  const TransportMatrix& transport_;
-  const BlockSparse& leaves_;
-  const NodeTable& nodes_;
+  const transport::TransportMatrix& transport_;
+  const transport::BlockSparse& leaves_;
+  const transport::NodeTable& nodes_;
   std::vector<std::uint8_t> level_;
 };
 
@@ -142,17 +142,18 @@ std::vector<Message> problems(const ConnectionGraphSettings& settings) {
   return found;
 }
 
-ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+ConnectionGraph::ConnectionGraph(const transport::TransportMatrix& transport,
+                                 const std::vector<std::uint8_t>& usable,
                                  const ConnectionGraphSettings& settings, Progress& progress)
     : transport_(&transport), nodes_(transport.layout()) {
   if (auto found = problems(settings); !found.empty())
     throw Error(ErrorKind::usage, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("clusters.correct-setting", "correct the setting"), "clustering");
-  const BlockSparse& leaves = transport.leaves();
+  const transport::BlockSparse& leaves = transport.leaves();
   require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
           leaves.rows());
   require(leaves.blocks() < std::numeric_limits<std::uint32_t>::max(), "{} leaves", leaves.blocks());
-  squaredNorm_ = squaredRowNorms(transport, nodes_, &nested_);
+  squaredNorm_ = transport::squaredRowNorms(transport, nodes_, &nested_);
   progress.report(0.3);
 
   // First to count: the connections are the largest array here and are made to measure.
@@ -190,7 +191,7 @@ ConnectionGraph::ConnectionGraph(const TransportMatrix& transport, const std::ve
       length_[row] = static_cast<std::uint32_t>(edges.size());
       light[part].connections += edges.size();
       for (const Connection& edge : edges) light[part].carried += static_cast<double>(edge.luminance);
-      double whole = static_cast<double>(luminanceOf(seen.flood[0], seen.flood[1], seen.flood[2]));
+      double whole = static_cast<double>(image::luminanceOf(seen.flood[0], seen.flood[1], seen.flood[2]));
       if (std::isfinite(whole)) light[part].all += whole;
     }
   });
@@ -212,4 +213,4 @@ std::size_t ConnectionGraph::bytes() const {
          nodes_.pixels.size() * (sizeof(float) + sizeof(std::uint32_t));
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "transport/statistics.h"
+#include "relucent/base/progress.h"
+#include "relucent/transport/statistics.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// One edge of the bipartite graph of camera and projector pixels: the camera pixel sees the projector pixel.
 struct Connection {
@@ -33,11 +33,11 @@ class ConnectionGraph {
  public:
   /// `usable`: per camera pixel, 0 where it must not be relied on.
   /// Throws: Error{usage} for wrong settings; Cancelled.
-  ConnectionGraph(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+  ConnectionGraph(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
                   const ConnectionGraphSettings& settings, Progress& progress);
 
-  const TransportMatrix& transport() const { return *transport_; }
-  const NodeTable& nodes() const { return nodes_; }
+  const transport::TransportMatrix& transport() const { return *transport_; }
+  const transport::NodeTable& nodes() const { return nodes_; }
   std::size_t rows() const { return length_.size(); }
   std::size_t connections() const { return connections_; }
   std::size_t bytes() const;
@@ -63,8 +63,8 @@ class ConnectionGraph {
   int coarsestLevel() const { return coarsestLevel_; }
 
  private:
-  const TransportMatrix* transport_;
-  NodeTable nodes_;
+  const transport::TransportMatrix* transport_;
+  transport::NodeTable nodes_;
   std::vector<std::size_t> start_;
   std::vector<std::uint32_t> length_;
   std::vector<Connection> edges_;
@@ -77,4 +77,4 @@ class ConnectionGraph {
   int coarsestLevel_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// Disjoint sets of 0 to size() - 1, joined by any number of threads at once without locks. A set's root is
 /// its lowest element, whatever the order of the joins.
@@ -53,4 +53,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/grouping.h"
+#include "relucent/clustering/grouping.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "clustering/approximation.h"
-#include "clustering/patch_cut.h"
-#include "clustering/size_bound.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/clustering/approximation.h"
+#include "relucent/clustering/patch_cut.h"
+#include "relucent/clustering/size_bound.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 /// A quarter of the picture in one cluster is no longer a matter of a few surfaces that light each other;
@@ -196,4 +196,4 @@ GroupingError errorOf(const ConnectionGraph& graph, const Grouping& grouping,
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

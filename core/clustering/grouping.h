@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "clustering/clustering.h"
+#include "relucent/clustering/clustering.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// The partition into clusters with its statistics, without T~ and its error.
 struct Grouping {
@@ -53,4 +53,4 @@ struct GroupingError {
 GroupingError errorOf(const ConnectionGraph& graph, const Grouping& grouping,
                       const ClusteringSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::clustering

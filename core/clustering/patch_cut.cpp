@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/patch_cut.h"
+#include "relucent/clustering/patch_cut.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 /// As many as the graph has: what is all kept then adds up to the same bits.
@@ -106,4 +106,4 @@ void PatchCut::reinsert(const ClusteringSettings& settings) {
   reinserted_ = std::accumulate(reinserted.begin(), reinserted.end(), std::size_t{0});
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -4,11 +4,11 @@
 #include <optional>
 #include <tuple>
 
-#include "clustering/brightest.h"
-#include "clustering/disjoint_sets.h"
-#include "clustering/patches.h"
+#include "relucent/clustering/brightest.h"
+#include "relucent/clustering/disjoint_sets.h"
+#include "relucent/clustering/patches.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// Lines 1 to 20 of Algorithm 1, and the connected components of the result. Memory is kept between calls,
 /// and a repeated call with the same settings does not cut again.
@@ -59,4 +59,4 @@ class PatchCut {
   std::size_t reinserted_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/patches.h"
+#include "relucent/clustering/patches.h"
 
 #include <algorithm>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 constexpr int apart = 1 << 24;  // between projectors, in pixels
@@ -42,4 +42,4 @@ std::span<const Connection> bright(std::span<const Connection> row, const Cluste
   return row.first(std::max<std::size_t>(1, static_cast<std::size_t>(end - row.begin())));
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <utility>
 
-#include "clustering/clustering.h"
+#include "relucent/clustering/clustering.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// Positions of all projector pixels; projectors are placed so far apart that no patch reaches two.
 class PixelPlaces {
@@ -100,4 +100,4 @@ std::size_t PatchFinder::visit(std::span<const Connection> row, double radius, c
   return patch;
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

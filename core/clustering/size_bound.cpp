@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/size_bound.h"
+#include "relucent/clustering/size_bound.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
-#include "base/parallel_sort.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/parallel_sort.h"
 
-namespace relucent {
+namespace relucent::clustering {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -115,4 +115,4 @@ void SizeBound::joinRanked() {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::clustering

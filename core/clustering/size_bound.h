@@ -4,11 +4,11 @@
 #include <array>
 #include <span>
 
-#include "clustering/brightest.h"
-#include "clustering/disjoint_sets.h"
-#include "clustering/patches.h"
+#include "relucent/clustering/brightest.h"
+#include "relucent/clustering/disjoint_sets.h"
+#include "relucent/clustering/patches.h"
 
-namespace relucent {
+namespace relucent::clustering {
 
 /// What is kept of a graph after patches are cut.
 struct CutGraph {
@@ -57,4 +57,4 @@ class SizeBound {
   std::vector<Ranked> ranked_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::clustering

@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: MIT
 # How the project's own targets are made: one warning set, one sanitizer switch, one include root.
 
+include(GNUInstallDirs)
+
+# Core's headers are included as they are when installed: "relucent/transport/files.h".
+set(RELUCENT_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${RELUCENT_INCLUDE_DIR})
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/core ${RELUCENT_INCLUDE_DIR}/relucent SYMBOLIC)
+
 add_library(relucent_options INTERFACE)
 target_compile_options(relucent_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align
@@ -50,9 +57,17 @@ function(relucent_core_library name)
   cmake_parse_arguments(ARG "OWN_FLAGS" "" "SOURCES;USES;PUBLIC;PRIVATE" ${ARGN})
   set(target relucent_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
-  target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/core)
+  add_library(relucent::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${RELUCENT_INCLUDE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  install(TARGETS ${target} EXPORT relucentTargets ARCHIVE COMPONENT Development EXCLUDE_FROM_ALL)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/relucent/${folder}
+    COMPONENT Development EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.h")
   list(TRANSFORM ARG_USES PREPEND relucent_)
-  target_link_libraries(${target} PUBLIC ${ARG_USES} ${ARG_PUBLIC} PRIVATE relucent_options ${ARG_PRIVATE})
+  target_link_libraries(${target} PUBLIC ${ARG_USES} ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:relucent_options> ${ARG_PRIVATE})
   if(NOT ARG_OWN_FLAGS)
     relucent_reads_prelude(${target} core)
   endif()
@@ -70,13 +85,13 @@ function(relucent_test source)
   add_executable(${name} ${source} ${moc})
   list(TRANSFORM ARG_USES PREPEND relucent_)
   target_link_libraries(${name} PRIVATE relucent_options Qt6::Test ${ARG_USES} ${ARG_LIBRARIES})
-  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_BINARY_DIR})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_BINARY_DIR})
   if(RELUCENT_TEST_PRELUDE)
     relucent_reads_prelude(${name} ${RELUCENT_TEST_PRELUDE})
   endif()
   set(command ${name})
   if(ARG_ON_TWO_SCREENS)
-    set(command ${CMAKE_SOURCE_DIR}/tests/support/with-two-screens $<TARGET_FILE:${name}>)
+    set(command ${PROJECT_SOURCE_DIR}/tests/support/with-two-screens $<TARGET_FILE:${name}>)
   endif()
   add_test(NAME ${name} COMMAND ${command})
   if(NOT ARG_TIMEOUT)
@@ -84,5 +99,5 @@ function(relucent_test source)
   endif()
   # Qt Test has a limit of its own, 300 s for each function, whatever ctest allows.
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
-    ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${CMAKE_SOURCE_DIR}/../shared/data")
+    ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
 endfunction()

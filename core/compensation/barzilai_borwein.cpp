@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/constrained_iteration.h"
+#include "relucent/compensation/constrained_iteration.h"
 
-namespace relucent::detail {
+namespace relucent::compensation::detail {
 
 /// Barzilai & Borwein's step lengths along the projected gradient (Birgin, Martinez & Raydan); f is
 /// quadratic, so the best point of every step is known in closed form and f never rises.
@@ -37,4 +37,4 @@ SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const 
   return result;
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::compensation::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/constrained_iteration.h"
+#include "relucent/compensation/constrained_iteration.h"
 
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent::detail {
+namespace relucent::compensation::detail {
 
 Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit) {
   Stack residual = stackOf(lit.size(), [&](std::size_t i) {
@@ -86,4 +86,4 @@ void reportDescent(Progress& progress, double norm, double firstNorm, int iterat
   progress.report(std::clamp(std::max(fallen, counted), 0.0, 1.0));
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::compensation::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compensation/solver.h"
-#include "compensation/stacks.h"
+#include "relucent/compensation/solver.h"
+#include "relucent/compensation/stacks.h"
 
 /// Shared by the solvers of solver.h; no other file includes this.
-namespace relucent::detail {
+namespace relucent::compensation::detail {
 
 /// grad f from T x; 0 on pixels that are not free.
 Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit);
@@ -54,4 +54,4 @@ SolveResult solveSteepestDescent(const Iteration& at, const Stack& start, const 
 SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
                        Progress& progress);
 
-}  // namespace relucent::detail
+}  // namespace relucent::compensation::detail

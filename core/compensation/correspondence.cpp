@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/correspondence.h"
+#include "relucent/compensation/correspondence.h"
 
 #include <atomic>
 #include <bit>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
-std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
+std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
                                                   const std::vector<std::uint8_t>& usable,
                                                   const DirectLightSettings& settings) {
   constexpr float leastShare = 0.01f;
-  const BlockSparse& leaves = transport.leaves();
-  const NodeLayout& layout = transport.layout();
+  const transport::BlockSparse& leaves = transport.leaves();
+  const transport::NodeLayout& layout = transport.layout();
   const Rasters& projectors = transport.projectors();
   require(usable.size() == leaves.rows(), "{} flags for {} camera pixels", usable.size(), leaves.rows());
   DirectLeaves rule(transport, settings);
@@ -33,7 +33,7 @@ std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transpo
   parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
     if (!usable[row]) return;
     float most = rule.lookOf(row).light;
-    rule.eachDirect(row, [&](std::size_t entry, const Block& block) {
+    rule.eachDirect(row, [&](std::size_t entry, const transport::Block& block) {
       float light = leaves.block(row, entry).sum() / static_cast<float>(block.count());
       if (!(light > 0.0f) || light < leastShare * most) return;
       auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
@@ -57,4 +57,4 @@ std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brighte
   return free;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

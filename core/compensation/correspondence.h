@@ -4,20 +4,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "compensation/direct_light.h"
-#include "compensation/target.h"
+#include "relucent/compensation/direct_light.h"
+#include "relucent/compensation/target.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// i*(j): for every projector pixel the usable camera pixel that it lights most, per pixel of a leaf's block,
 /// sum over all channels; -1 where it lights none. Only direct leaves count (DirectLeaves): light that a
 /// projector pixel sends outside the view returns as indirect light, which cannot be placed. Leaves below 1 %
 /// of their row's brightest do not count.
-std::vector<std::int32_t> brightestCorrespondence(const TransportMatrix& transport,
+std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
                                                   const std::vector<std::uint8_t>& usable,
                                                   const DirectLightSettings& settings);
 
 /// Per projector pixel: its brightest camera pixel lies within the content. The others are black.
 std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/dense_box.h"
+#include "relucent/compensation/dense_box.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 using Eigen::Index;
@@ -202,4 +202,4 @@ DenseBoxResult solveDenseBox(const Eigen::MatrixXd& a, const VectorXd& b, const 
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "relucent/base/progress.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 struct DenseBoxSettings {
   double lower = 0.0;
@@ -42,4 +42,4 @@ struct DenseBoxResult {
 DenseBoxResult solveDenseBox(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                              const DenseBoxSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "base/error.h"
-#include "compensation/constrained_iteration.h"
-#include "compensation/dense_box.h"
+#include "relucent/base/error.h"
+#include "relucent/compensation/constrained_iteration.h"
+#include "relucent/compensation/dense_box.h"
 
-namespace relucent::detail {
+namespace relucent::compensation::detail {
 namespace {
 
 constexpr std::size_t mostUnknowns = 1536;
@@ -77,4 +77,4 @@ SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, co
   return result;
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::compensation::detail

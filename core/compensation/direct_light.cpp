@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/direct_light.h"
+#include "relucent/compensation/direct_light.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 /// Runs body(row) on all cores, with a checkpoint now and then.
@@ -30,7 +30,7 @@ std::vector<Message> problems(const DirectLightSettings& settings) {
                                "the reach of direct light must lie between 0 and 1 of the projector's side")};
 }
 
-DirectLeaves::DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings)
+DirectLeaves::DirectLeaves(const transport::TransportMatrix& transport, const DirectLightSettings& settings)
     : leaves_(transport.leaves()), layout_(transport.layout()) {
   auto wrong = problems(settings);
   require(wrong.empty(), "direct light settings: {}", fmt::join(wrong, "; "));
@@ -51,7 +51,8 @@ DirectLook DirectLeaves::lookOf(std::size_t row) const {
       static_cast<std::int32_t>(projectors.offset(projector) + indexOf(projectors.size(projector), pixel));
   look.light = brightest->light;
   float direct = 0.0f, all = 0.0f;
-  eachDirect(row, [&](std::size_t entry, const Block&) { direct += leaves_.block(row, entry).sum(); });
+  eachDirect(row,
+             [&](std::size_t entry, const transport::Block&) { direct += leaves_.block(row, entry).sum(); });
   for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry)
     all += leaves_.block(row, entry).sum();
   look.share = all > 0.0f ? std::clamp(direct / all, 0.0f, 1.0f) : 0.0f;
@@ -61,8 +62,8 @@ DirectLook DirectLeaves::lookOf(std::size_t row) const {
 std::vector<DirectLeaves::Place> DirectLeaves::placesOf(std::size_t row) const {
   std::vector<Place> places(reach_.size());
   for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-    Node node = layout_.node(leaves_.column(entry));
-    Block block = layout_.block(node);
+    transport::Node node = layout_.node(leaves_.column(entry));
+    transport::Block block = layout_.block(node);
     float light = leaves_.block(row, entry).sum() / static_cast<float>(block.count());
     Place& place = places[static_cast<std::size_t>(node.projector)];
     if (light > place.light) place = {light, 0.5 * (block.x0 + block.x1), 0.5 * (block.y0 + block.y1)};
@@ -70,19 +71,19 @@ std::vector<DirectLeaves::Place> DirectLeaves::placesOf(std::size_t row) const {
   return places;
 }
 
-TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSettings& settings,
-                           Progress& progress) {
-  const BlockSparse& leaves = transport.leaves();
+transport::TransportMatrix directPart(const transport::TransportMatrix& transport,
+                                      const DirectLightSettings& settings, Progress& progress) {
+  const transport::BlockSparse& leaves = transport.leaves();
   DirectLeaves rule(transport, settings);
   std::vector<std::uint8_t> direct(leaves.blocks(), 0);
   eachRow(leaves.rows(), progress, [&](std::size_t row) {
-    rule.eachDirect(row, [&](std::size_t entry, const Block&) { direct[entry] = 1; });
+    rule.eachDirect(row, [&](std::size_t entry, const transport::Block&) { direct[entry] = 1; });
   });
-  return TransportMatrix(transport.cameras(), transport.projectors(), leaves.filtered(direct));
+  return transport::TransportMatrix(transport.cameras(), transport.projectors(), leaves.filtered(direct));
 }
 
-std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
-                                    Progress& progress) {
+std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
+                                    const DirectLightSettings& settings, Progress& progress) {
   DirectLeaves rule(transport, settings);
   std::vector<DirectLook> looks(transport.leaves().rows());
   eachRow(looks.size(), progress, [&](std::size_t row) { looks[row] = rule.lookOf(row); });
@@ -95,9 +96,9 @@ std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks, doub
   return lit;
 }
 
-TransportMatrix defocusOnly(const TransportMatrix& transport, const DirectLightSettings& settings,
-                            Progress& progress) {
-  return rescaledToFloodlight(directPart(transport, settings, progress), transport.floodlight());
+transport::TransportMatrix defocusOnly(const transport::TransportMatrix& transport,
+                                       const DirectLightSettings& settings, Progress& progress) {
+  return transport::rescaledToFloodlight(directPart(transport, settings, progress), transport.floodlight());
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/progress.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 struct DirectLightSettings {
   /// Distance from a camera pixel's brightest projector pixel within which light counts as direct, as a share
@@ -41,7 +41,7 @@ inline constexpr double leastDirectShare = 0.1;
 class DirectLeaves {
  public:
   /// T must outlive this object.
-  DirectLeaves(const TransportMatrix& transport, const DirectLightSettings& settings);
+  DirectLeaves(const transport::TransportMatrix& transport, const DirectLightSettings& settings);
 
   /// Calls visit(entry, block) for the direct leaves of a row.
   template <typename Visit>
@@ -52,11 +52,11 @@ class DirectLeaves {
     float most = 0.0f;
     for (const Place& place : places) most = std::max(most, place.light);
     for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-      Node node = layout_.node(leaves_.column(entry));
+      transport::Node node = layout_.node(leaves_.column(entry));
       auto projector = static_cast<std::size_t>(node.projector);
       const Place& place = places[projector];
       if (!(place.light > leastShare * most)) continue;
-      Block block = layout_.block(node);
+      transport::Block block = layout_.block(node);
       double reach = reach_[projector];
       if (std::abs(0.5 * (block.x0 + block.x1) - place.x) <= reach &&
           std::abs(0.5 * (block.y0 + block.y1) - place.y) <= reach &&
@@ -75,8 +75,8 @@ class DirectLeaves {
   };
   std::vector<Place> placesOf(std::size_t row) const;
 
-  const BlockSparse& leaves_;
-  const NodeLayout& layout_;
+  const transport::BlockSparse& leaves_;
+  const transport::NodeLayout& layout_;
   std::vector<double> reach_;  // per projector, pixels
 };
 
@@ -85,12 +85,12 @@ class DirectLeaves {
 /// path to the camera pixel, through glass or past a depth edge, which T does not distinguish from those.
 /// Law: direct + indirect = T, leaf by leaf.  Source: core/compensation/README.md.
 /// Throws: Cancelled.
-TransportMatrix directPart(const TransportMatrix& transport, const DirectLightSettings& settings,
-                           Progress& progress);
+transport::TransportMatrix directPart(const transport::TransportMatrix& transport,
+                                      const DirectLightSettings& settings, Progress& progress);
 
 /// For every camera pixel the data on which directPart() decides, without building it.
-std::vector<DirectLook> directLooks(const TransportMatrix& transport, const DirectLightSettings& settings,
-                                    Progress& progress);
+std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
+                                    const DirectLightSettings& settings, Progress& progress);
 
 /// Per look: enough of its light is direct.
 std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks,
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks,
 /// Transport of a model with defocus but without indirect light: the direct part, every row scaled to the
 /// whole flood image.
 /// Rows without direct light are empty.
-TransportMatrix defocusOnly(const TransportMatrix& transport, const DirectLightSettings& settings,
-                            Progress& progress);
+transport::TransportMatrix defocusOnly(const transport::TransportMatrix& transport,
+                                       const DirectLightSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "compensation/constrained_iteration.h"
+#include "relucent/compensation/constrained_iteration.h"
 
-namespace relucent::detail {
+namespace relucent::compensation::detail {
 
 /// Beck & Teboulle's FISTA in the metric of C, restarted where momentum points uphill (O'Donoghue & Candes).
 SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings,
@@ -42,4 +42,4 @@ SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSett
   return result;
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::compensation::detail

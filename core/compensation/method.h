@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/enum_names.h"
+#include "relucent/base/enum_names.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// The methods of compensation, ordered by how much of the light transport they use.
 enum class Method { none, scalar, mix, sharpen, clusters, windows, refined, optimum };
@@ -23,4 +23,4 @@ constexpr EnumNames<Method> namesOf(Method) {
   return {"method", methodNames};
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/methods.h"
+#include "relucent/compensation/methods.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "compensation/correspondence.h"
-#include "compensation/stacks.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/compensation/correspondence.h"
+#include "relucent/compensation/stacks.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 Stack difference(const Stack& a, const Stack& b) {
@@ -53,7 +53,7 @@ std::vector<Message> problems(const CompensatorSettings& settings) {
   return found;
 }
 
-Compensator::Compensator(const MeasuredVenue& venue, const WindowInverse& inverse,
+Compensator::Compensator(const MeasuredVenue& venue, const inverse::WindowInverse& inverse,
                          CompensatorSettings settings)
     : venue_(venue),
       inverse_(inverse),
@@ -111,7 +111,7 @@ float Compensator::bestBrightness(const Target& target) const {
 Compensation Compensator::sharpened(const Target& target, Compensation mixed,
                                     const std::vector<std::uint8_t>& free, Progress& progress) const {
   Progress separating = progress.part(0.3, RELUCENT_MESSAGE("stage.finding-defocus", "Finding the defocus"));
-  TransportMatrix defocus = defocusOnly(venue_.transport, settings_.direct, separating);
+  transport::TransportMatrix defocus = defocusOnly(venue_.transport, settings_.direct, separating);
   Stack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{defocus, wantedLessBlack, target.weight, free};
   Progress solving = progress.part(0.7, RELUCENT_MESSAGE("stage.sharpening", "Sharpening"));
@@ -121,15 +121,16 @@ Compensation Compensator::sharpened(const Target& target, Compensation mixed,
   return mixed;
 }
 
-const ClusterInverse& Compensator::clusters(Progress& progress) const {
+const inverse::ClusterInverse& Compensator::clusters(Progress& progress) const {
   std::call_once(clustersMade_, [&] {
     Progress clustering = progress.part(
         0.3, RELUCENT_MESSAGE("stage.clustering-light-transport", "Clustering the light transport"));
-    ConnectionGraph graph(venue_.transport, venue_.usable, {}, clustering);
-    Clustering clustered = relucent::clustered(graph, settings_.clustering, clustering);
+    clustering::ConnectionGraph graph(venue_.transport, venue_.usable, {}, clustering);
+    clustering::Clustering clustered =
+        relucent::clustering::clustered(graph, settings_.clustering, clustering);
     Progress inverting =
         progress.part(0.6, RELUCENT_MESSAGE("stage.inverting-clusters", "Inverting the clusters"));
-    clusters_ = computeClusterInverse(clustered, venue_.usable, settings_.clusterInverse, inverting);
+    clusters_ = inverse::computeClusterInverse(clustered, venue_.usable, settings_.clusterInverse, inverting);
   });
   return clusters_;
 }
@@ -200,4 +201,4 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

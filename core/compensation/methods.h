@@ -7,20 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "compensation/direct_light.h"
-#include "compensation/method.h"
-#include "compensation/solver.h"
-#include "compensation/target.h"
-#include "inverse/cluster_inverse.h"
-#include "inverse/windows.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/direct_light.h"
+#include "relucent/compensation/method.h"
+#include "relucent/compensation/solver.h"
+#include "relucent/compensation/target.h"
+#include "relucent/inverse/cluster_inverse.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 struct CompensatorSettings {
   /// Settings of `clusters`. Without a cap, clusters percolate in almost every venue.
-  ClusteringSettings clustering{.patchCut = 0.3, .cap = SizeCap::always};
-  ClusterInverseSettings clusterInverse{.ridge = 2.0};
+  clustering::ClusteringSettings clustering{.patchCut = 0.3, .cap = clustering::SizeCap::always};
+  inverse::ClusterInverseSettings clusterInverse{.ridge = 2.0};
   /// The correction step of `windows` and `clusters`: share of M W r, and of C T^T W r.
   float correctionByInverse = 0.5f;
   float correctionByAdjoint = 1.0f;
@@ -48,7 +48,8 @@ struct Compensation {
 /// `venue` and `inverse` must outlive it.
 class Compensator {
  public:
-  Compensator(const MeasuredVenue& venue, const WindowInverse& inverse, CompensatorSettings settings = {});
+  Compensator(const MeasuredVenue& venue, const inverse::WindowInverse& inverse,
+              CompensatorSettings settings = {});
 
   /// With o = target.wanted, i*(j) = the brightest camera pixel of projector pixel j, B = the row sums of T:
   ///   none     b content at i*(j) as drive: geometric warp only, under the single best brightness
@@ -82,15 +83,15 @@ class Compensator {
   Compensation byInverse(const std::function<Stack(const Stack&)>& inverse, const Target& target,
                          const std::vector<std::uint8_t>& free, const Stack& preconditioner,
                          const Progress& progress) const;
-  const ClusterInverse& clusters(Progress& progress) const;
+  const inverse::ClusterInverse& clusters(Progress& progress) const;
 
   const MeasuredVenue& venue_;
-  const WindowInverse& inverse_;
+  const inverse::WindowInverse& inverse_;
   CompensatorSettings settings_;
   std::vector<std::int32_t> brightest_;
-  std::vector<ColourBlock> mixing_;
+  std::vector<transport::ColourBlock> mixing_;
   mutable std::once_flag clustersMade_;
-  mutable ClusterInverse clusters_;
+  mutable inverse::ClusterInverse clusters_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::compensation

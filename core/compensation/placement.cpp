@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/placement.h"
+#include "relucent/compensation/placement.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 constexpr double usableShare = 0.9;
@@ -41,9 +41,9 @@ class MaskSums {
 };
 
 /// Half the size, every pixel the mean of four (of fewer at odd borders).
-Image halved(const Image& image) {
+image::Image halved(const image::Image& image) {
   Size size{(image.width() + 1) / 2, (image.height() + 1) / 2};
-  Image half(size, image.channels());
+  image::Image half(size, image.channels());
   parallelFor(0, static_cast<std::size_t>(size.height), 16, [&](std::size_t row) {
     int y = static_cast<int>(row);
     for (int x = 0; x < size.width; ++x) {
@@ -57,7 +57,7 @@ Image halved(const Image& image) {
 }
 
 /// Bilinear between pixel centres; u, v in [0, 1] over the whole image, edges continue outward.
-void addSample(const Image& image, double u, double v, float weight, std::span<float> sum) {
+void addSample(const image::Image& image, double u, double v, float weight, std::span<float> sum) {
   double x = std::clamp(u * image.width() - 0.5, 0.0, image.width() - 1.0);
   double y = std::clamp(v * image.height() - 0.5, 0.0, image.height() - 1.0);
   int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
@@ -157,7 +157,7 @@ Placement fitted(const Corners& quadrilateral, double aspect, Fit fit) {
   return {inner, {}};
 }
 
-Placed place(const Image& content, const Placement& placement, Size view) {
+Placed place(const image::Image& content, const Placement& placement, Size view) {
   require(!content.empty(), "there is no content to place");
   const Corners& corners = placement.corners;
   const ImagePart& part = placement.part;
@@ -166,15 +166,15 @@ Placed place(const Image& content, const Placement& placement, Size view) {
   // Content pixels along one view pixel at the quadrilateral's most crowded side.
   double acrossView = std::min(edge(corners[0], corners[1]), edge(corners[3], corners[2]));
   double downView = std::min(edge(corners[0], corners[3]), edge(corners[1], corners[2]));
-  auto crowding = [&](const Image& image) {
+  auto crowding = [&](const image::Image& image) {
     return std::max((part.x1 - part.x0) * image.width() / acrossView,
                     (part.y1 - part.y0) * image.height() / downView);
   };
-  Image source = content;
+  image::Image source = content;
   while (crowding(source) > 8.0 && source.width() > 1 && source.height() > 1) source = halved(source);
   int samples = std::clamp(static_cast<int>(std::ceil(2.0 * crowding(source))), 2, 16);
 
-  Placed placed{Image(view, content.channels()), std::vector<std::uint8_t>(view.count(), 0)};
+  Placed placed{image::Image(view, content.channels()), std::vector<std::uint8_t>(view.count(), 0)};
   auto map = [&](double x, double y) {
     Eigen::Vector3d p = contentFromView * Eigen::Vector3d(x, y, 1.0);
     return Eigen::Vector2d(part.x0 + (part.x1 - part.x0) * p[0] / p[2],
@@ -201,4 +201,4 @@ Placed place(const Image& content, const Placement& placement, Size view) {
   return placed;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

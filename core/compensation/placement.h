@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/enum_names.h"
-#include "image/image.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// Corners of a quadrilateral, clockwise from top left. Continuous pixel coordinates: pixel (x, y) covers
 /// [x, x + 1) x [y, y + 1).
@@ -63,9 +63,9 @@ Placement fitted(const Corners& quadrilateral, double aspect, Fit fit);
 /// Content placed into a view: pixel centres within the corners are inside, and show the mean of the content
 /// over the area that the pixel covers (at the border the content's edge pixels continue outward).
 struct Placed {
-  Image image;  // 0 outside
+  image::Image image;  // 0 outside
   std::vector<std::uint8_t> inside;
 };
-Placed place(const Image& content, const Placement& placement, Size view);
+Placed place(const image::Image& content, const Placement& placement, Size view);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/prediction.h"
+#include "relucent/compensation/prediction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <span>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/colour.h"
-#include "image/metrics.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/metrics.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 Prediction compared(Stack camera, const Target& target, const Rasters& cameras) {
   require(target.wanted.size() == 3 * cameras.count() && target.inside.size() == cameras.count() &&
@@ -25,9 +25,10 @@ Prediction compared(Stack camera, const Target& target, const Rasters& cameras) 
   std::size_t pixels = cameras.size(0).count();
   std::span<const std::uint8_t> inside(target.inside.data(), pixels),
       reachable(target.reachable.data(), pixels);
-  Image seen = imageFromStack(prediction.camera, cameras, 0),
-        wanted = imageFromStack(target.wanted, cameras, 0);
-  prediction.deltaE = deltaEMap(viewed(seen, target.white), viewed(wanted, target.white), inside);
+  image::Image seen = image::imageFromStack(prediction.camera, cameras, 0),
+               wanted = image::imageFromStack(target.wanted, cameras, 0);
+  prediction.deltaE =
+      image::deltaEMap(image::viewed(seen, target.white), image::viewed(wanted, target.white), inside);
   auto covered =
       static_cast<double>(pixels) - static_cast<double>(std::count(inside.begin(), inside.end(), 0));
   double sum = 0.0;
@@ -51,4 +52,4 @@ Prediction predict(const MeasuredVenue& venue, const Target& target, const Compe
   return prediction;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

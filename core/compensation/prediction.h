@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compensation/methods.h"
-#include "image/image.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// The predicted camera images, and their error.
 struct Prediction {
   Stack camera;                // T p + e
-  Image deltaE;                // CIEDE2000 of the first camera's pixels; NaN outside the content
+  image::Image deltaE;         // CIEDE2000 of the first camera's pixels; NaN outside the content
   double meanDeltaE = 0.0;     // over the content, as a viewer adapted to its white sees it
   double psnrReachable = 0.0;  // dB over the reachable pixels; infinite without error, NaN if there are none
   double reachable = 0.0;      // share of the content's pixels
@@ -24,4 +24,4 @@ Prediction compared(Stack camera, const Target& target, const Rasters& cameras);
 /// Shapes: `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.
 Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

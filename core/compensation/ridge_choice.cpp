@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/ridge_choice.h"
+#include "relucent/compensation/ridge_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "compensation/methods.h"
-#include "compensation/prediction.h"
-#include "image/dead_leaves.h"
-#include "inverse/prepared_windows.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/compensation/prediction.h"
+#include "relucent/image/dead_leaves.h"
+#include "relucent/inverse/prepared_windows.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 constexpr double asGoodAs = 0.1;  // dB
@@ -25,14 +25,15 @@ std::vector<Target> trialTargets(const MeasuredVenue& venue) {
   Size view = venue.transport.cameras().size(0);
   if (!largestUpright(placeable(venue), view, static_cast<double>(pictureSize.width) / pictureSize.height))
     return targets;
-  for (std::uint64_t seed : {1, 2}) targets.push_back(fitTarget(deadLeaves(pictureSize, seed), venue, {}));
+  for (std::uint64_t seed : {1, 2})
+    targets.push_back(fitTarget(image::deadLeaves(pictureSize, seed), venue, {}));
   return targets;
 }
 
 /// The trials so far, by factors of 2 from the ridge that it starts at.
 class Search {
  public:
-  Search(const MeasuredVenue& venue, const WindowSettings& settings, std::vector<Target> targets,
+  Search(const MeasuredVenue& venue, const inverse::WindowSettings& settings, std::vector<Target> targets,
          Progress& progress)
       : venue_(venue),
         startRidge_(settings.ridge),
@@ -72,7 +73,7 @@ class Search {
   }
 
   /// The windows of the step, from its trial where they were kept.
-  WindowInverse take(int step, Progress& progress) {
+  inverse::WindowInverse take(int step, Progress& progress) {
     return kept_ && kept_->first == step ? std::move(kept_->second)
                                          : prepared_.inverse(ridge(step), progress);
   }
@@ -85,20 +86,21 @@ class Search {
  private:
   const MeasuredVenue& venue_;
   double startRidge_;
-  PreparedWindows prepared_;
+  inverse::PreparedWindows prepared_;
   std::vector<Target> targets_;
-  WindowInverse current_;
+  inverse::WindowInverse current_;
   std::optional<Compensator> compensator_;
   std::map<int, double> psnr_;
-  std::optional<std::pair<int, WindowInverse>> kept_;
+  std::optional<std::pair<int, inverse::WindowInverse>> kept_;
 };
 
 }  // namespace
 
-RidgeChoice chooseRidge(const MeasuredVenue& venue, const WindowSettings& settings, Progress& progress) {
+RidgeChoice chooseRidge(const MeasuredVenue& venue, const inverse::WindowSettings& settings,
+                        Progress& progress) {
   std::vector<Target> targets = trialTargets(venue);
   if (targets.empty())
-    return {settings.ridge, {}, computeWindows(venue.transport, venue.usable, settings, progress)};
+    return {settings.ridge, {}, inverse::computeWindows(venue.transport, venue.usable, settings, progress)};
 
   Progress preparing = progress.part(0.1, progress.stage());
   Search search(venue, settings, std::move(targets), preparing);
@@ -125,4 +127,4 @@ RidgeChoice chooseRidge(const MeasuredVenue& venue, const WindowSettings& settin
   return choice;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "base/progress.h"
-#include "compensation/target.h"
-#include "inverse/windows.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/target.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// Result of the windows with one ridge.
 struct RidgeTrial {
@@ -18,8 +18,8 @@ struct RidgeTrial {
 
 struct RidgeChoice {
   double ridge = 0.0;
-  std::vector<RidgeTrial> curve;  // ridge ascending; empty where nothing could be compensated
-  WindowInverse inverse;          // with that ridge
+  std::vector<RidgeTrial> curve;   // ridge ascending; empty where nothing could be compensated
+  inverse::WindowInverse inverse;  // with that ridge
 };
 
 /// Finds the ridge of the windows by search: pictures with natural statistics are compensated, clamped to the
@@ -31,6 +31,7 @@ struct RidgeChoice {
 ///     more ridge, never for less.
 /// A venue without a lit part that content would fit into keeps settings.ridge.
 /// Throws: as computeWindows().
-RidgeChoice chooseRidge(const MeasuredVenue& venue, const WindowSettings& settings, Progress& progress);
+RidgeChoice chooseRidge(const MeasuredVenue& venue, const inverse::WindowSettings& settings,
+                        Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

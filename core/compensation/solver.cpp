@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/solver.h"
+#include "relucent/compensation/solver.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "base/error.h"
-#include "compensation/constrained_iteration.h"
+#include "relucent/base/error.h"
+#include "relucent/compensation/constrained_iteration.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 using Algorithm = SolverSettings::Algorithm;
@@ -98,4 +98,4 @@ SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& sta
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

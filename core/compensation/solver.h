@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "base/enum_names.h"
-#include "base/progress.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/base/progress.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// Compensation as weighted least squares with box constraints:
 ///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= 1,   b = wanted - e.
 struct ConstrainedProblem {
-  const TransportMatrix& transport;
+  const transport::TransportMatrix& transport;
   const Stack& wantedLessBlack;           // b, camera stack
   const std::vector<float>& weight;       // w per camera pixel
   const std::vector<std::uint8_t>& free;  // per projector pixel; pixels with 0 are fixed at 0
@@ -70,4 +70,4 @@ Stack gradient(const ConstrainedProblem& problem, const Stack& p);
 SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
                              const SolverSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -5,11 +5,11 @@
 #include <array>
 #include <numeric>
 
-#include "base/parallel.h"
-#include "base/raster.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/raster.h"
 
 /// Arithmetic on whole stacks, on all cores, the same bits for every number of threads.
-namespace relucent {
+namespace relucent::compensation {
 
 inline float clamp01(float value) {
   return std::clamp(value, 0.0f, 1.0f);
@@ -36,4 +36,4 @@ double sumOf(std::size_t count, const Term& term) {
   return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

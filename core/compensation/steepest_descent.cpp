@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <utility>
 
-#include "compensation/constrained_iteration.h"
+#include "relucent/compensation/constrained_iteration.h"
 
-namespace relucent::detail {
+namespace relucent::compensation::detail {
 namespace {
 
 /// -g without what would leave the box at once.
@@ -55,4 +55,4 @@ SolveResult solveSteepestDescent(const Iteration& at, const Stack& start, const 
   return result;
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::compensation::detail

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/target.h"
+#include "relucent/compensation/target.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 Size firstCamera(const MeasuredVenue& venue) {
   return venue.transport.cameras().size(0);
 }
 
-void checkShapes(const Image& content, const MeasuredVenue& venue) {
+void checkShapes(const image::Image& content, const MeasuredVenue& venue) {
   std::size_t pixels = venue.transport.cameras().count();
   require(venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels &&
               venue.usable.size() == pixels && (venue.direct.empty() || venue.direct.size() == pixels),
@@ -25,7 +25,7 @@ void checkShapes(const Image& content, const MeasuredVenue& venue) {
 }
 
 /// Where the content goes when nobody says.
-Corners chosenCorners(const Image& content, const MeasuredVenue& venue) {
+Corners chosenCorners(const image::Image& content, const MeasuredVenue& venue) {
   Size view = firstCamera(venue);
   double aspect = static_cast<double>(content.width()) / content.height();
   std::optional<Corners> found = largestUpright(placeable(venue), view, aspect);
@@ -58,7 +58,8 @@ void checkInView(const Corners& corners, Size view) {
   }
 }
 
-Placement placementOf(const Image& content, const MeasuredVenue& venue, const TargetSettings& settings) {
+Placement placementOf(const image::Image& content, const MeasuredVenue& venue,
+                      const TargetSettings& settings) {
   if (!settings.corners) return {chosenCorners(content, venue), {}};  // of the content's own shape
   checkInView(*settings.corners, firstCamera(venue));
   double aspect = static_cast<double>(content.width()) / content.height();
@@ -143,8 +144,8 @@ std::vector<std::uint8_t> placeable(const MeasuredVenue& venue) {
   return pixels;
 }
 
-ColourBlock meanColourMixing(const MeasuredVenue& venue) {
-  std::vector<ColourBlock> mixing = venue.transport.rowSums();
+transport::ColourBlock meanColourMixing(const MeasuredVenue& venue) {
+  std::vector<transport::ColourBlock> mixing = venue.transport.rowSums();
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double rows = 0.0;
   for (std::size_t i = 0; i < mixing.size(); ++i) {
@@ -154,11 +155,12 @@ ColourBlock meanColourMixing(const MeasuredVenue& venue) {
     sum += (flood.cwiseInverse().asDiagonal() * mixing[i]).eval().cast<double>();
     rows += 1.0;
   }
-  if (rows == 0.0) return ColourBlock::Identity();
+  if (rows == 0.0) return transport::ColourBlock::Identity();
   return (sum / rows).cast<float>();
 }
 
-Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings) {
+Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
+                 const TargetSettings& settings) {
   checkShapes(linearContent, venue);
   auto wrong = problems(settings);
   require(wrong.empty(), "target settings: {}", fmt::join(wrong, "; "));
@@ -175,7 +177,7 @@ Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const T
 
   float white = whiteLevel(venue, target.inside, settings.reachablePercentile);
   target.white = {white, white, white};
-  ColourBlock mixing = meanColourMixing(venue);
+  transport::ColourBlock mixing = meanColourMixing(venue);
   auto lift = static_cast<float>(settings.blackLift);
   target.wanted = venue.black;
   target.reachable.assign(pixels, 0);
@@ -195,4 +197,4 @@ Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const T
   return target;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

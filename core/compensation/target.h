@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "compensation/placement.h"
-#include "image/image.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/message.h"
+#include "relucent/compensation/placement.h"
+#include "relucent/image/image.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// The measured venue, as compensation needs it.
 struct MeasuredVenue {
-  TransportMatrix transport;
+  transport::TransportMatrix transport;
   Stack black;                       // e
   Stack flood;                       // T 1 as photographed, minus e
   std::vector<std::uint8_t> usable;  // per camera pixel: lit by the projector and not flagged
@@ -53,7 +53,7 @@ struct Target {
 /// K: the mean colour mixing of the venue,
 ///   K = mean over the usable pixels of diag(B_i 1)^-1 B_i,   B_i = the row sum of T.
 /// Every row of K sums to one, so grey content stays grey.
-ColourBlock meanColourMixing(const MeasuredVenue& venue);
+transport::ColourBlock meanColourMixing(const MeasuredVenue& venue);
 
 /// Places and scales linear content (three channels, values 0 to 1) to the target of the first camera:
 ///   wanted = white * (lift + (1 - lift) K content).
@@ -62,6 +62,7 @@ ColourBlock meanColourMixing(const MeasuredVenue& venue);
 /// Source: core/compensation/README.md.
 /// Throws: Error{input} if no part of the view is lit, a corner lies outside the view, or the corners enclose
 /// nothing usable.
-Target fitTarget(const Image& linearContent, const MeasuredVenue& venue, const TargetSettings& settings);
+Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
+                 const TargetSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

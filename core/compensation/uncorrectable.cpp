@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/uncorrectable.h"
+#include "relucent/compensation/uncorrectable.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "compensation/correspondence.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/compensation/correspondence.h"
 
-namespace relucent {
+namespace relucent::compensation {
 namespace {
 
 /// Of one camera the pixels that look to where another one looks to with more light.
@@ -126,4 +126,4 @@ std::array<double, allReasons.size()> sharesOf(const std::vector<Uncorrectable>&
   return shares;
 }
 
-}  // namespace relucent
+}  // namespace relucent::compensation

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/enum_names.h"
-#include "base/progress.h"
-#include "compensation/direct_light.h"
-#include "compensation/target.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/direct_light.h"
+#include "relucent/compensation/target.h"
 
-namespace relucent {
+namespace relucent::compensation {
 
 /// Why a camera pixel cannot show the wanted value; of several reasons the first in this order.
 enum class Uncorrectable : std::uint8_t {
@@ -37,7 +37,8 @@ constexpr EnumNames<Uncorrectable> namesOf(Uncorrectable) {
 
 struct UncorrectableSettings {
   DirectLightSettings direct;
-  double leastDirectShare = relucent::leastDirectShare;  // shadowed: less of the flood image is direct
+  double leastDirectShare =
+      relucent::compensation::leastDirectShare;  // shadowed: less of the flood image is direct
   /// Seen twice: the two positions are at least this far apart, as a share of the camera's larger side, at
   /// least three pixels: further than defocus and the camera's pixels spread one projector pixel
   /// (direct.reach).
@@ -58,4 +59,4 @@ std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Ta
 /// Share of the content's pixels with each reason, in the order of allReasons.
 std::array<double, allReasons.size()> sharesOf(const std::vector<Uncorrectable>& map);
 
-}  // namespace relucent
+}  // namespace relucent::compensation

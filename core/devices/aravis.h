@@ -9,10 +9,10 @@
 #include <memory>
 #include <string>
 
-#include "base/error.h"
-#include "devices/genicam_driver.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/genicam_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct UnrefObject {
   void operator()(gpointer object) const { g_object_unref(object); }
@@ -50,7 +50,8 @@ class AravisFailure {
               .with(action, error_->message));
     throw Error(
         ErrorKind::device,
-        RELUCENT_MESSAGE("device.camera-refuses", "the camera refuses ({}: {})").with(action, error_->message),
+        RELUCENT_MESSAGE("device.camera-refuses", "the camera refuses ({}: {})")
+            .with(action, error_->message),
         RELUCENT_MESSAGE(
             "device.switch-off-load-default-settings",
             "switch it off and on, load its default settings with its maker's program, and try again"),
@@ -83,4 +84,4 @@ struct AravisSetup {
 AravisSetup setUp(ArvCamera* camera, const std::string& name, const GenicamSettings& settings,
                   CameraTraits& traits);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -2,10 +2,10 @@
 #include <mutex>
 #include <utility>
 
-#include "base/message.h"
-#include "devices/aravis.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/aravis.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using std::chrono::microseconds;
@@ -224,4 +224,4 @@ std::unique_ptr<CameraDriver> makeGenicamDriver(const GenicamSettings& settings)
   return std::make_unique<AravisDriver>(settings);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

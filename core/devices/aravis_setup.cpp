@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "base/message.h"
-#include "devices/aravis.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/aravis.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 class Setup {
@@ -171,4 +171,4 @@ AravisSetup setUp(ArvCamera* camera, const std::string& name, const GenicamSetti
   return Setup(camera, name, settings).run(traits);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

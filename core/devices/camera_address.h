@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace relucent {
+namespace relucent::devices {
 
 /// Where a camera is found, now and after the next start: KIND:PLACE, as "genicam:40012345". Which kinds
 /// there are, and what a place of each looks like, is known to CameraRegistry, which also reads addresses.
@@ -15,4 +15,4 @@ struct CameraAddress {
 
 std::string toString(const CameraAddress& address);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/sensor_frame.h"
-#include "rig/rig.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/sensor_frame.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// Nobody answers, or somebody else holds the camera. Met by what drives the driver: it connects again.
 class CameraLost : public std::exception {
@@ -36,7 +36,7 @@ struct CameraTraits {
   std::string model;               // "Aravis Fake GV01"
   Size size;                       // of photographs
   SensorFormat format;             // of frames
-  ExposureRange exposures;         // as the camera claims
+  rig::ExposureRange exposures;    // as the camera claims
   bool triggered = false;          // a frame comes when it is asked for; otherwise all the time
   double gain = 0.0;               // as read back, in the camera's own unit
   std::vector<Message> remarks{};  // sentences that its user should know
@@ -78,4 +78,4 @@ class CameraDriver {
   virtual void wait(std::chrono::microseconds time) = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

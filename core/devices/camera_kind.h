@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/listed_camera.h"
-#include "rig/rig.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/listed_camera.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// What whoever opens a camera wants of it.
 struct CameraWishes {
-  std::optional<Size> size;            // of photographs; none: all that the camera has
-  ExposureRange exposures{1e-3, 4.0};  // of cameras that cannot be asked for theirs
+  std::optional<Size> size;                 // of photographs; none: all that the camera has
+  rig::ExposureRange exposures{1e-3, 4.0};  // of cameras that cannot be asked for theirs
 };
 
 /// One kind of camera: all that the rest of the program knows about it.
@@ -29,9 +29,9 @@ struct CameraKind {
 
   /// The camera at a place, ready for use. Throws: Error{device} if it is not there or cannot be used;
   /// Error{usage} if there can be no such place.
-  std::function<std::unique_ptr<Camera>(const std::string& place, const CameraWishes& wishes)> open;
+  std::function<std::unique_ptr<rig::Camera>(const std::string& place, const CameraWishes& wishes)> open;
   /// Cameras that answer now, each opened for a moment. Empty: such cameras cannot be looked for.
   std::function<std::vector<ListedCamera>()> list = {};
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "devices/camera_registry.h"
+#include "relucent/devices/camera_registry.h"
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 std::string formOf(const CameraKind& kind) {
@@ -57,7 +57,8 @@ std::string CameraRegistry::help() const {
   return lines;
 }
 
-std::unique_ptr<Camera> CameraRegistry::open(const CameraAddress& address, const CameraWishes& wishes) const {
+std::unique_ptr<rig::Camera> CameraRegistry::open(const CameraAddress& address,
+                                                  const CameraWishes& wishes) const {
   const CameraKind* kind = find(address.kind);
   require(kind != nullptr, "no camera kind '{}'", address.kind);
   return kind->open(address.place, wishes);
@@ -73,4 +74,4 @@ CameraList CameraRegistry::list() const {
   return found;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

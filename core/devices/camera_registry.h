@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/camera_address.h"
-#include "devices/camera_kind.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_address.h"
+#include "relucent/devices/camera_kind.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// Whether this build can speak to a kind of camera.
 struct CameraSupport {
@@ -44,7 +44,7 @@ class CameraRegistry {
 
   /// The camera at an address, ready for use. Throws: as CameraKind::open; std::logic_error for a kind that
   /// is not here, which addressFrom() never gives.
-  std::unique_ptr<Camera> open(const CameraAddress& address, const CameraWishes& wishes) const;
+  std::unique_ptr<rig::Camera> open(const CameraAddress& address, const CameraWishes& wishes) const;
   /// Looks for cameras of all kinds and opens each of them for a moment to learn what it can do and what is
   /// wrong with it. Takes a second for the network and up to some seconds for a camera that does not answer.
   CameraList list() const;
@@ -56,4 +56,4 @@ class CameraRegistry {
 /// The kinds that core/devices/CMakeLists.txt names.
 const CameraRegistry& cameraRegistry();
 
-}  // namespace relucent
+}  // namespace relucent::devices

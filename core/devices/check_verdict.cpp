@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "devices/check_verdict.h"
+#include "relucent/devices/check_verdict.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 Message messageOf(const CheckVerdict& verdict) {
   const Argument share = as::share(verdict.share, as::decimals(0));
@@ -74,4 +74,4 @@ Message messageOf(const CheckVerdict& verdict) {
   return {};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// What can be found out about a projector and the camera before it.
 enum class Finding {
@@ -50,4 +50,4 @@ struct CheckVerdict {
 /// What was seen, and what to do.
 Message messageOf(const CheckVerdict& verdict);
 
-}  // namespace relucent
+}  // namespace relucent::devices

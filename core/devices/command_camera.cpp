@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "devices/command_camera.h"
+#include "relucent/devices/command_camera.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "devices/shell_command.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/shell_command.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace fs = std::filesystem;
 namespace {
 
@@ -117,7 +117,7 @@ CommandCamera::CommandCamera(CommandCameraSettings settings) : settings_(std::mo
                          : photograph({{"size", 0}, 0, settings_.exposures.shortest}).signal.size();
 }
 
-RawFrame CommandCamera::capture(const CaptureRequest& request) {
+rig::RawFrame CommandCamera::capture(const rig::CaptureRequest& request) {
   for (int attempt = 1; attempt < settings_.attempts; ++attempt) {
     try {
       return checkedPhotograph(request);
@@ -128,8 +128,8 @@ RawFrame CommandCamera::capture(const CaptureRequest& request) {
   return checkedPhotograph(request);
 }
 
-RawFrame CommandCamera::checkedPhotograph(const CaptureRequest& request) {
-  RawFrame frame = photograph(request);
+rig::RawFrame CommandCamera::checkedPhotograph(const rig::CaptureRequest& request) {
+  rig::RawFrame frame = photograph(request);
   if (frame.signal.size() != size_)
     throw Error(ErrorKind::device,
                 RELUCENT_MESSAGE("device.photograph-pixels-announced",
@@ -139,11 +139,11 @@ RawFrame CommandCamera::checkedPhotograph(const CaptureRequest& request) {
                     "device.let-command-write-size-begin",
                     "let the command write that size, or begin again with the size that the camera delivers"),
                 name());
-  checkFrame(frame, size_, name());
+  rig::checkFrame(frame, size_, name());
   return frame;
 }
 
-RawFrame CommandCamera::photograph(const CaptureRequest& request) {
+rig::RawFrame CommandCamera::photograph(const rig::CaptureRequest& request) {
   const fs::path output = folder_.path() / (std::string(stem) + "." + settings_.extension);
   clear(folder_.path());
 
@@ -163,11 +163,11 @@ RawFrame CommandCamera::photograph(const CaptureRequest& request) {
             .with(command),
         name());
   try {
-    Picture taken = readPicture(picture);
+    image::Picture taken = image::readPicture(picture);
     return {std::move(taken.encoded), taken.bits, request.seconds};
   } catch (const Error& error) {
     throw error.within(name());
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

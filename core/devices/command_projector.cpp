@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "devices/command_projector.h"
+#include "relucent/devices/command_projector.h"
 
-#include "base/error.h"
-#include "devices/shell_command.h"
-#include "image/picture_files.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/shell_command.h"
+#include "relucent/image/picture_files.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 std::vector<Message> problems(const CommandProjectorSettings& settings) {
   std::vector<Message> found;
@@ -34,13 +34,13 @@ CommandProjector::CommandProjector(CommandProjectorSettings settings) : settings
   require(problems(settings_).empty(), "{}", fmt::join(problems(settings_), "; "));
 }
 
-void CommandProjector::show(const Image& encodedDrive) {
+void CommandProjector::show(const image::Image& encodedDrive) {
   require(encodedDrive.size() == settings_.size && encodedDrive.channels() == 3,
           "a pattern of {}x{} pixels, {} channels for a projector of {}x{}", encodedDrive.width(),
           encodedDrive.height(), encodedDrive.channels(), settings_.size.width, settings_.size.height);
   // One name for all patterns, replaced in one step: a viewer that watches the file never sees half of one.
   const std::filesystem::path image = folder_.path() / "pattern.png";
-  writePng(image, encodedDrive, settings_.bits);
+  image::writePng(image, encodedDrive, settings_.bits);
   const std::string command = substituted(settings_.command, {{"image", image.string()}});
   for (int attempt = 1; attempt < settings_.attempts; ++attempt) {
     try {
@@ -52,4 +52,4 @@ void CommandProjector::show(const Image& encodedDrive) {
   runShellCommand(command, settings_.timeout, name());
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/temporary_folder.h"
-#include "rig/rig.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/temporary_folder.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct CommandProjectorSettings {
   /// For /bin/sh; {image} becomes the path of a PNG of drive values, quoted where that is needed. The command
@@ -24,7 +24,7 @@ struct CommandProjectorSettings {
 std::vector<Message> problems(const CommandProjectorSettings& settings);
 
 /// A projector behind an external program.
-class CommandProjector : public Projector {
+class CommandProjector : public rig::Projector {
  public:
   /// Throws: std::logic_error if problems(settings) finds any; Error{disk}.
   explicit CommandProjector(CommandProjectorSettings settings);
@@ -34,11 +34,11 @@ class CommandProjector : public Projector {
   int bits() const override { return settings_.bits; }
   /// Throws: Error{device} with the command's last words if it fails or takes too long every time;
   /// Error{disk}.
-  void show(const Image& encodedDrive) override;
+  void show(const image::Image& encodedDrive) override;
 
  private:
   CommandProjectorSettings settings_;
   TemporaryFolder folder_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "devices/driven_camera.h"
+#include "relucent/devices/driven_camera.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using std::chrono::duration;
@@ -96,7 +96,7 @@ CameraTraits DrivenCamera::connected() {
 }
 
 void DrivenCamera::probe(CameraTraits& traits) {
-  const ExposureRange claimed = traits.exposures;
+  const rig::ExposureRange claimed = traits.exposures;
   if (!(claimed.shortest > 0.0) || !(claimed.longest >= claimed.shortest))
     throw Error(
         ErrorKind::device,
@@ -219,7 +219,7 @@ bool DrivenCamera::restarted() {
   }
 }
 
-RawFrame DrivenCamera::capture(const CaptureRequest& request) {
+rig::RawFrame DrivenCamera::capture(const rig::CaptureRequest& request) {
   Message reason, advice;
   for (int attempt = 0; attempt < settings_.attempts; ++attempt) {
     if (attempt > 0) ++repeats_;
@@ -258,4 +258,4 @@ RawFrame DrivenCamera::capture(const CaptureRequest& request) {
       name());
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/camera_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct DrivenCameraSettings {
   std::chrono::milliseconds timeout{2000};  // for a photograph, on top of its exposure time
@@ -33,7 +33,7 @@ std::vector<Message> problems(const DrivenCameraSettings& settings);
 /// - A frame with parts missing, of another size, or that does not come is asked for again; from the second
 ///   time on the camera is connected anew.
 /// - A camera that is gone is looked for again and set up as before; the photograph is then taken anew.
-class DrivenCamera : public Camera {
+class DrivenCamera : public rig::Camera {
  public:
   /// Throws: std::logic_error if problems(settings) finds any; Error{device} if there is no such camera.
   explicit DrivenCamera(std::unique_ptr<CameraDriver> driver, DrivenCameraSettings settings = {});
@@ -42,10 +42,10 @@ class DrivenCamera : public Camera {
   std::string name() const override { return driver_->name(); }
   Size size() const override { return traits_.size; }
   /// As the camera kept to when both ends were tried.
-  ExposureRange exposures() const override { return traits_.exposures; }
+  rig::ExposureRange exposures() const override { return traits_.exposures; }
   /// Throws: Error{device} with the last of the reasons after so many attempts, or when the camera stays
   /// away.
-  RawFrame capture(const CaptureRequest& request) override;
+  rig::RawFrame capture(const rig::CaptureRequest& request) override;
 
   const CameraTraits& traits() const { return traits_; }
   /// Photographs that had to be taken again, and times that the camera was gone.
@@ -72,4 +72,4 @@ class DrivenCamera : public Camera {
   int reconnections_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

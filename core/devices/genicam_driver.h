@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/camera_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct GenicamSettings {
   std::string camera;              // serial number, identity, network address or name of the camera
@@ -32,4 +32,4 @@ struct GenicamCamera {
 std::vector<GenicamCamera> findGenicamCameras();
 std::unique_ptr<CameraDriver> makeGenicamDriver(const GenicamSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
-#include "devices/genicam_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/genicam_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 std::vector<Message> problems(const GenicamSettings& settings) {
   std::vector<Message> found;
@@ -22,4 +22,4 @@ std::vector<Message> problems(const GenicamSettings& settings) {
   return found;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/gphoto_driver.h"
+#include "relucent/devices/gphoto_driver.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "devices/gphoto_failure.h"
-#include "devices/gphoto_setup.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/gphoto_failure.h"
+#include "relucent/devices/gphoto_setup.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using namespace std::chrono_literals;
@@ -300,4 +300,4 @@ std::unique_ptr<CameraDriver> makeGphotoDriver(std::unique_ptr<GphotoPort> port,
   return std::make_unique<GphotoDriver>(std::move(port), std::move(settings), std::move(read));
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

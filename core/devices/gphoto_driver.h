@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "devices/driven_camera.h"
-#include "devices/gphoto_port.h"
-#include "devices/raw_photograph.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/driven_camera.h"
+#include "relucent/devices/gphoto_port.h"
+#include "relucent/devices/raw_photograph.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct GphotoCameraSettings {
   std::string camera;              // model ("Canon EOS 80D") or port ("usb:001,005")
@@ -39,4 +39,4 @@ bool isSameModel(const std::string& a, const std::string& b);
 /// The addresses of cameras that are plugged in: their models, or ports where two are of one model.
 std::vector<std::string> gphotoPlaces(const std::vector<GphotoCamera>& cameras);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/gphoto_failure.h"
+#include "relucent/devices/gphoto_failure.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <charconv>
 #include <initializer_list>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 std::string lowered(std::string_view text) {
@@ -102,4 +102,4 @@ CameraLost lostBy(const GphotoFailure& failure, const GphotoCondition& condition
       RELUCENT_MESSAGE("device.close-menus-switch-off", "close its menus, and switch it off and on"));
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <utility>
 
-#include "devices/camera_driver.h"
-#include "devices/gphoto_port.h"
+#include "relucent/devices/camera_driver.h"
+#include "relucent/devices/gphoto_port.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// What is left in a battery, by the camera's word for it: "75%", "Low", "Full". Per cent; none: it does not
 /// say.
@@ -45,4 +45,4 @@ auto retryWhileBusy(GphotoPort& port, const Action& action) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

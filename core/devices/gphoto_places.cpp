@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/message.h"
-#include "devices/gphoto_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/gphoto_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 using namespace std::chrono_literals;
 
@@ -49,4 +49,4 @@ std::vector<std::string> gphotoPlaces(const std::vector<GphotoCamera>& cameras) 
   return places;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

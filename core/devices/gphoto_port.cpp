@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/gphoto_port.h"
+#include "relucent/devices/gphoto_port.h"
 
 #include <fmt/format.h>
 #include <gphoto2/gphoto2.h>
@@ -12,7 +12,7 @@
 #include <memory>
 #include <thread>
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using std::chrono::microseconds;
@@ -281,4 +281,4 @@ std::unique_ptr<GphotoPort> makeGphotoPort() {
   return std::make_unique<LibraryPort>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

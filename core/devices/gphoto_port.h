@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace relucent {
+namespace relucent::devices {
 
 /// How a call to a still camera failed, as far as the answers differ.
 enum class GphotoFault {
@@ -84,4 +84,4 @@ class GphotoPort {
 
 std::unique_ptr<GphotoPort> makeGphotoPort();
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "devices/gphoto_settings.h"
+#include "relucent/devices/gphoto_settings.h"
 
 #include <algorithm>
 
-#include "devices/gphoto_failure.h"
+#include "relucent/devices/gphoto_failure.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 std::optional<GphotoSetting> BorrowedSettings::get(const std::string& setting) const {
   return retryWhileBusy(port_, [&] { return port_.get(setting); });
@@ -51,4 +51,4 @@ void BorrowedSettings::restore() noexcept {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

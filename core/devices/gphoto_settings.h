@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "devices/gphoto_port.h"
+#include "relucent/devices/gphoto_port.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A camera's settings, borrowed: what is changed through this is put back by restore().
 class BorrowedSettings {
@@ -36,4 +36,4 @@ class BorrowedSettings {
   std::vector<std::pair<std::string, std::string>> originals_;  // setting, value; in order of first change
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

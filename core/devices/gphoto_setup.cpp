@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "devices/gphoto_setup.h"
+#include "relucent/devices/gphoto_setup.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 
-#include "base/error.h"
-#include "devices/gphoto_failure.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/gphoto_failure.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 /// Longer than anybody waits for a photograph.
@@ -145,24 +145,26 @@ class Setup {
   /// What is better so, but can do without.
   void chooseOptionalSettings() {
     requestSetting("longexpnr", {"off", "0"},
-         RELUCENT_MESSAGE("device.may-take-dark-frame",
-                          "may take a dark frame after long exposures, which doubles their time"));
+                   RELUCENT_MESSAGE("device.may-take-dark-frame",
+                                    "may take a dark frame after long exposures, which doubles their time"));
     requestSetting("flashmode", {"flash off", "off"},
-         RELUCENT_MESSAGE("device.may-fire-flash", "may fire its flash: close it"));
-    requestSetting("focusmode", {"manual", "mf"},
-         RELUCENT_MESSAGE("device.focuses-by-itself", "focuses by itself: switch its lens to manual focus"));
+                   RELUCENT_MESSAGE("device.may-fire-flash", "may fire its flash: close it"));
+    requestSetting(
+        "focusmode", {"manual", "mf"},
+        RELUCENT_MESSAGE("device.focuses-by-itself", "focuses by itself: switch its lens to manual focus"));
     requestSetting("drivemode", {"single"},
-         RELUCENT_MESSAGE("device.may-take-several-photographs",
-                          "may take several photographs at once: switch it to single shots"));
+                   RELUCENT_MESSAGE("device.may-take-several-photographs",
+                                    "may take several photographs at once: switch it to single shots"));
     requestSetting("capturemode", {"single"},
-         RELUCENT_MESSAGE("device.may-take-several-photographs",
-                          "may take several photographs at once: switch it to single shots"));
+                   RELUCENT_MESSAGE("device.may-take-several-photographs",
+                                    "may take several photographs at once: switch it to single shots"));
     requestSetting(
         "autopoweroff", {"0", "off", "never"},
         RELUCENT_MESSAGE("device.switches-itself-off", "switches itself off after a while: switch that off"));
   }
 
-  void requestSetting(const char* setting, std::initializer_list<std::string_view> words, const Message& remark) {
+  void requestSetting(const char* setting, std::initializer_list<std::string_view> words,
+                      const Message& remark) {
     const std::optional<GphotoSetting> now = settings_.get(setting);
     if (!now) return;
     auto isGood = [&](const std::string& value) {
@@ -247,4 +249,4 @@ std::optional<std::string> rawChoice(const std::vector<std::string>& choices) {
   return best;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

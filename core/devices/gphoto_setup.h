@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "devices/camera_driver.h"
-#include "devices/gphoto_settings.h"
-#include "devices/shutter_speed.h"
+#include "relucent/devices/camera_driver.h"
+#include "relucent/devices/gphoto_settings.h"
+#include "relucent/devices/shutter_speed.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// How a still camera is driven once it is set up.
 struct GphotoSetup {
@@ -33,4 +33,4 @@ GphotoSetup setUpGphoto(BorrowedSettings& settings, const std::string& name, std
 /// without loss, before those with a JPEG beside, before lossy ones. None if there are no raw files.
 std::optional<std::string> rawChoice(const std::vector<std::string>& choices);
 
-}  // namespace relucent
+}  // namespace relucent::devices

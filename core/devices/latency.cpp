@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "devices/latency.h"
+#include "relucent/devices/latency.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 /// A white that is less brighter than black than this share of full scale is not seen.
@@ -16,8 +16,8 @@ constexpr double leastStep = 0.02;
 
 class LatencyMeasurement {
  public:
-  LatencyMeasurement(Projector& projector, Camera& camera, double exposure, const LatencySettings& settings,
-                     const Wait& wait, Progress& progress)
+  LatencyMeasurement(rig::Projector& projector, rig::Camera& camera, double exposure,
+                     const LatencySettings& settings, const Wait& wait, Progress& progress)
       : projector_(projector),
         camera_(camera),
         exposure_(exposure),
@@ -57,7 +57,7 @@ class LatencyMeasurement {
     return meanSignal(camera_.capture({{"latency", number_++}, 0, exposure_}));
   }
 
-  void settle(const Image& picture) {
+  void settle(const image::Image& picture) {
     projector_.show(picture);
     wait_(settings_.mostFrames * settings_.frame);
   }
@@ -91,7 +91,8 @@ class LatencyMeasurement {
     return true;
   }
 
-  bool seesStep(const Image& from, double fromLevel, const Image& to, double toLevel, int frames) {
+  bool seesStep(const image::Image& from, double fromLevel, const image::Image& to, double toLevel,
+                int frames) {
     settle(from);
     // A fraction of a frame that differs each time: steps must not always fall on the same phase.
     wait_(settings_.frame * std::fmod(0.382 * ++steps_, 1.0));
@@ -109,33 +110,33 @@ class LatencyMeasurement {
           {.finding = Finding::whiteChanges, .share = latency.flicker, .frame = settings_.frame});
   }
 
-  Projector& projector_;
-  Camera& camera_;
+  rig::Projector& projector_;
+  rig::Camera& camera_;
   double exposure_;
   const LatencySettings& settings_;
   const Wait& wait_;
   Progress& progress_;
-  Image black_, white_;
+  image::Image black_, white_;
   double blackLevel_ = 0.0, whiteLevel_ = 0.0;
   int number_ = 0;
   int steps_ = 0;
 };
 
-class DelayedProjector : public Projector {
+class DelayedProjector : public rig::Projector {
  public:
-  DelayedProjector(std::unique_ptr<Projector> projector, double seconds, Wait wait)
+  DelayedProjector(std::unique_ptr<rig::Projector> projector, double seconds, Wait wait)
       : projector_(std::move(projector)), seconds_(seconds), wait_(std::move(wait)) {}
 
   std::string name() const override { return projector_->name(); }
   Size size() const override { return projector_->size(); }
   int bits() const override { return projector_->bits(); }
-  void show(const Image& encodedDrive) override {
+  void show(const image::Image& encodedDrive) override {
     projector_->show(encodedDrive);
     wait_(seconds_);
   }
 
  private:
-  std::unique_ptr<Projector> projector_;
+  std::unique_ptr<rig::Projector> projector_;
   double seconds_;
   Wait wait_;
 };
@@ -160,8 +161,8 @@ std::vector<Message> problems(const LatencySettings& settings) {
   return found;
 }
 
-Latency measureLatency(Projector& projector, Camera& camera, double exposure, const LatencySettings& settings,
-                       const Wait& wait, Progress& progress) {
+Latency measureLatency(rig::Projector& projector, rig::Camera& camera, double exposure,
+                       const LatencySettings& settings, const Wait& wait, Progress& progress) {
   require(problems(settings).empty(), "{}", fmt::join(problems(settings), "; "));
   require(exposure > 0.0, "an exposure of {} s", exposure);
   return LatencyMeasurement(projector, camera, exposure, settings, wait, progress).run();
@@ -171,14 +172,15 @@ void sleepFor(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-double meanSignal(const RawFrame& frame) {
+double meanSignal(const rig::RawFrame& frame) {
   double sum = 0.0;
   for (float value : frame.signal.data()) sum += static_cast<double>(value);
   return sum / static_cast<double>(frame.signal.data().size());
 }
 
-std::unique_ptr<Projector> delayed(std::unique_ptr<Projector> projector, double seconds, Wait wait) {
+std::unique_ptr<rig::Projector> delayed(std::unique_ptr<rig::Projector> projector, double seconds,
+                                        Wait wait) {
   return std::make_unique<DelayedProjector>(std::move(projector), seconds, std::move(wait));
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

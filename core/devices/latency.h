@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "devices/check_verdict.h"
-#include "rig/rig.h"
+#include "relucent/base/progress.h"
+#include "relucent/devices/check_verdict.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct LatencySettings {
   double frame = 1.0 / 60.0;  // seconds that the projector shows one picture
@@ -36,7 +36,7 @@ using Wait = std::function<void(double)>;
 void sleepFor(double seconds);
 
 /// Mean signal of a photograph, all pixels and channels.
-double meanSignal(const RawFrame& frame);
+double meanSignal(const rig::RawFrame& frame);
 
 /// Steps between black and white, photographed after a delay that is halved until it no longer suffices:
 ///   a delay suffices if |1 - (signal - old) / (new - old)| <= settled in every step, both ways.
@@ -44,10 +44,10 @@ double meanSignal(const RawFrame& frame);
 /// opposite full-field changes a second with the usual settings.
 /// Throws: Error{device} if the camera does not see the projector, or the picture takes longer than
 /// mostFrames; Cancelled.
-Latency measureLatency(Projector& projector, Camera& camera, double exposure, const LatencySettings& settings,
-                       const Wait& wait, Progress& progress);
+Latency measureLatency(rig::Projector& projector, rig::Camera& camera, double exposure,
+                       const LatencySettings& settings, const Wait& wait, Progress& progress);
 
 /// The same projector, whose show() returns so many seconds later.
-std::unique_ptr<Projector> delayed(std::unique_ptr<Projector> projector, double seconds, Wait wait);
+std::unique_ptr<rig::Projector> delayed(std::unique_ptr<rig::Projector> projector, double seconds, Wait wait);
 
-}  // namespace relucent
+}  // namespace relucent::devices

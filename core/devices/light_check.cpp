@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "devices/light_check.h"
+#include "relucent/devices/light_check.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
-#include "devices/whole_frames.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/whole_frames.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 constexpr int mostBands = 8;
@@ -43,11 +43,11 @@ using Bands = std::array<std::array<double, 3>, mostBands>;  // sums of signals,
 
 /// Photographs of one flat field.
 struct Series {
-  std::vector<Image> pictures;  // less black
+  std::vector<image::Image> pictures;  // less black
   std::vector<Bands> bands;
 };
 
-Lit litOf(const Image& step) {
+Lit litOf(const image::Image& step) {
   auto brightness = [&](int x, int y) {
     return static_cast<double>(step.at(x, y, 0) + step.at(x, y, 1) + step.at(x, y, 2)) / 3.0;
   };
@@ -65,15 +65,15 @@ Lit litOf(const Image& step) {
   return lit;
 }
 
-Image meanOf(const std::vector<Image>& pictures) {
-  Image mean(pictures.front().size(), 3, 0.0f);
-  for (const Image& picture : pictures)
+image::Image meanOf(const std::vector<image::Image>& pictures) {
+  image::Image mean(pictures.front().size(), 3, 0.0f);
+  for (const image::Image& picture : pictures)
     for (std::size_t i = 0; i < mean.data().size(); ++i)
       mean.data()[i] += picture.data()[i] / static_cast<float>(pictures.size());
   return mean;
 }
 
-Bands bandsOf(const Image& picture, const Lit& lit) {
+Bands bandsOf(const image::Image& picture, const Lit& lit) {
   Bands sums{};
   for (const Lit::Spot& spot : lit.spots)
     for (int c = 0; c < 3; ++c)
@@ -172,13 +172,13 @@ double varianceBeyond(double grey, double white, double samples) {
 
 class LightMeasurement {
  public:
-  LightMeasurement(Projector& projector, Camera& camera, const LightCheckSettings& settings, const Wait& wait,
-                   Progress& progress)
+  LightMeasurement(rig::Projector& projector, rig::Camera& camera, const LightCheckSettings& settings,
+                   const Wait& wait, Progress& progress)
       : projector_(projector), camera_(camera), settings_(settings), wait_(wait), progress_(progress) {}
 
   LightCheck run(double exposure) {
     LightCheck check;
-    const ExposureRange range = camera_.exposures();
+    const rig::ExposureRange range = camera_.exposures();
     const double frame = settings_.frame;
     const double whole = hasWholeFrames(range, frame) ? wholeFrames(exposure, frame, range) : exposure;
     if (range.shortest <= 0.5 * frame) check.brief = std::max(range.shortest, briefShare * frame);
@@ -186,7 +186,7 @@ class LightMeasurement {
     look(whole, 1.0f);
     check.unsteady = flickerOf(series_);
     if (check.brief > 0.0) lookBriefly(check);
-    projector_.show(Image(projector_.size(), 3, 0.0f));
+    projector_.show(image::Image(projector_.size(), 3, 0.0f));
     speak(check);
     return check;
   }
@@ -213,10 +213,10 @@ class LightMeasurement {
     check.dither = grey.mean() > 0.0 ? std::sqrt(beyond) / grey.mean() : 0.0;
   }
 
-  std::vector<Image> photographs(double exposure, float level, int count) {
-    projector_.show(Image(projector_.size(), 3, level));
+  std::vector<image::Image> photographs(double exposure, float level, int count) {
+    projector_.show(image::Image(projector_.size(), 3, level));
     wait_(settings_.settle);
-    std::vector<Image> pictures;
+    std::vector<image::Image> pictures;
     for (int i = 0; i < count; ++i) {
       progress_.checkpoint();
       wait_(settings_.frame * std::fmod(golden * ++phase_, 1.0));
@@ -227,15 +227,15 @@ class LightMeasurement {
 
   /// Fills series_, lit_ and step_. What is lit is told by white.
   void look(double exposure, float level) {
-    const Image black = meanOf(photographs(exposure, 0.0f, std::max(4, settings_.photographs / 4)));
+    const image::Image black = meanOf(photographs(exposure, 0.0f, std::max(4, settings_.photographs / 4)));
     series_ = {photographs(exposure, level, settings_.photographs), {}};
-    for (Image& picture : series_.pictures)
+    for (image::Image& picture : series_.pictures)
       for (std::size_t i = 0; i < picture.data().size(); ++i) picture.data()[i] -= black.data()[i];
     if (level >= 1.0f) {
-      const Image step = meanOf(series_.pictures);
+      const image::Image step = meanOf(series_.pictures);
       lit_ = litOf(step);
     }
-    for (const Image& picture : series_.pictures) series_.bands.push_back(bandsOf(picture, lit_));
+    for (const image::Image& picture : series_.pictures) series_.bands.push_back(bandsOf(picture, lit_));
     Moments steps;
     for (const Bands& bands : series_.bands)
       steps.add(lit_.spots.empty() ? 0.0 : sumOf(bands) / (3.0 * static_cast<double>(lit_.spots.size())));
@@ -272,8 +272,8 @@ class LightMeasurement {
     say(!any, {Finding::lightEven});
   }
 
-  Projector& projector_;
-  Camera& camera_;
+  rig::Projector& projector_;
+  rig::Camera& camera_;
   const LightCheckSettings& settings_;
   const Wait& wait_;
   Progress& progress_;
@@ -299,11 +299,11 @@ std::vector<Message> problems(const LightCheckSettings& settings) {
   return found;
 }
 
-LightCheck checkLight(Projector& projector, Camera& camera, double exposure,
+LightCheck checkLight(rig::Projector& projector, rig::Camera& camera, double exposure,
                       const LightCheckSettings& settings, const Wait& wait, Progress& progress) {
   require(problems(settings).empty(), "{}", fmt::join(problems(settings), "; "));
   require(exposure > 0.0, "an exposure of {} s", exposure);
   return LightMeasurement(projector, camera, settings, wait, progress).run(exposure);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "devices/check_verdict.h"
-#include "devices/latency.h"
-#include "rig/rig.h"
+#include "relucent/base/progress.h"
+#include "relucent/devices/check_verdict.h"
+#include "relucent/devices/latency.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct LightCheckSettings {
   double frame = 1.0 / 60.0;  // seconds that the projector shows one picture
@@ -41,7 +41,7 @@ struct LightCheck {
 /// rolling shutter and dithering in time show. `exposure`: one at which white is well exposed.
 /// What white's own noise explains is taken off `colours`, `bands` and `dither`.
 /// Throws: Error{device} if the camera does not see the projector; Cancelled; as the devices.
-LightCheck checkLight(Projector& projector, Camera& camera, double exposure,
+LightCheck checkLight(rig::Projector& projector, rig::Camera& camera, double exposure,
                       const LightCheckSettings& settings, const Wait& wait, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::devices

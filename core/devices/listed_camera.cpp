@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "devices/listed_camera.h"
+#include "relucent/devices/listed_camera.h"
 
 #include <utility>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 ListedCamera judged(std::string address, Message model,
                     const std::function<std::unique_ptr<CameraDriver>()>& open,
@@ -20,4 +20,4 @@ ListedCamera judged(std::string address, Message model,
   return camera;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "base/message.h"
-#include "devices/driven_camera.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/driven_camera.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A camera that is there, and what can be said about it.
 struct ListedCamera {
@@ -25,4 +25,4 @@ ListedCamera judged(std::string address, Message model,
                     const std::function<std::unique_ptr<CameraDriver>()>& open,
                     const DrivenCameraSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::devices

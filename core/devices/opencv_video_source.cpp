@@ -4,9 +4,9 @@
 #include <opencv2/videoio.hpp>
 #include <thread>
 
-#include "devices/video_source.h"
+#include "relucent/devices/video_source.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using std::chrono::microseconds;
@@ -85,4 +85,4 @@ std::unique_ptr<VideoSource> openCvVideoSource(const std::string& path) {
   return std::make_unique<OpenCvVideoSource>(path);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -3,10 +3,10 @@
 #include <cctype>
 #include <set>
 
-#include "base/file.h"
-#include "devices/raw_photograph.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/raw_photograph.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 bool isRawName(const std::filesystem::path& path) {
   static const std::set<std::string> endings{
@@ -23,8 +23,8 @@ RawPhotograph readRawPhotograph(const std::filesystem::path& path) {
   return rawPhotograph({content.begin(), content.end()}, path.string());
 }
 
-Image readRawPicture(const std::filesystem::path& path) {
+image::Image readRawPicture(const std::filesystem::path& path) {
   return photographOf(readRawPhotograph(path).frame, path.string());
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

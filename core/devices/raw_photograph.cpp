@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/raw_photograph.h"
+#include "relucent/devices/raw_photograph.h"
 
 #include <libraw/libraw.h>
 
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <memory>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 /// Values above 14 bits are rare, but codes are stored in 16 anyway.
@@ -142,4 +142,4 @@ RawPhotograph rawPhotograph(const std::vector<std::uint8_t>& bytes, const std::s
   return photograph;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/sensor_frame.h"
+#include "relucent/devices/sensor_frame.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A photograph out of a raw file: the sensor's own values, and what the camera wrote down beside them.
 struct RawPhotograph {
@@ -42,6 +42,6 @@ std::optional<std::time_t> timeTaken(const std::filesystem::path& rawFile);
 
 /// The photograph in a raw file, for measuring: linear, three channels, half the sensor's size both ways,
 /// black 0, a full sensor 1. Throws: as readRawPhotograph().
-Image readRawPicture(const std::filesystem::path& path);
+image::Image readRawPicture(const std::filesystem::path& path);
 
-}  // namespace relucent
+}  // namespace relucent::devices

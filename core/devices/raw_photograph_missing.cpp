@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Stands in for raw_photograph.cpp where LibRaw is not installed.
-#include "base/error.h"
-#include "devices/raw_photograph.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/raw_photograph.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 bool hasRawPhotographs() {
   return false;
@@ -23,4 +23,4 @@ RawPhotograph rawPhotograph(const std::vector<std::uint8_t>&, const std::string&
               name);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "base/error.h"
-#include "base/file.h"
-#include "devices/recording.h"
-#include "devices/recording_files.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "rig/watched_rig.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/recording.h"
+#include "relucent/devices/recording_files.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/rig/watched_rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace fs = std::filesystem;
 namespace {
 
-class Recorder : public RigWatcher {
+class Recorder : public rig::RigWatcher {
  public:
   Recorder(fs::path folder, RecordedDevices devices)
       : folder_(std::move(folder)), devices_(std::move(devices)), patterns_(devices_.projectors.size()) {
@@ -20,20 +20,21 @@ class Recorder : public RigWatcher {
     createFolder(folder_ / "patterns");
   }
 
-  void shown(std::size_t index, const Image& encodedDrive) override {
+  void shown(std::size_t index, const image::Image& encodedDrive) override {
     patterns_[index] = patternFingerprint(encodedDrive);
     const fs::path file = folder_ / "patterns" / (patterns_[index] + ".png");
     std::error_code code;
     if (fs::exists(file, code)) return;
     const int bits = devices_.projectors[index].bits > 8 ? 16 : 8;
-    writeFileAtomically(file, encodePng(encodedDrive, bits));
+    writeFileAtomically(file, image::encodePng(encodedDrive, bits));
   }
 
-  void photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) override {
+  void photographed(std::size_t index, const rig::CaptureRequest& request,
+                    const rig::RawFrame& frame) override {
     RecordedPhotograph photograph{index,      request.shot, request.exposure, request.seconds, frame.seconds,
                                   frame.bits, {},           patterns_};
     photograph.file = fmt::format("{:06}.exr", count_++);
-    writeExr(folder_ / "photographs" / photograph.file, frame.signal, ExrType::floatType);
+    image::writeExr(folder_ / "photographs" / photograph.file, frame.signal, image::ExrType::floatType);
     appendPhotograph(folder_, photograph);
   }
 
@@ -70,9 +71,9 @@ class Recorder : public RigWatcher {
 
 }  // namespace
 
-Rig recorded(Rig rig, const fs::path& folder) {
+rig::Rig recorded(rig::Rig rig, const fs::path& folder) {
   RecordedDevices devices = devicesOf(rig);
-  return watched(std::move(rig), std::make_shared<Recorder>(folder, std::move(devices)));
+  return rig::watched(std::move(rig), std::make_shared<Recorder>(folder, std::move(devices)));
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "rig/rig.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A recording is a folder that holds what projectors showed and what cameras photographed:
 ///   recording.json    format, version, and of every device name, size, bits, range of exposures
@@ -21,7 +21,7 @@ inline constexpr int version = 1;
 /// The same devices; all that they show and photograph is kept in `folder` too, which is created or, if it
 /// holds a recording of devices like these, added to.
 /// Throws: Error{input} if it holds anything else; Error{disk}, also from the devices when they are used.
-Rig recorded(Rig rig, const std::filesystem::path& folder);
+rig::Rig recorded(rig::Rig rig, const std::filesystem::path& folder);
 
 /// Devices that answer out of a recording. A photograph is the one of the same shot if that showed the same
 /// patterns with the same exposure, else the one that showed and had these at the nearest number: with the
@@ -29,6 +29,6 @@ Rig recorded(Rig rig, const std::filesystem::path& folder);
 /// they photograph the same.
 /// Throws: Error{format} if it is foreign, damaged or of a later version. The cameras throw Error{input} when
 /// there is no such photograph.
-Rig replayed(const std::filesystem::path& folder);
+rig::Rig replayed(const std::filesystem::path& folder);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "devices/recording_files.h"
+#include "relucent/devices/recording_files.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/fingerprint.h"
-#include "devices/recording.h"
-#include "platform/files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/devices/recording.h"
+#include "relucent/platform/files.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace fs = std::filesystem;
 namespace {
 
@@ -55,12 +55,12 @@ RecordedPhotograph photographFrom(const Json& json) {
 
 }  // namespace
 
-RecordedDevices devicesOf(const Rig& rig) {
+RecordedDevices devicesOf(const rig::Rig& rig) {
   RecordedDevices devices;
   for (const auto& projector : rig.projectors)
     devices.projectors.push_back({projector->name(), projector->size(), projector->bits()});
   for (const auto& camera : rig.cameras) {
-    const ExposureRange range = camera->exposures();
+    const rig::ExposureRange range = camera->exposures();
     devices.cameras.push_back({camera->name(), camera->size(), range.shortest, range.longest});
   }
   return devices;
@@ -121,7 +121,7 @@ void appendPhotograph(const fs::path& folder, const RecordedPhotograph& photogra
   // Begins a new line, in case the last one was cut short.
   const std::string line = fmt::format("\n{}", json.dump());
   const fs::path file = folder / photographsName;
-  if (const FileOutcome outcome = appendContent(file, line); outcome.code)
+  if (const platform::FileOutcome outcome = platform::appendContent(file, line); outcome.code)
     throw Error(
         ErrorKind::disk,
         RELUCENT_MESSAGE("device.recording-cannot-written", "the recording cannot be written ({})")
@@ -148,8 +148,8 @@ std::vector<RecordedPhotograph> readPhotographs(const fs::path& folder) {
   return photographs;
 }
 
-std::string patternFingerprint(const Image& encodedDrive) {
+std::string patternFingerprint(const image::Image& encodedDrive) {
   return Fingerprint().add(encodedDrive.width()).add(encodedDrive.height()).add(encodedDrive.data()).hex();
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

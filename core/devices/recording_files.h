@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "rig/rig.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// What devices a recording is of.
 struct RecordedDevices {
@@ -27,12 +27,12 @@ struct RecordedDevices {
   std::vector<Camera> cameras;
   bool operator==(const RecordedDevices&) const = default;
 };
-RecordedDevices devicesOf(const Rig& rig);
+RecordedDevices devicesOf(const rig::Rig& rig);
 
 /// A photograph in a recording.
 struct RecordedPhotograph {
   std::size_t camera = 0;
-  ShotId shot;
+  rig::ShotId shot;
   int exposure = 0;
   double asked = 0.0, seconds = 0.0;
   int bits = 0;
@@ -46,6 +46,6 @@ RecordedDevices readRecordedDevices(const std::filesystem::path& folder);
 void appendPhotograph(const std::filesystem::path& folder, const RecordedPhotograph& photograph);
 std::vector<RecordedPhotograph> readPhotographs(const std::filesystem::path& folder);
 
-std::string patternFingerprint(const Image& encodedDrive);
+std::string patternFingerprint(const image::Image& encodedDrive);
 
-}  // namespace relucent
+}  // namespace relucent::devices

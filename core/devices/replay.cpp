@@ -4,12 +4,12 @@
 #include <memory>
 #include <tuple>
 
-#include "base/error.h"
-#include "devices/recording.h"
-#include "devices/recording_files.h"
-#include "image/exr.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/recording.h"
+#include "relucent/devices/recording_files.h"
+#include "relucent/image/exr.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace fs = std::filesystem;
 namespace {
 
@@ -22,7 +22,7 @@ struct Recording {
   std::map<Key, std::vector<RecordedPhotograph>> photographs;
   std::vector<std::string> shown;
 
-  const RecordedPhotograph* find(std::size_t camera, const CaptureRequest& request) const {
+  const RecordedPhotograph* find(std::size_t camera, const rig::CaptureRequest& request) const {
     const auto candidates = photographs.find({camera, shown, request.seconds});
     if (candidates == photographs.end()) return nullptr;
     auto distance = [&](const RecordedPhotograph& one) {
@@ -37,7 +37,7 @@ struct Recording {
   }
 };
 
-class ReplayedProjector : public Projector {
+class ReplayedProjector : public rig::Projector {
  public:
   ReplayedProjector(std::shared_ptr<Recording> recording, std::size_t index)
       : recording_(std::move(recording)), index_(index) {}
@@ -45,7 +45,7 @@ class ReplayedProjector : public Projector {
   std::string name() const override { return device().name; }
   Size size() const override { return device().size; }
   int bits() const override { return device().bits; }
-  void show(const Image& encodedDrive) override {
+  void show(const image::Image& encodedDrive) override {
     require(encodedDrive.size() == size() && encodedDrive.channels() == 3,
             "a picture of {}x{} pixels for a projector of {}x{}", encodedDrive.width(), encodedDrive.height(),
             size().width, size().height);
@@ -58,15 +58,15 @@ class ReplayedProjector : public Projector {
   std::size_t index_;
 };
 
-class ReplayedCamera : public Camera {
+class ReplayedCamera : public rig::Camera {
  public:
   ReplayedCamera(std::shared_ptr<const Recording> recording, std::size_t index)
       : recording_(std::move(recording)), index_(index) {}
 
   std::string name() const override { return device().name; }
   Size size() const override { return device().size; }
-  ExposureRange exposures() const override { return {device().shortest, device().longest}; }
-  RawFrame capture(const CaptureRequest& request) override {
+  rig::ExposureRange exposures() const override { return {device().shortest, device().longest}; }
+  rig::RawFrame capture(const rig::CaptureRequest& request) override {
     const RecordedPhotograph* found = recording_->find(index_, request);
     if (found == nullptr)
       throw Error(
@@ -79,7 +79,7 @@ class ReplayedCamera : public Camera {
               "device.use-settings-recorded-photograph-venue",
               "use the settings that it was recorded with, or photograph the venue again"),
           recording_->folder.string());
-    return {readRgbExr(recording_->folder / "photographs" / found->file, size()), found->bits,
+    return {image::readRgbExr(recording_->folder / "photographs" / found->file, size()), found->bits,
             found->seconds};
   }
 
@@ -91,7 +91,7 @@ class ReplayedCamera : public Camera {
 
 }  // namespace
 
-Rig replayed(const fs::path& folder) {
+rig::Rig replayed(const fs::path& folder) {
   auto recording = std::make_shared<Recording>();
   recording->folder = folder;
   recording->devices = readRecordedDevices(folder);
@@ -101,7 +101,7 @@ Rig replayed(const fs::path& folder) {
   }
   recording->shown.resize(recording->devices.projectors.size());
 
-  Rig rig;
+  rig::Rig rig;
   for (std::size_t i = 0; i < recording->devices.projectors.size(); ++i)
     rig.projectors.push_back(std::make_unique<ReplayedProjector>(recording, i));
   for (std::size_t i = 0; i < recording->devices.cameras.size(); ++i)
@@ -109,4 +109,4 @@ Rig replayed(const fs::path& folder) {
   return rig;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

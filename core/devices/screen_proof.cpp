@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/screen_proof.h"
+#include "relucent/devices/screen_proof.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 constexpr int length = screenCodeLength, quarters = 4, apart = 8;
@@ -96,7 +96,8 @@ class Places {
   std::array<std::array<double, 3>, quarters> sums_{};
 };
 
-ScreenSight sightAt(const std::vector<Image>& brightness, int late, const ScreenProofSettings& settings) {
+ScreenSight sightAt(const std::vector<image::Image>& brightness, int late,
+                    const ScreenProofSettings& settings) {
   const Size size = brightness.front().size();
   ScreenSight sight;
   sight.late = late;
@@ -123,8 +124,8 @@ ScreenSight sightAt(const std::vector<Image>& brightness, int late, const Screen
 }
 
 /// Mean of the channels.
-Image brightnessOf(const Image& photograph) {
-  Image one(photograph.size(), 1, 0.0f);
+image::Image brightnessOf(const image::Image& photograph) {
+  image::Image one(photograph.size(), 1, 0.0f);
   for (int y = 0; y < photograph.height(); ++y)
     for (int x = 0; x < photograph.width(); ++x)
       for (int c = 0; c < photograph.channels(); ++c)
@@ -133,19 +134,19 @@ Image brightnessOf(const Image& photograph) {
 }
 
 /// Whether as many pixels tell white from black as have to see the code, which changes less than all of it.
-bool distinguishesWhiteFromBlack(Projector& screen, Camera& camera, double exposure,
-                         const ScreenProofSettings& settings, Progress& progress) {
+bool distinguishesWhiteFromBlack(rig::Projector& screen, rig::Camera& camera, double exposure,
+                                 const ScreenProofSettings& settings, Progress& progress) {
   int number = 0;
   auto photographOf = [&](float level) {
-    Image last;
+    image::Image last;
     for (int late = 0; late <= settings.mostLate; ++late) {
       progress.checkpoint();
-      screen.show(Image(screen.size(), 3, level));
+      screen.show(image::Image(screen.size(), 3, level));
       last = brightnessOf(camera.capture({{"light", number++}, 0, exposure}).signal);
     }
     return last;
   };
-  const Image white = photographOf(1.0f), black = photographOf(0.0f);
+  const image::Image white = photographOf(1.0f), black = photographOf(0.0f);
   int lit = 0;
   for (std::size_t i = 0; i < white.data().size(); ++i) {
     const double step = static_cast<double>(white.data()[i] - black.data()[i]);
@@ -155,11 +156,11 @@ bool distinguishesWhiteFromBlack(Projector& screen, Camera& camera, double expos
   return lit >= settings.leastShare * static_cast<double>(white.data().size());
 }
 
-ScreenSight sightThrough(Projector& screen, Camera& camera, double exposure,
+ScreenSight sightThrough(rig::Projector& screen, rig::Camera& camera, double exposure,
                          const ScreenProofSettings& settings, Progress& progress) {
   if (exposure >= longExposure && !distinguishesWhiteFromBlack(screen, camera, exposure, settings, progress))
     return {};
-  std::vector<Image> photographs;
+  std::vector<image::Image> photographs;
   const int count = length + settings.mostLate;
   for (int number = 0; number < count; ++number) {
     progress.checkpoint();
@@ -167,7 +168,7 @@ ScreenSight sightThrough(Projector& screen, Camera& camera, double exposure,
     photographs.push_back(camera.capture({{"proof", number}, 0, exposure}).signal);
     progress.report(static_cast<double>(number + 1) / count);
   }
-  screen.show(Image(screen.size(), 3, 0.0f));
+  screen.show(image::Image(screen.size(), 3, 0.0f));
   return sightOf(photographs, settings);
 }
 
@@ -189,8 +190,8 @@ std::vector<Message> problems(const ScreenProofSettings& settings) {
   return found;
 }
 
-Image screenCode(Size size, int number) {
-  Image picture(size, 3, 0.0f);
+image::Image screenCode(Size size, int number) {
+  image::Image picture(size, 3, 0.0f);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const int quarter = (x < size.width / 2 ? 0 : 1) + (y < size.height / 2 ? 0 : 2);
@@ -199,12 +200,12 @@ Image screenCode(Size size, int number) {
   return picture;
 }
 
-ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSettings& settings) {
+ScreenSight sightOf(const std::vector<image::Image>& photographs, const ScreenProofSettings& settings) {
   require(problems(settings).empty(), "{}", fmt::join(problems(settings), "; "));
   require(photographs.size() == static_cast<std::size_t>(length + settings.mostLate),
           "{} photographs of a code of {}", photographs.size(), length);
-  std::vector<Image> brightness;
-  for (const Image& photograph : photographs) {
+  std::vector<image::Image> brightness;
+  for (const image::Image& photograph : photographs) {
     require(photograph.size() == photographs.front().size(), "photographs of different sizes");
     brightness.push_back(brightnessOf(photograph));
   }
@@ -216,15 +217,15 @@ ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSett
   return best;
 }
 
-ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others, Camera& camera,
-                        const ScreenExposure& exposure, const ScreenProofSettings& settings,
-                        Progress& progress) {
+ScreenProof proveScreen(rig::Projector& screen, const std::vector<rig::Projector*>& others,
+                        rig::Camera& camera, const ScreenExposure& exposure,
+                        const ScreenProofSettings& settings, Progress& progress) {
   ScreenProof proof;
   proof.exposure = exposure(screen);
   proof.sight = sightThrough(screen, camera, proof.exposure, settings, progress);
   proof.isSeen = proof.sight.share >= settings.leastShare;
   if (!proof.isSeen) {
-    for (Projector* other : others)
+    for (rig::Projector* other : others)
       if (proof.instead.empty() &&
           sightThrough(*other, camera, exposure(*other), settings, progress).share >= settings.leastShare)
         proof.instead = other->name();
@@ -242,7 +243,7 @@ ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others
   return proof;
 }
 
-void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera) {
+void requireSeen(const ScreenProof& proof, const rig::Projector& screen, const rig::Camera& camera) {
   if (proof.isSeen) return;
   if (!proof.instead.empty())
     throw ScreenNotSeen(ErrorKind::device,
@@ -261,4 +262,4 @@ void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera
       camera.name());
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
-#include "base/progress.h"
-#include "devices/check_verdict.h"
-#include "devices/latency.h"
-#include "rig/rig.h"
+#include "relucent/base/error.h"
+#include "relucent/base/progress.h"
+#include "relucent/devices/check_verdict.h"
+#include "relucent/devices/latency.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 struct ScreenProofSettings {
   int mostLate = 2;          // photographs that a picture may come too late and still be recognised
@@ -42,7 +42,7 @@ struct ScreenProof {
 ///   x^5 + x^2 + 1
 /// Shifted copies of it are uncorrelated but for -1/31.  Source: Golomb, Shift Register Sequences, 1967.
 inline constexpr int screenCodeLength = 31;
-Image screenCode(Size size, int number);
+image::Image screenCode(Size size, int number);
 
 /// What the photographs say of a screen that showed screenCode(0), (1), ... one for each, going round.
 /// For each pixel the series of its brightness s is fitted by the four codes of the quarters, delayed by
@@ -50,18 +50,18 @@ Image screenCode(Size size, int number);
 /// `leastStep`, with positive weight. The sight is that of the d with most such pixels; it is mirrored if
 /// the quarters lie the other way round.
 /// Shapes: screenCodeLength + mostLate photographs of one size.
-ScreenSight sightOf(const std::vector<Image>& photographs, const ScreenProofSettings& settings);
+ScreenSight sightOf(const std::vector<image::Image>& photographs, const ScreenProofSettings& settings);
 
 /// At which a screen's white is well exposed, seconds: see devices/test_exposure.h.
-using ScreenExposure = std::function<double(Projector&)>;
+using ScreenExposure = std::function<double(rig::Projector&)>;
 
 /// Shows the code on `screen` and photographs it. If the camera does not see it, tries `others`, each with an
 /// exposure of its own: where no light is seen, the first one's may be so long that any other screen dazzles.
 /// At long exposures a screen whose white cannot be told from its black is not shown the code.
 /// Throws: Cancelled; as the devices.
-ScreenProof proveScreen(Projector& screen, const std::vector<Projector*>& others, Camera& camera,
-                        const ScreenExposure& exposure, const ScreenProofSettings& settings,
-                        Progress& progress);
+ScreenProof proveScreen(rig::Projector& screen, const std::vector<rig::Projector*>& others,
+                        rig::Camera& camera, const ScreenExposure& exposure,
+                        const ScreenProofSettings& settings, Progress& progress);
 
 /// All devices answer, but the camera looks at something else than the screen.
 class ScreenNotSeen : public Error {
@@ -69,6 +69,6 @@ class ScreenNotSeen : public Error {
 };
 
 /// Throws: ScreenNotSeen{device} that says what the camera sees instead, unless it sees the screen.
-void requireSeen(const ScreenProof& proof, const Projector& screen, const Camera& camera);
+void requireSeen(const ScreenProof& proof, const rig::Projector& screen, const rig::Camera& camera);
 
-}  // namespace relucent
+}  // namespace relucent::devices

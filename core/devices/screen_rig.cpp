@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/screen_rig.h"
+#include "relucent/devices/screen_rig.h"
 
 #include <atomic>
 #include <optional>
 
-#include "base/error.h"
-#include "devices/whole_frames.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/whole_frames.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 constexpr int mostAttempts = 20;  // at one photograph
@@ -21,14 +21,14 @@ class SharedScreen : public ScreenControl {
   void setLatency(double seconds) override { latency_ = seconds; }
   void rest() override { screen_->rest(); }
   void setWholeFrames(bool whole) override { whole_ = whole; }
-  ExposureRange exposures(const ExposureRange& range) const {
+  rig::ExposureRange exposures(const rig::ExposureRange& range) const {
     return whole_ ? wholeFramesIn(range, frame_) : range;
   }
-  double exposure(double seconds, const ExposureRange& range) const {
+  double exposure(double seconds, const rig::ExposureRange& range) const {
     return whole_ && hasWholeFrames(range, frame_) ? wholeFrames(seconds, frame_, range) : seconds;
   }
 
-  void show(const Image& picture) {
+  void show(const image::Image& picture) {
     picture_ = picture;
     showAgain();
   }
@@ -46,37 +46,37 @@ class SharedScreen : public ScreenControl {
   std::atomic<double> latency_;
   std::atomic<bool> whole_ = true;
   Wait wait_;
-  std::optional<Image> picture_;
+  std::optional<image::Image> picture_;
 };
 
-class TimedProjector : public Projector {
+class TimedProjector : public rig::Projector {
  public:
   explicit TimedProjector(std::shared_ptr<SharedScreen> shared) : shared_(std::move(shared)) {}
 
   std::string name() const override { return shared_->screen().name(); }
   Size size() const override { return shared_->screen().size(); }
   int bits() const override { return shared_->screen().bits(); }
-  void show(const Image& encodedDrive) override { shared_->show(encodedDrive); }
+  void show(const image::Image& encodedDrive) override { shared_->show(encodedDrive); }
 
  private:
   std::shared_ptr<SharedScreen> shared_;
 };
 
-class ScreenCheckingCamera : public Camera {
+class ScreenCheckingCamera : public rig::Camera {
  public:
-  ScreenCheckingCamera(std::unique_ptr<Camera> camera, std::shared_ptr<SharedScreen> shared)
+  ScreenCheckingCamera(std::unique_ptr<rig::Camera> camera, std::shared_ptr<SharedScreen> shared)
       : camera_(std::move(camera)), shared_(std::move(shared)) {}
 
   std::string name() const override { return camera_->name(); }
   Size size() const override { return camera_->size(); }
-  ExposureRange exposures() const override { return shared_->exposures(camera_->exposures()); }
-  RawFrame capture(const CaptureRequest& asked) override {
-    CaptureRequest request = asked;
+  rig::ExposureRange exposures() const override { return shared_->exposures(camera_->exposures()); }
+  rig::RawFrame capture(const rig::CaptureRequest& asked) override {
+    rig::CaptureRequest request = asked;
     request.seconds = shared_->exposure(asked.seconds, camera_->exposures());
     for (int attempt = 0; attempt < mostAttempts; ++attempt) {
       // It may have gone while nobody looked.
       if (!shared_->stayedVisible()) shared_->showAgain();
-      RawFrame frame = camera_->capture(request);
+      rig::RawFrame frame = camera_->capture(request);
       if (shared_->stayedVisible()) return frame;
     }
     throw Error(ErrorKind::device,
@@ -88,13 +88,13 @@ class ScreenCheckingCamera : public Camera {
   }
 
  private:
-  std::unique_ptr<Camera> camera_;
+  std::unique_ptr<rig::Camera> camera_;
   std::shared_ptr<SharedScreen> shared_;
 };
 
 }  // namespace
 
-ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera,
+ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<rig::Camera> camera,
                     const ScreenTiming& timing, Wait wait) {
   require(screen != nullptr && camera != nullptr, "a screen and a camera are needed");
   auto shared = std::make_shared<SharedScreen>(std::move(screen), timing, std::move(wait));
@@ -105,4 +105,4 @@ ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Cam
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -4,18 +4,18 @@
 #include <functional>
 #include <memory>
 
-#include "devices/latency.h"
-#include "rig/rig.h"
+#include "relucent/devices/latency.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A projector that is a screen of the desktop: it is unplugged, sleeps, and belongs to others between two
 /// measurements.
-class ScreenProjector : public Projector {
+class ScreenProjector : public rig::Projector {
  public:
   /// As Projector::show(): returns after the swap. Waits while the screen is not there.
   /// Throws: Cancelled if it is asked to stop meanwhile; Error{device}.
-  void show(const Image& encodedDrive) override = 0;
+  void show(const image::Image& encodedDrive) override = 0;
   /// Whether the picture of the last show() has stood on the screen ever since.
   virtual bool stayedVisible() = 0;
   /// Leaves the screen to whoever else shows on it, until the next show(). From any thread; does not wait.
@@ -40,7 +40,7 @@ struct ScreenTiming {
 };
 
 struct ScreenRig {
-  Rig rig;
+  rig::Rig rig;
   std::shared_ptr<ScreenControl> control;  // lives as long as the rig's devices or longer
 };
 
@@ -48,7 +48,7 @@ struct ScreenRig {
 /// frames where the camera can. A photograph during
 /// which the screen lost its picture is taken again, once the picture is back: what is unplugged costs time
 /// and nothing else. The camera throws Error{device} if the picture is lost again and again.
-ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<Camera> camera,
+ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<rig::Camera> camera,
                     const ScreenTiming& timing, Wait wait);
 
-}  // namespace relucent
+}  // namespace relucent::devices

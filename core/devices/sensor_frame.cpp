@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/sensor_frame.h"
+#include "relucent/devices/sensor_frame.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using Named = std::pair<std::string_view, SensorLayout>;
@@ -65,7 +65,7 @@ std::size_t redIn(SensorLayout layout) {
 
 /// The same as decoded() for codes with levels; not interleaved.
 template <typename Sample>
-Image levelled(const SensorFrame& frame) {
+image::Image levelled(const SensorFrame& frame) {
   const Samples<Sample> samples(frame);
   const SensorLevels& levels = *frame.levels;
   const SensorLayout layout = frame.format.layout;
@@ -77,7 +77,7 @@ Image levelled(const SensorFrame& frame) {
     return (static_cast<float>(samples[index]) - levels.black[place]) * scale[place];
   };
 
-  Image image(photographSize(frame.size, frame.format), 3);
+  image::Image image(photographSize(frame.size, frame.format), 3);
   parallelFor(0, static_cast<std::size_t>(image.height()), 16, [&](std::size_t y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(image.width()); ++x) {
       const std::span<float> pixel = image.pixel(y * static_cast<std::size_t>(image.width()) + x);
@@ -97,7 +97,7 @@ Image levelled(const SensorFrame& frame) {
 }
 
 template <typename Sample>
-Image decoded(const SensorFrame& frame) {
+image::Image decoded(const SensorFrame& frame) {
   const Samples<Sample> samples(frame);
   const SensorLayout layout = frame.format.layout;
   const Size size = photographSize(frame.size, frame.format);
@@ -105,7 +105,7 @@ Image decoded(const SensorFrame& frame) {
   const auto width = static_cast<std::size_t>(frame.size.width);
   const std::size_t red = redIn(layout);
 
-  Image image(size, 3);
+  image::Image image(size, 3);
   parallelFor(0, static_cast<std::size_t>(size.height), 16, [&](std::size_t y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(size.width); ++x) {
       std::array<std::uint32_t, 3> codes{};
@@ -177,7 +177,7 @@ int photographBits(const SensorFrame& frame) {
   return frame.levels ? 0 : photographBits(frame.format);
 }
 
-Image photographOf(const SensorFrame& frame, const std::string& camera) {
+image::Image photographOf(const SensorFrame& frame, const std::string& camera) {
   if (frame.bytes.size() < bytesOf(frame))
     throw Error(ErrorKind::device,
                 RELUCENT_MESSAGE("device.photograph-pixels-came-bytes",
@@ -196,4 +196,4 @@ Image photographOf(const SensorFrame& frame, const std::string& camera) {
   return frame.format.bits > 8 ? decoded<std::uint16_t>(frame) : decoded<std::uint8_t>(frame);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

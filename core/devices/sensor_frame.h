@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// How colours lie on a sensor: the colours of the first two pixels of the first row, or of every pixel.
 enum class SensorLayout { mono, bayerRG, bayerGR, bayerGB, bayerBG, rgb, bgr };
@@ -66,6 +66,6 @@ int photographBits(const SensorFrame& frame);
 /// stays negative: cut off at zero, dark places would be too bright on average.
 /// A grey camera's value stands in all three channels.  Source: core/devices/README.md.
 /// Throws: Error{device} if there are fewer bytes than pixels.
-Image photographOf(const SensorFrame& frame, const std::string& camera);
+image::Image photographOf(const SensorFrame& frame, const std::string& camera);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "devices/shell_command.h"
+#include "relucent/devices/shell_command.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "platform/shell.h"
+#include "relucent/base/error.h"
+#include "relucent/platform/shell.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using std::chrono::milliseconds;
-using End = ShellResult::End;
+using End = platform::ShellResult::End;
 
 /// Time that a command gets to put its device in order once it was asked to end.
 constexpr milliseconds grace{1000};
@@ -27,7 +27,7 @@ std::string lastLineOf(std::string text) {
   return line;
 }
 
-Message endOf(const ShellResult& result, milliseconds timeout, const std::string& lastLine) {
+Message endOf(const platform::ShellResult& result, milliseconds timeout, const std::string& lastLine) {
   const Argument time = as::seconds(std::chrono::duration<double>(timeout).count(), as::digits(3));
   const Argument status = as::label(result.status);
   const bool silent = lastLine.empty();
@@ -79,7 +79,7 @@ std::string substituted(std::string_view command, const std::map<std::string, st
 }
 
 void runShellCommand(const std::string& command, milliseconds timeout, const std::string& device) {
-  const ShellResult result = runShell(command, timeout, grace);
+  const platform::ShellResult result = platform::runShell(command, timeout, grace);
   if (result.end == End::exited && result.status == 0) return;
   if (result.end == End::notStarted)
     throw Error(
@@ -101,4 +101,4 @@ void runShellCommand(const std::string& command, milliseconds timeout, const std
               device);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

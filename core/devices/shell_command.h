@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace relucent {
+namespace relucent::devices {
 
 /// `text` as one word of a shell command: as it is if it holds nothing special, else in single quotes.
 std::string shellQuoted(std::string_view text);
@@ -23,4 +23,4 @@ std::string substituted(std::string_view command, const std::map<std::string, st
 void runShellCommand(const std::string& command, std::chrono::milliseconds timeout,
                      const std::string& device);
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "devices/shutter_speed.h"
+#include "relucent/devices/shutter_speed.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -114,4 +114,4 @@ bool ShutterList::needsBulb(double seconds) const {
   return seconds > longest() * std::sqrt(std::max(last, 1.01));
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

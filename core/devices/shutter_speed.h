@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace relucent {
+namespace relucent::devices {
 
 /// The exposure time that a camera's word for it means, in seconds: "1/125", "0.5", "0,5", "1.3s", "30\"",
 /// "0\"5", "4/10", "1/1,5", "0.0080s". None for words (bulb, time, auto) and everything else.
@@ -45,4 +45,4 @@ class ShutterList {
   std::optional<std::string> bulb_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

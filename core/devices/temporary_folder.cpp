@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/temporary_folder.h"
+#include "relucent/devices/temporary_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder() {
@@ -30,4 +30,4 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

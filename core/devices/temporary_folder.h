@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A folder of its own among the system's temporary files, removed with all it holds at the end.
 class TemporaryFolder {
@@ -20,4 +20,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "devices/test_exposure.h"
+#include "relucent/devices/test_exposure.h"
 
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 constexpr double dimmest = 0.15, brightest = 0.6;
@@ -11,11 +11,11 @@ constexpr int mostTrials = 16;
 
 }  // namespace
 
-double testExposure(Projector& projector, Camera& camera, const LatencySettings& settings, const Wait& wait,
-                    const Progress& progress) {
-  projector.show(Image(projector.size(), 3, 1.0f));
+double testExposure(rig::Projector& projector, rig::Camera& camera, const LatencySettings& settings,
+                    const Wait& wait, const Progress& progress) {
+  projector.show(image::Image(projector.size(), 3, 1.0f));
   wait(settings.mostFrames * settings.frame);
-  const ExposureRange range = camera.exposures();
+  const rig::ExposureRange range = camera.exposures();
   double exposure = std::clamp(settings.frame, range.shortest, range.longest);
   for (int trial = 0; trial < mostTrials; ++trial) {
     progress.checkpoint();
@@ -29,4 +29,4 @@ double testExposure(Projector& projector, Camera& camera, const LatencySettings&
   return exposure;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "devices/video_driver.h"
+#include "relucent/devices/video_driver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
 using std::chrono::microseconds;
@@ -175,4 +175,4 @@ DrivenCameraSettings videoPatience() {
   return settings;
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

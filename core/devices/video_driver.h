@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "devices/camera_driver.h"
-#include "devices/driven_camera.h"
-#include "devices/video_source.h"
+#include "relucent/devices/camera_driver.h"
+#include "relucent/devices/driven_camera.h"
+#include "relucent/devices/video_source.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// A webcam or frame grabber as a camera: manual exposure or none at all. Frames come all the time; each is
 /// judged by when it was captured. `name` is for errors.
@@ -20,4 +20,4 @@ std::unique_ptr<CameraDriver> makeVideoDriver(std::unique_ptr<VideoSource> sourc
 /// What such cameras need on top: a new exposure time takes some frames to arrive.
 DrivenCameraSettings videoPatience();
 
-}  // namespace relucent
+}  // namespace relucent::devices

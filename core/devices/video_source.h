@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::devices {
 
 /// Controls of a video device, in the units of Video4Linux.
 enum class VideoControl {
@@ -48,4 +48,4 @@ class VideoSource {
 /// plugged in elsewhere, or "/dev/video0".
 std::unique_ptr<VideoSource> openCvVideoSource(const std::string& path);
 
-}  // namespace relucent
+}  // namespace relucent::devices

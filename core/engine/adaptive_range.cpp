@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "engine/adaptive_range.h"
+#include "relucent/engine/adaptive_range.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr std::size_t mostSamples = 4096;
@@ -97,9 +97,9 @@ AdaptiveRange::AdaptiveRange(const EngineVenue& engine, const EngineContent& con
   auto wrong = problems(settings);
   require(wrong.empty(), "adaptive range: {}", fmt::join(wrong, "; "));
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
-    linearOfSrgb_[code] = static_cast<float>(srgbDecode(static_cast<double>(code) / 255.0));
+    linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
 
-  const MeasuredVenue& venue = engine.venue;
+  const compensation::MeasuredVenue& venue = engine.venue;
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < content.warp.footprints().size(); ++i)
     if (content.warp.inside(i) && venue.usable[i]) pixels.push_back(i);
@@ -161,4 +161,4 @@ DisplayRange AdaptiveRange::follow(const ContentFrame& frame, std::chrono::durat
   return now_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

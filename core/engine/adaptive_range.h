@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "engine/content_frame.h"
-#include "engine/engine_plan.h"
+#include "relucent/base/message.h"
+#include "relucent/engine/content_frame.h"
+#include "relucent/engine/engine_plan.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 struct AdaptiveRangeSettings {
   double outOfReach = 2.0;    // percent of the pixels that may exceed the venue's range on either side
@@ -69,7 +69,7 @@ class AdaptiveRange {
 
   AdaptiveRangeSettings settings_;
   Size size_;
-  ColourBlock mixing_;
+  transport::ColourBlock mixing_;
   std::array<float, 256> linearOfSrgb_{};
   std::vector<Pixel> place_;  // of the content, at the centre of a camera pixel
   std::vector<Reach> reach_;
@@ -80,4 +80,4 @@ class AdaptiveRange {
   bool begun_ = false, settled_ = true;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -6,10 +6,10 @@
 #include <span>
 #include <string_view>
 
-#include "engine/content_frame.h"
-#include "engine/engine_plan.h"
+#include "relucent/engine/content_frame.h"
+#include "relucent/engine/engine_plan.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Parameters of one frame.
 struct FrameRequest {
@@ -43,4 +43,4 @@ class EngineBackend {
                       FrameReport& report) noexcept = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

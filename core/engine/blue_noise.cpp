@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/blue_noise.h"
+#include "relucent/engine/blue_noise.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 /// Dots on a torus, and how crowded each place is.
@@ -99,4 +99,4 @@ std::vector<float> blueNoise(int side) {
   return threshold;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Thresholds for dithering, `side` x `side`, to be tiled over the picture: each of (k + 1/2) / side^2 once,
 /// arranged so that the pixels below any threshold are evenly spread, without low frequencies. The
@@ -11,4 +11,4 @@ namespace relucent {
 /// void-and-cluster method for dither array generation, SPIE 1913, 1993.
 std::vector<float> blueNoise(int side);
 
-}  // namespace relucent
+}  // namespace relucent::engine

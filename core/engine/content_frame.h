@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// A picture in memory owned by the caller, top row first.
 struct ContentFrame {
@@ -35,4 +35,4 @@ constexpr std::size_t bytesPerPixel(ContentFrame::Format format) {
   return 12;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

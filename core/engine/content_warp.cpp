@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/content_warp.h"
+#include "relucent/engine/content_warp.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 double edge(const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -69,12 +69,12 @@ Between between(double place, int length) {
 /// How place() samples the content: pixel for pixel the same places.
 class Sampler {
  public:
-  Sampler(Size content, const Placement& placement)
-      : contentFromView_(unitSquareFrom(placement.corners)),
+  Sampler(Size content, const compensation::Placement& placement)
+      : contentFromView_(compensation::unitSquareFrom(placement.corners)),
         part_(placement.part),
         columns_(content.width),
         rows_(content.height) {
-    const Corners& c = placement.corners;
+    const compensation::Corners& c = placement.corners;
     double across = std::min(edge(c[0], c[1]), edge(c[3], c[2]));
     double down = std::min(edge(c[0], c[3]), edge(c[1], c[2]));
     auto crowding = [&] {
@@ -144,14 +144,15 @@ class Sampler {
   }
 
   Eigen::Matrix3d contentFromView_;
-  ImagePart part_;
+  compensation::ImagePart part_;
   Axis columns_, rows_;
   int samples_ = 2;
 };
 
 }  // namespace
 
-ContentWarp::ContentWarp(Size content, const Placement& placement, Size view) : content_(content) {
+ContentWarp::ContentWarp(Size content, const compensation::Placement& placement, Size view)
+    : content_(content) {
   require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
   Sampler sampler(content, placement);
   footprint_.resize(view.count());
@@ -189,4 +190,4 @@ ContentWarp::ContentWarp(Size content, const Placement& placement, Size view) : 
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "compensation/placement.h"
+#include "relucent/compensation/placement.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// The perspective warp of content of one size into a camera's view as a sparse operator: for every camera
 /// pixel a small rectangle of content pixels with weights, the same means as place() takes. 16 bits a weight.
@@ -22,7 +22,7 @@ class ContentWarp {
 
   ContentWarp() = default;
   /// Throws: std::logic_error if `content` is empty or the placement is not convex.
-  ContentWarp(Size content, const Placement& placement, Size view);
+  ContentWarp(Size content, const compensation::Placement& placement, Size view);
 
   Size content() const { return content_; }
   const std::vector<Footprint>& footprints() const { return footprint_; }
@@ -36,4 +36,4 @@ class ContentWarp {
   std::vector<std::uint16_t> weight_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/cpu_backend.h"
+#include "relucent/engine/cpu_backend.h"
 
 #include <algorithm>
 #include <thread>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -30,7 +30,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       scratch_(std::thread::hardware_concurrency() + 1,
                (stepColumn + sumColumn) * engine.transport.mostColumns()) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
-    linearOfSrgb_[code] = static_cast<float>(srgbDecode(static_cast<double>(code) / 255.0));
+    linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
   std::size_t cameraPixels = engine.venue.usable.size();
   wanted_.resize(3 * cameraPixels);
   held_.resize(3 * cameraPixels);
@@ -74,7 +74,8 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
     correct(steps == 0 ? words : OutputWords{});
     Clock::time_point refining = Clock::now();
     for (; report.steps < steps; ++report.steps)
-      refine(lengths[static_cast<std::size_t>(report.steps)], report.steps + 1 == steps ? words : OutputWords{});
+      refine(lengths[static_cast<std::size_t>(report.steps)],
+             report.steps + 1 == steps ? words : OutputWords{});
     report.stepSeconds = Clock::now() - refining;
   } else {
     warpOnly(words);
@@ -88,7 +89,7 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
   // The brightness that brings flood * content nearest to what is wanted; summed in fixed parts.
   constexpr std::size_t parts = 64;
   std::array<double, parts> wanted{}, seen{};
-  const MeasuredVenue& venue = engine_.venue;
+  const compensation::MeasuredVenue& venue = engine_.venue;
   parallelChunks(0, placed_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!venue.usable[i / 3]) continue;
@@ -194,4 +195,4 @@ void CpuBackend::encodeLine(std::size_t device, int y, OutputWords words) const 
   engine_.encoders[device].encodeLine(&nodes_[3 * first], size.width, y, &words[first]);
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

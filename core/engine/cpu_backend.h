@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/backend.h"
-#include "engine/engine_kernels.h"
-#include "engine/patch_sums.h"
-#include "engine/scratch_pool.h"
+#include "relucent/engine/backend.h"
+#include "relucent/engine/engine_kernels.h"
+#include "relucent/engine/patch_sums.h"
+#include "relucent/engine/scratch_pool.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// The engine on the processor: all cores, the widest available instructions. The same bits for every number
 /// of threads. A frame allocates nothing.
@@ -38,7 +38,8 @@ class CpuBackend : public EngineBackend {
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
   /// The target of some camera pixels, wanted = mixing c + offset, and its weight.
-  void fitTarget(std::size_t begin, std::size_t end, const ColourBlock& mixing, float offset) noexcept;
+  void fitTarget(std::size_t begin, std::size_t end, const transport::ColourBlock& mixing,
+                 float offset) noexcept;
   void warpOnly(OutputWords words) noexcept;
   /// p = clamp(M u).
   void invert() noexcept;
@@ -69,7 +70,7 @@ class CpuBackend : public EngineBackend {
   const EngineContent* content_ = nullptr;
   const EngineKernels& kernels_;
   std::string name_;
-  WindowArrays windows_;
+  inverse::WindowArrays windows_;
   std::array<float, 256> linearOfSrgb_{};
 
   // Camera stacks.
@@ -88,4 +89,4 @@ class CpuBackend : public EngineBackend {
   std::size_t freeValues_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/parallel.h"
-#include "engine/cpu_backend.h"
+#include "relucent/base/parallel.h"
+#include "relucent/engine/cpu_backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr std::size_t pixelsOfATask = 1024;
@@ -76,7 +76,7 @@ void withPixels(ContentFrame::Format format, const float* linear, const Visit& v
 void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept {
   const ContentWarp& warp = content_->warp;
   const float white = content_->white * request.brightness, lift = request.blackLift;
-  const ColourBlock mixing = white * (1.0f - lift) * engine_.mixing;
+  const transport::ColourBlock mixing = white * (1.0f - lift) * engine_.mixing;
   const std::size_t count = warp.footprints().size();
   reachable_ = unreachable_ = 0;
   withPixels(frame.format, linearOfSrgb_.data(), [&](const auto& pixels) {
@@ -94,9 +94,9 @@ void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& req
   });
 }
 
-void CpuBackend::fitTarget(std::size_t begin, std::size_t end, const ColourBlock& mixing,
+void CpuBackend::fitTarget(std::size_t begin, std::size_t end, const transport::ColourBlock& mixing,
                            float offset) noexcept {
-  const MeasuredVenue& venue = engine_.venue;
+  const compensation::MeasuredVenue& venue = engine_.venue;
   const auto unreachable = static_cast<float>(engine_.settings.target.unreachableWeight);
   std::size_t usable = 0, reached = 0;
   for (std::size_t i = begin; i < end; ++i) {
@@ -130,4 +130,4 @@ void CpuBackend::fitTarget(std::size_t begin, std::size_t end, const ColourBlock
   unreachable_.fetch_add(usable - reached, std::memory_order_relaxed);
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -3,10 +3,10 @@
 #include <array>
 #include <cstring>
 
-#include "base/parallel.h"
-#include "engine/cpu_backend.h"
+#include "relucent/base/parallel.h"
+#include "relucent/engine/cpu_backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 PatchRows CpuBackend::rowsOf(const TransportPatch& patch) const noexcept {
   const PackedTransport& transport = engine_.transport;
@@ -24,7 +24,7 @@ CameraArrays CpuBackend::cameraArrays(const float* wanted) noexcept {
 
 void CpuBackend::passThrough(Pass pass) noexcept {
   const PackedTransport& transport = engine_.transport;
-  const NodeLayout& layout = engine_.venue.transport.layout();
+  const transport::NodeLayout& layout = engine_.venue.transport.layout();
   layout.fillMeans({nodes_.data(), adjoint_.size()});
   const bool correct = pass == Pass::correct;
   const CameraArrays camera = cameraArrays(correct ? held_.data() : wanted_.data());
@@ -102,4 +102,4 @@ void CpuBackend::makePreconditioner() noexcept {
   preconditioner_ = frameC_.data();
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

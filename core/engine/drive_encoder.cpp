@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/drive_encoder.h"
+#include "relucent/engine/drive_encoder.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "base/error.h"
-#include "engine/blue_noise.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/blue_noise.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 /// Bayer 1973: the threshold of (x, y) from the bits of x xor y and y, finest first.
@@ -32,10 +32,11 @@ float shiftedAt(std::size_t step) {
 
 }  // namespace
 
-DriveEncoder::DriveEncoder(const ProjectorResponse& response, int bits, Dither dither) : bits_(bits) {
+DriveEncoder::DriveEncoder(const linearization::ProjectorResponse& response, int bits, Dither dither)
+    : bits_(bits) {
   require(bits == 8 || bits == 10, "a projector of {} bits", bits);
   const std::size_t last = levels() - 1;
-  for (const ResponseCurve& curve : response.channels) {
+  for (const hdr::ResponseCurve& curve : response.channels) {
     std::vector<float> light;
     for (std::size_t k = 0; k <= last; ++k) {
       light.push_back(static_cast<float>(curve(static_cast<double>(k) / static_cast<double>(last))));
@@ -137,4 +138,4 @@ void DriveEncoder::encodeLine(const float* light, int width, int y, std::uint32_
     encode<true>(light, count, y, words);
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "linearization/linearization.h"
+#include "relucent/linearization/linearization.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 enum class Dither {
   none,       // nearest drive level
@@ -36,7 +36,7 @@ class DriveEncoder {
 
   DriveEncoder() = default;
   /// Contract: bits is 8 or 10.
-  DriveEncoder(const ProjectorResponse& response, int bits, Dither dither);
+  DriveEncoder(const linearization::ProjectorResponse& response, int bits, Dither dither);
 
   int bits() const { return bits_; }
   /// [channel][step]: a level whose light is at most that at the step; `steps` a channel.
@@ -69,4 +69,4 @@ class DriveEncoder {
 /// do not coincide.
 inline constexpr std::array<std::array<int, 2>, 3> ditherOffsets{{{0, 0}, {21, 43}, {43, 21}}};
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // GCC's vector extensions, as in transport/block_kernels.cpp: they compile for every processor, and once more
 // for those with AVX2 and FMA. Which one runs is chosen while the program runs.
-#include "engine/engine_kernels.h"
+#include "relucent/engine/engine_kernels.h"
 
 #include <cstring>
 
-#include "transport/code_lanes.h"
+#include "relucent/transport/code_lanes.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
-using namespace detail;
+using namespace transport::detail;
 using WideIntegers [[gnu::vector_size(32)]] = std::int32_t;
 using WideFloats [[gnu::vector_size(32)]] = float;
 
@@ -43,7 +43,7 @@ RELUCENT_KERNEL void storeEight(float* to, const WideFloats& sum, float scale, b
   std::memcpy(to, &scaled, sizeof scaled);
 }
 
-RELUCENT_KERNEL void windowOf(const WindowArrays& windows, std::size_t tile, const float* unmixed,
+RELUCENT_KERNEL void windowOf(const inverse::WindowArrays& windows, std::size_t tile, const float* unmixed,
                               bool clamped, float* values) {
   constexpr std::size_t lanes = 16;  // pixels at once: six sums, which stay in registers
   const auto pixels = static_cast<std::size_t>(windows.tile * windows.tile);
@@ -193,28 +193,28 @@ RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* par
 }
 
 // One version of each for an instruction set.
-#define RELUCENT_KERNELS(set, ...)                                                                   \
-  __VA_ARGS__ void window##set(const WindowArrays& windows, std::size_t tile, const float* unmixed,  \
-                               bool clamped, float* values) {                                        \
-    windowOf(windows, tile, unmixed, clamped, values);                                               \
-  }                                                                                                  \
-  __VA_ARGS__ void step##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {    \
-    passOver<false>(rows, camera, columns);                                                          \
-  }                                                                                                  \
-  __VA_ARGS__ void correct##set(const PatchRows& rows, const CameraArrays& camera, float* columns) { \
-    passOver<true>(rows, camera, columns);                                                           \
-  }                                                                                                  \
-  __VA_ARGS__ std::size_t update##set(float* p, const float* c, const float* back, float length,     \
-                                      std::size_t count) {                                           \
-    return updateAll(p, c, back, length, count);                                                     \
-  }                                                                                                  \
-  __VA_ARGS__ void bound##set(const PatchRows& rows, const CameraArrays& camera, float weight,       \
-                              float* sums) {                                                         \
-    boundOf(rows, camera, weight, sums);                                                             \
-  }                                                                                                  \
-  __VA_ARGS__ void reciprocal##set(float* c, const float* bound, const float* part, float share,     \
-                                   float partShare, float least, std::size_t count) {                \
-    reciprocalOf(c, bound, part, share, partShare, least, count);                                    \
+#define RELUCENT_KERNELS(set, ...)                                                                           \
+  __VA_ARGS__ void window##set(const inverse::WindowArrays& windows, std::size_t tile, const float* unmixed, \
+                               bool clamped, float* values) {                                                \
+    windowOf(windows, tile, unmixed, clamped, values);                                                       \
+  }                                                                                                          \
+  __VA_ARGS__ void step##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {            \
+    passOver<false>(rows, camera, columns);                                                                  \
+  }                                                                                                          \
+  __VA_ARGS__ void correct##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {         \
+    passOver<true>(rows, camera, columns);                                                                   \
+  }                                                                                                          \
+  __VA_ARGS__ std::size_t update##set(float* p, const float* c, const float* back, float length,             \
+                                      std::size_t count) {                                                   \
+    return updateAll(p, c, back, length, count);                                                             \
+  }                                                                                                          \
+  __VA_ARGS__ void bound##set(const PatchRows& rows, const CameraArrays& camera, float weight,               \
+                              float* sums) {                                                                 \
+    boundOf(rows, camera, weight, sums);                                                                     \
+  }                                                                                                          \
+  __VA_ARGS__ void reciprocal##set(float* c, const float* bound, const float* part, float share,             \
+                                   float partShare, float least, std::size_t count) {                        \
+    reciprocalOf(c, bound, part, share, partShare, least, count);                                            \
   }
 
 RELUCENT_KERNELS(Baseline)
@@ -239,4 +239,4 @@ std::span<const EngineKernels> engineKernels() {
 #endif
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

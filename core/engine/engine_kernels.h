@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/packed_transport.h"
-#include "inverse/windows.h"
+#include "relucent/engine/packed_transport.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Inputs and outputs of a pass over T per camera pixel. Arrays over all camera pixels.
 struct CameraArrays {
@@ -39,7 +39,7 @@ struct EngineKernels {
   const char* instructions;
   /// One tile of the windows: values[c * pixels + i] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
   /// `clamped`: to 0 and 1.
-  void (*window)(const WindowArrays& windows, std::size_t tile, const float* unmixed, bool clamped,
+  void (*window)(const inverse::WindowArrays& windows, std::size_t tile, const float* unmixed, bool clamped,
                  float* values);
   /// Product with T and its adjoint for one patch, reading its leaves once:
   ///   r = weight (wanted - T light),   sums += T^T r
@@ -61,4 +61,4 @@ struct EngineKernels {
 /// What this processor can run, the quickest last; the first runs on every processor of its kind.
 std::span<const EngineKernels> engineKernels();
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/engine_plan.h"
+#include "relucent/engine/engine_plan.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "compensation/correspondence.h"
-#include "compensation/stacks.h"
+#include "relucent/base/error.h"
+#include "relucent/compensation/correspondence.h"
+#include "relucent/compensation/stacks.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 void checkFinite(const Stack& values, const char* what) {
@@ -21,8 +21,9 @@ void checkFinite(const Stack& values, const char* what) {
           RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 }
 
-Placement placementOf(const EngineVenue& engine, Size content, const Corners& chosen) {
-  const TargetSettings& target = engine.settings.target;
+compensation::Placement placementOf(const EngineVenue& engine, Size content,
+                                    const compensation::Corners& chosen) {
+  const compensation::TargetSettings& target = engine.settings.target;
   if (!target.corners) return {chosen, {}};
   return fitted(*target.corners, static_cast<double>(content.width) / content.height, target.fit);
 }
@@ -42,11 +43,12 @@ std::vector<Message> problems(const EngineSettings& settings) {
   return found;
 }
 
-EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& inverse,
-                         const std::vector<ProjectorResponse>& responses, const EngineSettings& settings) {
+EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse::WindowInverse& inverse,
+                         const std::vector<linearization::ProjectorResponse>& responses,
+                         const EngineSettings& settings) {
   auto wrong = problems(settings);
   require(wrong.empty(), "engine settings: {}", fmt::join(wrong, "; "));
-  const TransportMatrix& transport = venue.transport;
+  const transport::TransportMatrix& transport = venue.transport;
   require(inverse.cameras() == transport.cameras() && inverse.projectors() == transport.projectors(),
           "the inverse belongs to another venue");
   require(responses.size() == transport.projectors().devices(), "{} responses for {} projectors",
@@ -66,33 +68,34 @@ EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& invers
                   RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 
   std::vector<DriveEncoder> encoders;
-  for (const ProjectorResponse& response : responses)
+  for (const linearization::ProjectorResponse& response : responses)
     encoders.emplace_back(response, settings.bits, settings.dither);
   return {venue,
           inverse,
           settings,
           PackedTransport(transport, settings.patchSide),
-          brightestCorrespondence(transport, seesProjection(venue), DirectLightSettings{}),
-          meanColourMixing(venue),
+          compensation::brightestCorrespondence(transport, compensation::seesProjection(venue),
+                                                compensation::DirectLightSettings{}),
+          compensation::meanColourMixing(venue),
           std::move(encoders)};
 }
 
 EngineContent prepareContent(const EngineVenue& engine, Size content) {
   require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
-  const MeasuredVenue& venue = engine.venue;
+  const compensation::MeasuredVenue& venue = engine.venue;
   // Where content goes and how bright its white is does not depend on what it shows.
-  Target target = fitTarget(Image(content, 3), venue, engine.settings.target);
+  compensation::Target target = fitTarget(image::Image(content, 3), venue, engine.settings.target);
   EngineContent result;
   result.corners = target.corners;
   result.white = target.white[0];
   result.warp =
       ContentWarp(content, placementOf(engine, content, target.corners), venue.transport.cameras().size(0));
 
-  result.free = contentPixels(engine.brightest, target);
-  Stack lit =
-      stackOf(3 * result.free.size(), [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
+  result.free = compensation::contentPixels(engine.brightest, target);
+  Stack lit = compensation::stackOf(3 * result.free.size(),
+                                    [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
   result.lit = venue.transport.apply(lit);
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -6,53 +6,54 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "compensation/methods.h"
-#include "compensation/target.h"
-#include "engine/content_warp.h"
-#include "engine/drive_encoder.h"
-#include "engine/packed_transport.h"
-#include "inverse/windows.h"
+#include "relucent/base/message.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/compensation/target.h"
+#include "relucent/engine/content_warp.h"
+#include "relucent/engine/drive_encoder.h"
+#include "relucent/engine/packed_transport.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 struct EngineSettings {
-  TargetSettings target;  // where the content goes and how bright it is
-  int bits = 8;           // of the projectors' input: 8 or 10
+  compensation::TargetSettings target;  // where the content goes and how bright it is
+  int bits = 8;                         // of the projectors' input: 8 or 10
   Dither dither = Dither::blueNoise;
-  CompensatorSettings compensator;  // the correction of the windows, and the steps behind it
-  int patchSide = 64;               // of T's patches, in camera pixels, so that their nodes fit the cache
+  compensation::CompensatorSettings compensator;  // the correction of the windows, and the steps behind it
+  int patchSide = 64;  // of T's patches, in camera pixels, so that their nodes fit the cache
 };
 std::vector<Message> problems(const EngineSettings& settings);
 
 /// A venue as prepared for rendering. Back ends copy what they need in another form.
 struct EngineVenue {
-  const MeasuredVenue& venue;
-  const WindowInverse& inverse;
+  const compensation::MeasuredVenue& venue;
+  const inverse::WindowInverse& inverse;
   EngineSettings settings;
   PackedTransport transport;
   std::vector<std::int32_t> brightest;  // i*(j), see brightestCorrespondence()
-  ColourBlock mixing;                   // K, see meanColourMixing()
+  transport::ColourBlock mixing;        // K, see meanColourMixing()
   std::vector<DriveEncoder> encoders;   // one a projector
 };
 
 /// Prepares a venue. `responses`: one for each projector. `venue` and `inverse` must outlive the result.
 /// Throws: Error{numerics} if measured values are not finite; std::logic_error if the inverse belongs to
 /// another venue or settings are wrong.
-EngineVenue prepareVenue(const MeasuredVenue& venue, const WindowInverse& inverse,
-                         const std::vector<ProjectorResponse>& responses, const EngineSettings& settings);
+EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse::WindowInverse& inverse,
+                         const std::vector<linearization::ProjectorResponse>& responses,
+                         const EngineSettings& settings);
 
 /// Content of one size as prepared for rendering: its placement and the projector pixels concerned.
 struct EngineContent {
-  ContentWarp warp;                // into the first camera's view
-  Corners corners{};               // where the content was placed
-  float white = 0.0f;              // wanted signal of the content's white
-  std::vector<std::uint8_t> free;  // per projector pixel: it belongs to the content; the others are black
-  Stack lit;                       // camera stack: the signal with all free projector pixels at full drive
+  ContentWarp warp;                 // into the first camera's view
+  compensation::Corners corners{};  // where the content was placed
+  float white = 0.0f;               // wanted signal of the content's white
+  std::vector<std::uint8_t> free;   // per projector pixel: it belongs to the content; the others are black
+  Stack lit;                        // camera stack: the signal with all free projector pixels at full drive
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.
 /// Throws: as fitTarget().
 EngineContent prepareContent(const EngineVenue& engine, Size content);
 
-}  // namespace relucent
+}  // namespace relucent::engine

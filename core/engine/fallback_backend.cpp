@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/fallback_backend.h"
+#include "relucent/engine/fallback_backend.h"
 
 #include <exception>
 #include <utility>
 
-#include "base/error.h"
-#include "engine/cpu_backend.h"
-#include "engine/opengl/gl_context.h"
-#include "engine/opengl/opengl_backend.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/cpu_backend.h"
+#include "relucent/engine/opengl/gl_context.h"
+#include "relucent/engine/opengl/opengl_backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify)
     : backend_(std::move(first)), makeOther_(std::move(makeOther)), notify_(std::move(notify)) {
@@ -22,7 +22,7 @@ void FallbackBackend::goOver(const Message& why) {
   if (content_ != nullptr) backend_->setContent(*content_);
   if (notify_)
     notify_(RELUCENT_ENGLISH_MESSAGE("engine.going-on-with-another", "{}: {}; going on with {}")
-              .with(before, why, backend_->name()));
+                .with(before, why, backend_->name()));
 }
 
 void FallbackBackend::setContent(const EngineContent& content) {
@@ -70,4 +70,4 @@ std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendCho
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "base/enum_names.h"
-#include "base/message.h"
-#include "engine/backend.h"
+#include "relucent/base/enum_names.h"
+#include "relucent/base/message.h"
+#include "relucent/engine/backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Which back end frames run on.
 enum class BackendChoice {
@@ -51,10 +51,10 @@ class FallbackBackend : public EngineBackend {
   const EngineContent* content_ = nullptr;
 };
 
-/// The selected back end, with the processor as fallback for a graphics card. `notify` is also called with the
-/// reason why an existing graphics card cannot be used. `engine` must outlive it.
-/// Throws: Error{device} if OpenGL was asked for and there is none.
+/// The selected back end, with the processor as fallback for a graphics card. `notify` is also called with
+/// the reason why an existing graphics card cannot be used. `engine` must outlive it. Throws: Error{device}
+/// if OpenGL was asked for and there is none.
 std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
                                            const FallbackBackend::Notify& notify);
 
-}  // namespace relucent
+}  // namespace relucent::engine

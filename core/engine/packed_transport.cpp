@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/packed_transport.h"
+#include "relucent/engine/packed_transport.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr std::size_t mostColumnsOfAPatch = 65535;
@@ -51,7 +51,7 @@ void dropDimmest(std::vector<std::uint32_t>& node, std::vector<Channels>& factor
   }
 }
 
-PackedRow packedRow(const BlockSparse& leaves, std::size_t row) {
+PackedRow packedRow(const transport::BlockSparse& leaves, std::size_t row) {
   Eigen::Matrix3d mixing = Eigen::Matrix3d::Zero();
   for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
     mixing += leaves.block(row, entry).cast<double>();
@@ -134,7 +134,7 @@ std::vector<Square> squaresOf(const Rasters& cameras, int side) {
   return squares;
 }
 
-Draft draftOf(const TransportMatrix& transport, const Square& square, int side) {
+Draft draftOf(const transport::TransportMatrix& transport, const Square& square, int side) {
   Size size = transport.cameras().size(square.camera);
   Draft draft;
   for (int y = square.from.y; y < std::min(square.from.y + side, size.height); ++y) {
@@ -149,7 +149,7 @@ Draft draftOf(const TransportMatrix& transport, const Square& square, int side) 
 
 }  // namespace
 
-PackedTransport::PackedTransport(const TransportMatrix& transport, int patchSide) {
+PackedTransport::PackedTransport(const transport::TransportMatrix& transport, int patchSide) {
   require(patchSide > 0, "patches of {} pixels", patchSide);
   require(transport.leaves().blocks() <= std::numeric_limits<std::uint32_t>::max(),
           "{} leaves are more than 32-bit indices hold", transport.leaves().blocks());
@@ -199,4 +199,4 @@ std::size_t PackedTransport::mostColumns() const {
   return most;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// A leaf of T as read in every frame, 8 bytes: a camera pixel's factor for each projector channel of a node,
 /// and the node's position in its patch's list. As four 16-bit lanes, so that one load suffices; code that
@@ -35,7 +35,7 @@ class PackedTransport {
   PackedTransport() = default;
   /// `patchSide`: side in camera pixels of the squares that patches are made from, at most.
   /// A camera pixel that sees more than 65535 nodes keeps the brightest, scaled up to its row sum.
-  PackedTransport(const TransportMatrix& transport, int patchSide);
+  PackedTransport(const transport::TransportMatrix& transport, int patchSide);
 
   const std::vector<TransportPatch>& patches() const { return patches_; }
   /// The camera pixel of every row.
@@ -61,4 +61,4 @@ class PackedTransport {
   std::vector<std::uint32_t> node_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "engine/patch_sums.h"
+#include "relucent/engine/patch_sums.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr std::size_t nodesOfARange = 2048;
@@ -99,4 +99,4 @@ void PatchSums::addStored(const float* waiting, float* sums) const noexcept {
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/packed_transport.h"
+#include "relucent/engine/packed_transport.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Adds the adjoint sums of the patches of T per node, in the order of the patches whichever finishes first.
 /// Most nodes belong to only one patch and are written directly to the result; sums of shared nodes are
@@ -52,4 +52,4 @@ class PatchSums {
   std::vector<Run> piece_;  // of places
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Buffers for the bodies of parallel loops, all allocated beforehand: a body borrows one and returns it. If
 /// there are more threads than buffers, a body waits.
@@ -42,4 +42,4 @@ class ScratchPool {
   std::unique_ptr<std::atomic_flag[]> taken_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

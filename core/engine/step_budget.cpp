@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/step_budget.h"
+#include "relucent/engine/step_budget.h"
 
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -38,4 +38,4 @@ void StepBudget::add(const FrameReport& frame) noexcept {
   calm_ = 0;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/backend.h"
+#include "relucent/engine/backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Chooses K, the number of refinement steps, from the times of previous frames: the most that fit a frame's
 /// budget. Increases K slowly and decreases it at once.
@@ -26,4 +26,4 @@ class StepBudget {
   int calm_ = 0;  // consecutive frames that left time for one more step
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -4,10 +4,10 @@
 #include <numeric>
 #include <optional>
 
-#include "base/error.h"
-#include "hdr/hdr.h"
+#include "relucent/base/error.h"
+#include "relucent/hdr/hdr.h"
 
-namespace relucent {
+namespace relucent::hdr {
 namespace {
 
 constexpr std::size_t leastValues = 50;
@@ -19,7 +19,8 @@ struct Pair {
 
 /// Linear signals of two frames of the same light where both tell something. Chosen by the longer frame
 /// alone: choosing by the noisier one would choose its noise.
-std::vector<Pair> comparable(const RawFrame& longer, const RawFrame& shorter, const CameraModel& model) {
+std::vector<Pair> comparable(const rig::RawFrame& longer, const rig::RawFrame& shorter,
+                             const CameraModel& model) {
   double nominal = shorter.seconds / longer.seconds;
   std::vector<Pair> pairs;
   for (std::size_t at = 0; at < longer.signal.data().size(); ++at) {
@@ -59,9 +60,9 @@ std::optional<double> ratioOf(const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-std::vector<double> exposureRatios(const Shot& shot, std::size_t camera, const CameraModel& model) {
-  std::vector<const RawFrame*> frames;
-  for (const std::vector<RawFrame>& exposure : shot.frames) frames.push_back(&exposure.at(camera));
+std::vector<double> exposureRatios(const rig::Shot& shot, std::size_t camera, const CameraModel& model) {
+  std::vector<const rig::RawFrame*> frames;
+  for (const std::vector<rig::RawFrame>& exposure : shot.frames) frames.push_back(&exposure.at(camera));
   require(!frames.empty(), "a shot without exposures has no ratios");
   std::vector<std::size_t> order(frames.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -72,8 +73,8 @@ std::vector<double> exposureRatios(const Shot& shot, std::size_t camera, const C
   std::vector<double> time(frames.size());
   time[order.front()] = 1.0;
   for (std::size_t i = 1; i < order.size(); ++i) {
-    const RawFrame& longer = *frames[order[i - 1]];
-    const RawFrame& shorter = *frames[order[i]];
+    const rig::RawFrame& longer = *frames[order[i - 1]];
+    const rig::RawFrame& shorter = *frames[order[i]];
     double ratio = ratioOf(comparable(longer, shorter, model)).value_or(shorter.seconds / longer.seconds);
     time[order[i]] = time[order[i - 1]] * ratio;
   }
@@ -82,4 +83,4 @@ std::vector<double> exposureRatios(const Shot& shot, std::size_t camera, const C
   return time;
 }
 
-}  // namespace relucent
+}  // namespace relucent::hdr

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "hdr/hdr.h"
+#include "relucent/hdr/hdr.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::hdr {
 
 double trueSeconds(const CameraModel& camera, double reported) {
   const std::vector<ExposureTime>& times = camera.times;
@@ -52,4 +52,4 @@ HdrFrame meanOf(const std::vector<HdrFrame>& frames) {
   return mean;
 }
 
-}  // namespace relucent
+}  // namespace relucent::hdr

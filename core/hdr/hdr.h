@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/raster.h"
-#include "hdr/response_curve.h"
-#include "rig/shot.h"
+#include "relucent/base/raster.h"
+#include "relucent/hdr/response_curve.h"
+#include "relucent/rig/shot.h"
 
-namespace relucent {
+namespace relucent::hdr {
 
 /// True value of an exposure time that a camera reports: true seconds = scale * reported.
 struct ExposureTime {
@@ -56,7 +56,7 @@ struct HdrFrame {
 /// Where every exposure is saturated: valid = 0, radiance = the lower bound given by the shortest, variance =
 /// its square.
 /// Shapes: all cameras' pixels, see Rasters.  Source: core/hdr/README.md, [GRA], [AGU].
-HdrFrame mergeBracket(const Shot& shot, const std::vector<CameraModel>& cameras, const Rasters& rasters);
+HdrFrame mergeBracket(const rig::Shot& shot, const std::vector<CameraModel>& cameras, const Rasters& rasters);
 
 /// The mean of several frames of the same light; variances of the mean. Only valid values count; where none
 /// is valid, the result is the largest lower bound.
@@ -67,6 +67,6 @@ HdrFrame meanOf(const std::vector<HdrFrame>& frames);
 /// shorter, of their signals' ratio, then the ratio of sums over what lies close to it.
 /// Where fewer than 50 values can be compared, the reported times are used.
 /// Shapes: one ratio for each exposure.  Law: invariant under scaling of all light.
-std::vector<double> exposureRatios(const Shot& shot, std::size_t camera, const CameraModel& model);
+std::vector<double> exposureRatios(const rig::Shot& shot, std::size_t camera, const CameraModel& model);
 
-}  // namespace relucent
+}  // namespace relucent::hdr

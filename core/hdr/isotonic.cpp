@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "hdr/isotonic.h"
+#include "relucent/hdr/isotonic.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::hdr {
 namespace {
 
 /// Neighbouring samples that share one value.
@@ -95,4 +95,4 @@ ResponseCurve curveFromRamp(const std::vector<double>& x, const std::vector<doub
   return ResponseCurve(std::move(samples.x), std::move(samples.y));
 }
 
-}  // namespace relucent
+}  // namespace relucent::hdr

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "hdr/response_curve.h"
+#include "relucent/hdr/response_curve.h"
 
-namespace relucent {
+namespace relucent::hdr {
 
 /// The non-decreasing sequence closest to `values`: minimises sum_i weights_i (result_i - values_i)^2.
 /// Weights are positive.  Source: pool adjacent violators, Ayer et al. 1955; core/hdr/README.md, [AYE].
@@ -22,4 +22,4 @@ ResponseCurve curveFromRamp(const std::vector<double>& x, const std::vector<doub
 /// Least slope of a curve from a ramp, in units of the mean slope: below the resolution of any display.
 inline constexpr double leastSlope = 1e-6;
 
-}  // namespace relucent
+}  // namespace relucent::hdr

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <span>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "hdr/hdr.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/hdr/hdr.h"
 
-namespace relucent {
+namespace relucent::hdr {
 namespace {
 
 /// One channel of one frame, ready to be read: signal -> linear signal and the variance of rounding.
@@ -57,21 +57,21 @@ class Decoder {
 
 /// One exposure of a bracket as one camera took it.
 struct Exposure {
-  const Image* signal = nullptr;
+  const image::Image* signal = nullptr;
   double seconds = 0.0;
   bool linear = false;  // the sensor is: decoders change nothing
   std::array<Decoder, 3> decoders;
 };
 
 /// Exposures of one camera, shortest first.
-std::vector<Exposure> exposuresOf(const Shot& shot, std::size_t device, const CameraModel& camera,
+std::vector<Exposure> exposuresOf(const rig::Shot& shot, std::size_t device, const CameraModel& camera,
                                   Size size) {
   const bool linear = std::all_of(camera.response.begin(), camera.response.end(),
                                   [](const ResponseCurve& curve) { return curve.isIdentity(); });
   std::vector<Exposure> exposures;
-  for (const std::vector<RawFrame>& frames : shot.frames) {
+  for (const std::vector<rig::RawFrame>& frames : shot.frames) {
     require(device < frames.size(), "a shot of {} cameras has no camera {}", frames.size(), device);
-    const RawFrame& frame = frames[device];
+    const rig::RawFrame& frame = frames[device];
     require(frame.signal.size() == size && frame.signal.channels() == 3, "a frame of {}x{} for {}x{} pixels",
             frame.signal.width(), frame.signal.height(), size.width, size.height);
     require(frame.seconds > 0.0, "an exposure of {} s", frame.seconds);
@@ -213,7 +213,8 @@ void mergeBlock(const std::vector<Exposure>& exposures, const CameraModel& camer
 
 }  // namespace
 
-HdrFrame mergeBracket(const Shot& shot, const std::vector<CameraModel>& cameras, const Rasters& rasters) {
+HdrFrame mergeBracket(const rig::Shot& shot, const std::vector<CameraModel>& cameras,
+                      const Rasters& rasters) {
   require(!shot.frames.empty(), "shot {} {} has no exposures", shot.id.stage, shot.id.number);
   require(cameras.size() == rasters.devices(), "{} camera models for {} cameras", cameras.size(),
           rasters.devices());
@@ -240,4 +241,4 @@ HdrFrame mergeBracket(const Shot& shot, const std::vector<CameraModel>& cameras,
   return merged;
 }
 
-}  // namespace relucent
+}  // namespace relucent::hdr

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "hdr/response_curve.h"
+#include "relucent/hdr/response_curve.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::hdr {
 namespace {
 
 bool ascends(const std::vector<double>& values) {
@@ -119,4 +119,4 @@ double ResponseCurve::inverse(double y) const {
   return x;
 }
 
-}  // namespace relucent
+}  // namespace relucent::hdr

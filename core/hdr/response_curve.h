@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace relucent {
+namespace relucent::hdr {
 
 /// A strictly increasing curve on [0, 1], monotone cubic between samples (Fritsch & Carlson 1980). Projector
 /// channels: drive -> relative radiance, 0 -> 0, 1 -> 1. Cameras: signal -> linear signal. Outside [0, 1] it
@@ -37,4 +37,4 @@ class ResponseCurve {
   bool identity_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::hdr

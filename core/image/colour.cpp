@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/colour.h"
+#include "relucent/image/colour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <numbers>
 #include <vector>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/mask.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/mask.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace {
 
 // Rows are X, Y, Z; their sums are the white that labFromXyz() divides by.
@@ -179,4 +179,4 @@ Image deltaEMap(const Image& encodedA, const Image& encodedB, std::span<const st
   return map;
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// Three values of a colour; the name of the variable states the colour space.
 using Colour = std::array<double, 3>;
@@ -48,4 +48,4 @@ double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const 
 /// Throws: std::logic_error if shapes differ.
 Image deltaEMap(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
 
-}  // namespace relucent
+}  // namespace relucent::image

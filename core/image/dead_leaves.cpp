@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "image/dead_leaves.h"
+#include "relucent/image/dead_leaves.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "image/drawing.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/image/drawing.h"
 
-namespace relucent {
+namespace relucent::image {
 
 using namespace drawing;
 
@@ -39,4 +39,4 @@ Image deadLeaves(Size size, std::uint64_t seed) {
   return finished(picture, size);
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

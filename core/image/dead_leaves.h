@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// A picture with the statistics of natural images: discs that occlude each other, their number falling as
 /// r^-3, in colours of moderate saturation. Linear, three channels, values 0 to 1; drawn at four times the
@@ -14,4 +14,4 @@ namespace relucent {
 /// Contract: at least 8x8 pixels.
 Image deadLeaves(Size size, std::uint64_t seed);
 
-}  // namespace relucent
+}  // namespace relucent::image

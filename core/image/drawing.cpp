@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "image/drawing.h"
+#include "relucent/image/drawing.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "image/colour.h"
+#include "relucent/image/colour.h"
 
-namespace relucent::drawing {
+namespace relucent::image::drawing {
 
 cv::Mat canvas(Size size, const cv::Scalar& encoded) {
   return cv::Mat(size.height * oversampling, size.width * oversampling, CV_32FC3, encoded);
@@ -34,4 +34,4 @@ cv::Scalar hsv(double hue, double saturation, double value) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-}  // namespace relucent::drawing
+}  // namespace relucent::image::drawing

@@ -3,10 +3,10 @@
 
 #include <opencv2/core.hpp>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
 /// Shared by synthetic pictures. Uses OpenCV's types: only for the .cpp files of these pictures.
-namespace relucent::drawing {
+namespace relucent::image::drawing {
 
 /// Pictures are drawn at four times the size and averaged down: edges are then as smooth as in a photograph.
 inline constexpr int oversampling = 4;
@@ -19,4 +19,4 @@ Image finished(const cv::Mat& encoded, Size size);
 /// Encoded RGB of a hue (turns), saturation and value.
 cv::Scalar hsv(double hue, double saturation, double value);
 
-}  // namespace relucent::drawing
+}  // namespace relucent::image::drawing

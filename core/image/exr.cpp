@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/exr.h"
+#include "relucent/image/exr.h"
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -22,11 +22,11 @@
 #include <new>
 #include <set>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "image/exr_stream.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/image/exr_stream.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace fs = std::filesystem;
 namespace {
 
@@ -347,4 +347,4 @@ void checkFinite(const Image& image, const fs::path& path) {
       path.string());
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

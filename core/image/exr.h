@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// Names of the attributes that state the units and the origin of our files.
 namespace exr_attribute {
@@ -61,4 +61,4 @@ bool looksLikeExr(std::string_view content);
 /// Throws: Error{input} with the number of NaN and infinite values and the position of the first, if any.
 void checkFinite(const Image& image, const std::filesystem::path& path);
 
-}  // namespace relucent
+}  // namespace relucent::image

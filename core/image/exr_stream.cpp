@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "image/exr_stream.h"
+#include "relucent/image/exr_stream.h"
 
 #include <Iex.h>
 
 #include <algorithm>
 #include <cstring>
 
-namespace relucent::detail {
+namespace relucent::image::detail {
 
 MemoryInput::MemoryInput(std::string_view content, const std::string& name)
     : IStream(name.c_str()), content_(content) {}
@@ -27,4 +27,4 @@ void MemoryOutput::write(const char bytes[], int count) {
   position_ = end;
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::image::detail

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace relucent::detail {
+namespace relucent::image::detail {
 
 /// Lets OpenEXR read from memory, so that base/file.h handles missing and unreadable files.
 class MemoryInput : public Imf::IStream {
@@ -35,4 +35,4 @@ class MemoryOutput : public Imf::OStream {
   std::uint64_t position_ = 0;
 };
 
-}  // namespace relucent::detail
+}  // namespace relucent::image::detail

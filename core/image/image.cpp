@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "image/image.h"
+#include "relucent/image/image.h"
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::image {
 
 Image::Image(Size size, int channels, float fill)
     : size_(size), channels_(channels), data_(size.count() * static_cast<std::size_t>(channels), fill) {
@@ -42,4 +42,4 @@ Stack stackFromImages(std::span<const Image> images, const Rasters& rasters) {
   return stack;
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// A float image, channels interleaved: sample(x, y, c) = data[(y * width + x) * channels + c].
 /// Linear light unless the name of the variable says otherwise (`encoded...`).
@@ -55,4 +55,4 @@ class Image {
 Image imageFromStack(const Stack& stack, const Rasters& rasters, std::size_t device);
 Stack stackFromImages(std::span<const Image> images, const Rasters& rasters);
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
-#include "base/error.h"
-#include "image/image.h"
+#include "relucent/base/error.h"
+#include "relucent/image/image.h"
 
-namespace relucent::detail {
+namespace relucent::image::detail {
 
 /// An empty mask means every pixel.
 inline bool inside(std::span<const std::uint8_t> mask, std::size_t pixel) {
@@ -30,4 +30,4 @@ inline std::size_t comparedPixels(const Image& a, const Image& b, std::span<cons
   return count;
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::image::detail

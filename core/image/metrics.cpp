@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "image/metrics.h"
+#include "relucent/image/metrics.h"
 
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.h"
-#include "image/colour.h"
-#include "image/mask.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/mask.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace {
 
 constexpr int windowRadius = 5;
@@ -102,4 +102,4 @@ double ssim(const Image& encodedA, const Image& encodedB, std::span<const std::u
                         : edgeSum / static_cast<double>(edgeCount);
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

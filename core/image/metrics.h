@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 // All comparisons count the pixels where `mask` is not 0 (empty: all) and throw std::logic_error if the
 // shapes differ or no pixel is left. The results are the same bits for every number of threads.
@@ -28,4 +28,4 @@ double psnr(const Image& a, const Image& b, const std::array<float, 3>& white,
 /// Source: Wang, Bovik, Sheikh & Simoncelli 2004.
 double ssim(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
 
-}  // namespace relucent
+}  // namespace relucent::image

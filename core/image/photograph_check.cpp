@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "image/photograph_check.h"
+#include "relucent/image/photograph_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::image {
 
 PhotographCheck checkPhotograph(const Image& signal, double saturation, double dark) {
   require(signal.channels() == 3, "a photograph has three channels, not {}", signal.channels());
@@ -73,4 +73,4 @@ double sharpness(const Image& signal, const Region& region) {
   return (differences / static_cast<double>(pairs)) / (squares / static_cast<double>(pixels));
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// A rectangle of pixels.
 struct Region {
@@ -42,4 +42,4 @@ double tooBrightWithin(const PhotographCheck& check, Size size, const Region& re
 /// Source: Tenengrad family of focus measures; Pertuz, Puig & Garcia 2013.
 double sharpness(const Image& signal, const Region& region);
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/picture_files.h"
+#include "relucent/image/picture_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "image/colour.h"
-#include "image/exr.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace fs = std::filesystem;
 namespace {
 
@@ -219,4 +219,4 @@ void writePng(const fs::path& path, const Image& encoded, int bits) {
   writeFileAtomically(path, encodePng(encoded, bits));
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// A picture as stored in a file: three channels R, G, B.
 struct Picture {
@@ -40,4 +40,4 @@ std::string encodePng(const Image& encoded, int bits);
 /// Writes encodePng() atomically. Throws: Error{disk}.
 void writePng(const std::filesystem::path& path, const Image& encoded, int bits);
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "image/resample.h"
+#include "relucent/image/resample.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace {
 
 constexpr int mostSamplesPerAxis = 8;
@@ -156,4 +156,4 @@ Image warpedPerspective(const Image& source, const Homography& sourceFromResult,
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 // Positions are continuous: pixel (x, y) covers [x, x + 1) x [y, y + 1), its centre is (x + 0.5, y + 0.5),
 // and the image's corners are (0, 0) and (width, height).
@@ -35,4 +35,4 @@ Image resized(const Image& image, Size size);
 Image warpedPerspective(const Image& source, const Homography& sourceFromResult, Size size,
                         float outside = 0.0f);
 
-}  // namespace relucent
+}  // namespace relucent::image

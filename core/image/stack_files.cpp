@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "image/stack_files.h"
+#include "relucent/image/stack_files.h"
 
 #include <fmt/format.h>
 
-#include "image/exr.h"
+#include "relucent/image/exr.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace fs = std::filesystem;
 
 std::string stackFileName(const std::string& name, std::size_t device) {
@@ -29,4 +29,4 @@ Stack stackFromFlags(const std::vector<std::uint8_t>& flags) {
   return stack;
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// "flood-1.exr": the file of the first device's part of a stack.
 std::string stackFileName(const std::string& name, std::size_t device);
@@ -22,4 +22,4 @@ std::vector<std::filesystem::path> writeStack(const std::filesystem::path& folde
 /// Flags as a stack: 0, or 1 in all three channels.
 Stack stackFromFlags(const std::vector<std::uint8_t>& flags);
 
-}  // namespace relucent
+}  // namespace relucent::image

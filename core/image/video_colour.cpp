@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "image/video_colour.h"
+#include "relucent/image/video_colour.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::image {
 namespace {
 
 double lightOf(double value, VideoEncoding::Transfer transfer) {
@@ -115,4 +115,4 @@ void srgbFromVideo(const VideoSamples& samples, Size size, const VideoEncoding& 
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::image {
 
 /// Encoding of a video. Primaries are assumed to be those of BT.709; those of BT.601 differ from them by less
 /// than projectors differ from either.
@@ -51,4 +51,4 @@ struct VideoSamples {
 void srgbFromVideo(const VideoSamples& samples, Size size, const VideoEncoding& encoding, std::uint8_t* rgbx,
                    std::size_t bytesPerLine);
 
-}  // namespace relucent
+}  // namespace relucent::image

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "importing/agreement.h"
+#include "relucent/importing/agreement.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 constexpr int reach = 4;            // projector pixels within which equal places are one set
@@ -140,4 +140,4 @@ void agreeOnPlaces(const SequencePyramid& pyramid, Size camera, std::vector<Deco
   decoded = std::move(settled);
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "importing/decoding.h"
+#include "relucent/importing/decoding.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Where patterns cannot tell neighbouring places apart, camera pixels do so together, as surfaces are
 /// smooth. A plane (x, y of the place over the camera's pixels) is fitted to the middles of the sets of
@@ -12,4 +12,4 @@ namespace relucent {
 /// apart stay as they are.
 void agreeOnPlaces(const SequencePyramid& pyramid, Size camera, std::vector<Decoded>& decoded);
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "importing/colour.h"
+#include "relucent/importing/colour.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 using Drive = Eigen::Matrix<float, Eigen::Dynamic, 3>;
@@ -123,7 +123,8 @@ Eigen::VectorXd drawnFit(const Eigen::MatrixXd& basis, const Eigen::VectorXd& si
 
 }  // namespace
 
-PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise, bool withFar) {
+PixelColour fitColour(const PixelFrames& frames, const transport::ColourBlock& mixing, float noise,
+                      bool withFar) {
   PixelColour colour;
   const Eigen::Index columns = withFar ? 7 : 4;
   Eigen::VectorXd weight = frames.weight.cast<double>();
@@ -185,11 +186,11 @@ bool isExplained(const PixelFrames& seen, const PixelColour& colour) {
   return apart <= least * varies;
 }
 
-ColourBlock commonMixing(const std::vector<PixelFrames>& sample) {
+transport::ColourBlock commonMixing(const std::vector<PixelFrames>& sample) {
   constexpr int rounds = 6;
-  ColourBlock mixing = ColourBlock::Identity();
+  transport::ColourBlock mixing = transport::ColourBlock::Identity();
   for (int round = 0; round < rounds; ++round) {
-    ColourBlock next;
+    transport::ColourBlock next;
     for (int c = 0; c < 3; ++c) {
       Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
       Eigen::Vector3d wanted = Eigen::Vector3d::Zero();
@@ -214,4 +215,4 @@ ColourBlock commonMixing(const std::vector<PixelFrames>& sample) {
   return mixing;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

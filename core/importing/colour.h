@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "importing/sequences.h"
-#include "importing/spread.h"
-#include "transport/block_sparse.h"
+#include "relucent/importing/sequences.h"
+#include "relucent/importing/spread.h"
+#include "relucent/transport/block_sparse.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// What one camera pixel showed in all fitted frames, and what its footprint saw of the patterns there.
 struct PixelFrames {
@@ -42,14 +42,16 @@ class FrameReader {
 /// signal = black + block * drive + far * mean.
 struct PixelColour {
   Eigen::Vector3f black = Eigen::Vector3f::Zero();
-  ColourBlock block = ColourBlock::Zero();
-  ColourBlock far = ColourBlock::Zero();  // light that arrives from all over the projector
+  transport::ColourBlock block = transport::ColourBlock::Zero();
+  transport::ColourBlock far =
+      transport::ColourBlock::Zero();  // light that arrives from all over the projector
 };
 
 /// Least squares with black free and the block drawn towards diag(a) M, M the common mixing and a the pixel's
 /// gains, where the patterns do not decide: with grey patterns alone the block is diag(a) M.
 /// `withFar`: far is fitted too, drawn towards zero; else it is zero. Contract: weights are not all zero.
-PixelColour fitColour(const PixelFrames& frames, const ColourBlock& mixing, float noise, bool withFar);
+PixelColour fitColour(const PixelFrames& frames, const transport::ColourBlock& mixing, float noise,
+                      bool withFar);
 
 /// The same with diagonal blocks, for grey patterns: a black, a gain and a far light for each channel.
 PixelColour fitGains(const PixelFrames& frames, float noise, bool withFar);
@@ -59,6 +61,6 @@ bool isExplained(const PixelFrames& seen, const PixelColour& colour);
 
 /// The one 3x3 that, with a gain for each pixel and camera channel, explains a sample best; rows sum to 1.
 /// What grey patterns leave open stays the identity.
-ColourBlock commonMixing(const std::vector<PixelFrames>& sample);
+transport::ColourBlock commonMixing(const std::vector<PixelFrames>& sample);
 
-}  // namespace relucent
+}  // namespace relucent::importing

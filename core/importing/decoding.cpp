@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "importing/decoding.h"
+#include "relucent/importing/decoding.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 struct Candidate {
@@ -210,4 +210,4 @@ void propagate(const DecodingInput& input, const std::vector<std::uint8_t>& lit,
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "importing/sequences.h"
+#include "relucent/importing/sequences.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Where a camera pixel's light comes from, as its sequence says.
 struct Decoded {
@@ -37,4 +37,4 @@ std::vector<Decoded> decodePixels(const DecodingInput& input, const std::vector<
 void propagate(const DecodingInput& input, const std::vector<std::uint8_t>& lit,
                std::vector<Decoded>& decoded, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "importing/held_out.h"
+#include "relucent/importing/held_out.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
-#include "importing/sequences.h"
+#include "relucent/base/random.h"
+#include "relucent/importing/sequences.h"
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 /// How far apart places are that some patterns cannot tell from each other: mean, over all projector pixels,
@@ -118,4 +118,4 @@ std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every) {
   return held;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "importing/picture_sequence.h"
+#include "relucent/importing/picture_sequence.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Normalised root mean square error of predictions on held-out patterns,
 ///   sqrt( sum (photograph - prediction)^2 / sum (photograph - its mean)^2 ),
@@ -25,4 +25,4 @@ struct HeldOutError {
 /// that all of them are held out or none.
 std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every);
 
-}  // namespace relucent
+}  // namespace relucent::importing

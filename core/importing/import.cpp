@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "importing/import.h"
+#include "relucent/importing/import.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.h"
-#include "importing/agreement.h"
-#include "importing/response.h"
-#include "importing/rows.h"
-#include "importing/score.h"
+#include "relucent/base/error.h"
+#include "relucent/importing/agreement.h"
+#include "relucent/importing/response.h"
+#include "relucent/importing/rows.h"
+#include "relucent/importing/score.h"
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 constexpr int leastSpatial = 6;  // patterns with content
@@ -188,7 +188,7 @@ class Importing {
     mix_.resize(pixels);
     Import result;
     result.heldOut = frames_.heldOut;
-    Acquisition& acquisition = result.acquisition;
+    transport::Acquisition& acquisition = result.acquisition;
     acquisition.flagged.assign(pixels, 0);
     FrameReader reader({patterns_, photographs_, frames_}, pyramid_, DriveTable(response_));
     std::vector<std::uint32_t> all(pixels);
@@ -281,10 +281,10 @@ class Importing {
   const PictureSequence& photographs_;
   const ImportSettings& settings_;
   ImportFrames frames_;
-  ProjectorResponse response_;
+  linearization::ProjectorResponse response_;
   bool responseKnown_ = false;
   std::vector<std::uint8_t> isBinary_;  // of each fitted frame: nothing between black and white
-  ColourBlock mixing_ = ColourBlock::Identity();
+  transport::ColourBlock mixing_ = transport::ColourBlock::Identity();
   FootprintPrior prior_;
   SequencePyramid pyramid_;
   std::vector<std::uint8_t> lit_;
@@ -325,4 +325,4 @@ Import importTransport(const PictureSequence& patterns, const PictureSequence& p
   return import;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "importing/held_out.h"
-#include "linearization/linearization.h"
-#include "transport/acquisition.h"
+#include "relucent/base/progress.h"
+#include "relucent/importing/held_out.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/transport/acquisition.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 struct ImportSettings {
   int holdOutEvery = 5;  // every so manieth pattern, ordered by fineness, takes no part in the fit
@@ -19,10 +19,10 @@ struct ImportSettings {
 std::vector<Message> problems(const ImportSettings& settings);
 
 struct Import {
-  Linearization linearization;  // the projector's estimated response, a linear camera
-  Acquisition acquisition;      // one photograph counts as one second of exposure
-  std::vector<int> heldOut;     // indices of the patterns that took no part in the fit that predicted them
-  HeldOutError error;           // of that fit; T, fitted to all of them, is hardly worse
+  linearization::Linearization linearization;  // the projector's estimated response, a linear camera
+  transport::Acquisition acquisition;          // one photograph counts as one second of exposure
+  std::vector<int> heldOut;  // indices of the patterns that took no part in the fit that predicted them
+  HeldOutError error;        // of that fit; T, fitted to all of them, is hardly worse
 };
 
 /// Estimates T from patterns and photographs of them that were taken elsewhere. `patterns` holds encoded
@@ -43,4 +43,4 @@ struct Import {
 Import importTransport(const PictureSequence& patterns, const PictureSequence& photographs,
                        const ImportSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "importing/pattern_plan.h"
+#include "relucent/importing/pattern_plan.h"
 
 #include <fmt/format.h>
 
 #include <bit>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 int bitsFor(int length) {
@@ -108,8 +108,8 @@ std::vector<PlannedPattern> planPatterns(const PatternPlanSettings& settings) {
   return plan;
 }
 
-Image render(const PlannedPattern& pattern, Size projector) {
-  Image image(projector, 3);
+image::Image render(const PlannedPattern& pattern, Size projector) {
+  image::Image image(projector, 3);
   for (int y = 0; y < projector.height; ++y)
     for (int x = 0; x < projector.width; ++x)
       for (int c = 0; c < 3; ++c) {
@@ -121,4 +121,4 @@ Image render(const PlannedPattern& pattern, Size projector) {
   return image;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

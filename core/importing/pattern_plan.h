@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "image/image.h"
+#include "relucent/base/message.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 struct PatternPlanSettings {
   Size projector;
@@ -36,6 +36,6 @@ std::string_view toString(PlannedPattern::Kind kind);
 std::vector<PlannedPattern> planPatterns(const PatternPlanSettings& settings);
 
 /// The picture itself: encoded drive, three channels.
-Image render(const PlannedPattern& pattern, Size projector);
+image::Image render(const PlannedPattern& pattern, Size projector);
 
-}  // namespace relucent
+}  // namespace relucent::importing

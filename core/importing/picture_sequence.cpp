@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "importing/picture_sequence.h"
+#include "relucent/importing/picture_sequence.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 constexpr float fullCode = 65535.0f;
 
-bool isGrey(const Image& image) {
+bool isGrey(const image::Image& image) {
   const std::vector<float>& data = image.data();
   for (std::size_t i = 0; i < data.size(); i += 3)
     if (data[i] != data[i + 1] || data[i] != data[i + 2]) return false;
@@ -28,7 +28,7 @@ PictureSequence::PictureSequence(Size size, int pictures)
       coloured_(static_cast<std::size_t>(pictures)),
       codes_(size.count() * static_cast<std::size_t>(pictures)) {}
 
-void PictureSequence::set(int picture, const Image& image) {
+void PictureSequence::set(int picture, const image::Image& image) {
   require(image.size() == size_ && image.channels() == 3, "a picture of {}x{} pixels among {}x{}",
           image.width(), image.height(), size_.width, size_.height);
   require(picture >= 0 && picture < pictures_, "no picture {} of {}", picture, pictures_);
@@ -61,11 +61,11 @@ float PictureSequence::grey(std::size_t pixel, int picture) const {
   return (value(pixel, picture, 0) + value(pixel, picture, 1) + value(pixel, picture, 2)) / 3.0f;
 }
 
-Image PictureSequence::picture(int picture) const {
-  Image image(size_, 3);
+image::Image PictureSequence::picture(int picture) const {
+  image::Image image(size_, 3);
   for (std::size_t i = 0; i < image.data().size(); ++i)
     image.data()[i] = value(i / 3, picture, static_cast<int>(i % 3));
   return image;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Many pictures of one size, held so that what one pixel showed in all of them lies side by side: its
 /// sequence. 16 bits a value on a scale of each picture's own (its largest value, at least 1), so a step is
@@ -18,7 +18,7 @@ class PictureSequence {
   PictureSequence(Size size, int pictures);
 
   /// Contract: three channels, this size, only finite values.
-  void set(int picture, const Image& image);
+  void set(int picture, const image::Image& image);
 
   Size size() const { return size_; }
   int pictures() const { return pictures_; }
@@ -37,7 +37,7 @@ class PictureSequence {
   /// The mean of a pixel's channels.
   float grey(std::size_t pixel, int picture) const;
   /// One picture of three channels.
-  Image picture(int picture) const;
+  image::Image picture(int picture) const;
 
  private:
   void widen();
@@ -50,4 +50,4 @@ class PictureSequence {
   std::vector<std::uint16_t> codes_;  // [pixel][picture][channel]
 };
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "importing/response.h"
+#include "relucent/importing/response.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "hdr/isotonic.h"
+#include "relucent/hdr/isotonic.h"
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 constexpr std::size_t mostKnots = 33;
@@ -107,7 +107,7 @@ class System {
   }
 
   /// Drawn a little towards the curves before: knots that few pixels show stay near them.
-  ProjectorResponse solve(const ProjectorResponse& before) const {
+  linearization::ProjectorResponse solve(const linearization::ProjectorResponse& before) const {
     Eigen::VectorXd prior(knots_.unknowns());
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t knot = 1; knot + 1 < knots_.codes(c).size(); ++knot)
@@ -116,7 +116,7 @@ class System {
     Eigen::VectorXd rest = wanted_ - system * prior;
     system.diagonal().array() += 1e-4 * system.trace() / static_cast<double>(knots_.unknowns()) + 1e-12;
     Eigen::VectorXd values = prior + system.ldlt().solve(rest);
-    ProjectorResponse response = before;
+    linearization::ProjectorResponse response = before;
     for (std::size_t c = 0; c < 3; ++c)
       if (knots_.codes(c).size() > 2) response.channels[c] = curve(c, values, system);
     return response;
@@ -140,8 +140,8 @@ class System {
         }
   }
 
-  ResponseCurve curve(std::size_t channel, const Eigen::VectorXd& values,
-                      const Eigen::MatrixXd& system) const {
+  hdr::ResponseCurve curve(std::size_t channel, const Eigen::VectorXd& values,
+                           const Eigen::MatrixXd& system) const {
     std::vector<double> x{0.0}, y{0.0}, weight{1e6};
     const std::vector<int>& codes = knots_.codes(channel);
     double sure = 1.0;
@@ -156,7 +156,7 @@ class System {
     y.push_back(1.0);
     weight.front() = 1e3 * sure;
     weight.push_back(1e3 * sure);
-    return curveFromRamp(x, y, weight);
+    return hdr::curveFromRamp(x, y, weight);
   }
 
   Knots knots_;
@@ -179,21 +179,22 @@ std::vector<int> codesOf(const PictureSequence& patterns, const ImportFrames& fr
   return codes;
 }
 
-ProjectorResponse estimateResponse(const ImportPictures& pictures, const std::vector<SamplePixel>& sample,
-                                   const ProjectorResponse& before) {
+linearization::ProjectorResponse estimateResponse(const ImportPictures& pictures,
+                                                  const std::vector<SamplePixel>& sample,
+                                                  const linearization::ProjectorResponse& before) {
   System system(pictures.patterns, pictures.photographs, pictures.frames);
   if (system.knots().unknowns() == 0) return before;
   for (const SamplePixel& pixel : sample) system.add(pixel);
   return system.solve(before);
 }
 
-ResponseCurve usualCurve() {
+hdr::ResponseCurve usualCurve() {
   std::vector<double> x, y;
   for (int k = 0; k <= 32; ++k) {
     x.push_back(k / 32.0);
     y.push_back(std::pow(k / 32.0, 2.2));
   }
-  return ResponseCurve(std::move(x), std::move(y));
+  return hdr::ResponseCurve(std::move(x), std::move(y));
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "importing/colour.h"
+#include "relucent/importing/colour.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Drive codes (0 to 255) of a channel that the fitted patterns hold, ascending.
 std::vector<int> codesOf(const PictureSequence& patterns, const ImportFrames& frames, int channel);
@@ -22,10 +22,11 @@ struct SamplePixel {
 ///   signal = e + sum over channels c of B_c * (sum over nodes j of share_j * r_c(drive_jc)),
 /// piecewise linear between up to 33 of the codes that the patterns hold, least squares, then isotonic and
 /// smooth (curveFromRamp). A channel without codes between black and white keeps its curve.
-ProjectorResponse estimateResponse(const ImportPictures& pictures, const std::vector<SamplePixel>& sample,
-                                   const ProjectorResponse& before);
+linearization::ProjectorResponse estimateResponse(const ImportPictures& pictures,
+                                                  const std::vector<SamplePixel>& sample,
+                                                  const linearization::ProjectorResponse& before);
 
 /// What most projectors do, a power of 2.2; stands where the patterns cannot tell.
-ResponseCurve usualCurve();
+hdr::ResponseCurve usualCurve();
 
-}  // namespace relucent
+}  // namespace relucent::importing

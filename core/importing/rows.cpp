@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "importing/rows.h"
+#include "relucent/importing/rows.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace relucent {
+namespace relucent::importing {
 
-TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
-                                  const std::vector<PixelColour>& colours, Size projector, Size camera) {
-  NodeLayout layout{Rasters(projector)};
+transport::TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
+                                             const std::vector<PixelColour>& colours, Size projector,
+                                             Size camera) {
+  transport::NodeLayout layout{Rasters(projector)};
   std::size_t root = layout.index({0, layout.levels() - 1, 0, 0});
   std::vector<float> fullScale(colours.size());
   std::vector<std::size_t> blocks(colours.size());
@@ -27,21 +28,21 @@ TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
   });
   std::vector<float> scale(fullScale);
   for (float& value : scale) value /= 32767.0f;
-  BlockSparseWriter writer(layout.count(), std::move(fullScale),
-                           std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}));
+  transport::BlockSparseWriter writer(layout.count(), std::move(fullScale),
+                                      std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}));
   for (std::size_t row = 0; row < colours.size(); ++row) {
-    const ColourBlock& block = colours[row].block;
+    const transport::ColourBlock& block = colours[row].block;
     if (!footprints[row].found()) {
-      writer.add(root, codeOf(block, scale[row]));
+      writer.add(root, transport::codeOf(block, scale[row]));
     } else {
       for (const NodeShare& share : sharesOf(footprints[row], projector))
         writer.add(layout.index({0, share.level, share.x, share.y}),
-                   codeOf(ColourBlock(share.share * block), scale[row]));
-      writer.add(root, codeOf(colours[row].far, scale[row]));
+                   transport::codeOf(transport::ColourBlock(share.share * block), scale[row]));
+      writer.add(root, transport::codeOf(colours[row].far, scale[row]));
     }
     writer.endRow();
   }
-  return TransportMatrix(Rasters(camera), Rasters(projector), writer.build());
+  return transport::TransportMatrix(Rasters(camera), Rasters(projector), writer.build());
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -3,16 +3,17 @@
 
 #include <vector>
 
-#include "importing/colour.h"
-#include "importing/spread.h"
-#include "transport/transport_matrix.h"
+#include "relucent/importing/colour.h"
+#include "relucent/importing/spread.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// T of an import: row i holds its footprint's shares times its block of colours, and far light in the root;
 /// a row without a footprint holds its block in the root alone, light from everywhere. Shapes: one footprint
 /// and one colour for each camera pixel.
-TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
-                                  const std::vector<PixelColour>& colours, Size projector, Size camera);
+transport::TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
+                                             const std::vector<PixelColour>& colours, Size projector,
+                                             Size camera);
 
-}  // namespace relucent
+}  // namespace relucent::importing

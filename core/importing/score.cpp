@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "importing/score.h"
+#include "relucent/importing/score.h"
 
 #include <cmath>
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 constexpr std::size_t chunks = 64;
@@ -49,8 +49,8 @@ double squared(float value) {
 
 }  // namespace
 
-HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisition, const DriveTable& drive,
-                          Progress& progress) {
+HeldOutScore scoreHeldOut(const HeldOutInput& input, const transport::Acquisition& acquisition,
+                          const DriveTable& drive, Progress& progress) {
   Stack mean = meanPhotograph(input);
   Squares all;
   for (std::size_t k = 0; k < input.frames.heldOut.size(); ++k) {
@@ -87,4 +87,4 @@ HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisit
           ratio(all.transport, all.light)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

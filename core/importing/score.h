@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "importing/colour.h"
-#include "importing/held_out.h"
-#include "transport/acquisition.h"
+#include "relucent/importing/colour.h"
+#include "relucent/importing/held_out.h"
+#include "relucent/transport/acquisition.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Predictions of the simpler models, and what all are judged by.
 struct HeldOutInput {
@@ -24,7 +24,7 @@ struct HeldOutScore {
 };
 
 /// Predicts every held-out photograph with each model.  Same bits for every number of threads.
-HeldOutScore scoreHeldOut(const HeldOutInput& input, const Acquisition& acquisition, const DriveTable& drive,
-                          Progress& progress);
+HeldOutScore scoreHeldOut(const HeldOutInput& input, const transport::Acquisition& acquisition,
+                          const DriveTable& drive, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::importing

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "importing/sequences.h"
+#include "relucent/importing/sequences.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::importing {
 
 bool isBinary(const PictureSequence& patterns, int picture) {
   for (std::size_t pixel = 0; pixel < patterns.size().count(); ++pixel)
@@ -62,7 +62,7 @@ ImportFrames chooseFrames(const PictureSequence& patterns, const PictureSequence
   return frames;
 }
 
-DriveTable::DriveTable(const ProjectorResponse& response) {
+DriveTable::DriveTable(const linearization::ProjectorResponse& response) {
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t code = 0; code < 256; ++code)
       table_[c][code] = static_cast<float>(response.channels[c](static_cast<double>(code) / 255.0));
@@ -182,4 +182,4 @@ std::vector<std::uint8_t> litPixels(const PictureSequence& photographs, const Im
   return lit;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

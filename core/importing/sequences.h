@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/parallel.h"
-#include "base/progress.h"
-#include "importing/picture_sequence.h"
-#include "linearization/linearization.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/progress.h"
+#include "relucent/importing/picture_sequence.h"
+#include "relucent/linearization/linearization.h"
 
 /// What the steps of an import share. Frames are indices of pictures.
-namespace relucent {
+namespace relucent::importing {
 
 /// Which pictures serve for what.
 struct ImportFrames {
@@ -42,7 +42,7 @@ ImportFrames chooseFrames(const PictureSequence& patterns, const PictureSequence
 /// Linear drive of every encoded value that a pattern can hold.
 class DriveTable {
  public:
-  explicit DriveTable(const ProjectorResponse& response);
+  explicit DriveTable(const linearization::ProjectorResponse& response);
   float operator()(std::uint16_t code, int channel) const {
     return table_[static_cast<std::size_t>(channel)][(code + 128u) / 257u];
   }
@@ -95,4 +95,4 @@ void parallelInParts(const std::vector<std::uint32_t>& items, Progress& progress
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

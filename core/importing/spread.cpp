@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "importing/spread.h"
+#include "relucent/importing/spread.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace relucent {
+namespace relucent::importing {
 namespace {
 
 using Vector4 = Eigen::Vector4f;
@@ -328,4 +328,4 @@ std::vector<NodeShare> sharesOf(const Footprint& footprint, Size projector) {
   return shares;
 }
 
-}  // namespace relucent
+}  // namespace relucent::importing

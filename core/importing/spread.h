@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "importing/decoding.h"
-#include "importing/sequences.h"
+#include "relucent/importing/decoding.h"
+#include "relucent/importing/sequences.h"
 
-namespace relucent {
+namespace relucent::importing {
 
 /// Which projector pixels light a camera pixel, as shares that sum to 1 (less what falls beside the
 /// projector): a Gaussian, integrated over pixels, and a wide halo of evenly lit blocks.
@@ -64,4 +64,4 @@ class FootprintFitter {
   FootprintPrior prior_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::importing

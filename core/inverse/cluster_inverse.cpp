@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/cluster_inverse.h"
+#include "relucent/inverse/cluster_inverse.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
-#include "inverse/unmixing.h"
+#include "relucent/base/parallel.h"
+#include "relucent/inverse/unmixing.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 std::vector<Message> problems(const ClusterInverseSettings& settings) {
   std::vector<Message> found;
@@ -58,7 +58,7 @@ Stack ClusterInverse::apply(const Stack& cameraResidual) const {
   return projector;
 }
 
-BlockSparse ClusterInverse::matrix() const {
+transport::BlockSparse ClusterInverse::matrix() const {
   std::vector<std::size_t> start(projectors_.count() + 1, 0);
   for (std::size_t cluster = 0; cluster < scale_.size(); ++cluster)
     for (std::size_t j = pixelStart_[cluster]; j < pixelStart_[cluster + 1]; ++j)
@@ -66,32 +66,32 @@ BlockSparse ClusterInverse::matrix() const {
   for (std::size_t pixel = 0; pixel < projectors_.count(); ++pixel) start[pixel + 1] += start[pixel];
 
   std::vector<std::uint32_t> column(start.back());
-  std::vector<BlockSparseWriter::Code> codes(start.back());
+  std::vector<transport::BlockSparseWriter::Code> codes(start.back());
   std::vector<float> scale(projectors_.count(), 0.0f);
   parallelFor(0, scale_.size(), 16, [&](std::size_t cluster) {
     std::size_t pixels = pixelStart_[cluster + 1] - pixelStart_[cluster];
-    std::vector<ColourBlock> blocks(rowStart_[cluster + 1] - rowStart_[cluster]);
+    std::vector<transport::ColourBlock> blocks(rowStart_[cluster + 1] - rowStart_[cluster]);
     for (std::size_t j = 0; j < pixels; ++j) {
       std::size_t pixel = pixel_[pixelStart_[cluster] + j];
       float largest = 0.0f;
       for (std::size_t k = 0; k < blocks.size(); ++k) {
         const std::int16_t* code = weight_.data() + weightStart_[cluster] + k * planes() * pixels + j;
-        ColourBlock weight = ColourBlock::Identity() * static_cast<float>(code[0]);
+        transport::ColourBlock weight = transport::ColourBlock::Identity() * static_cast<float>(code[0]);
         for (std::size_t plane = 0; full_ && plane < 9; ++plane)
           weight.data()[plane] = static_cast<float>(code[plane * pixels]);
         std::size_t row = row_[rowStart_[cluster] + k];
-        blocks[k] = scale_[cluster] * weight * Eigen::Map<const ColourBlock>(&unmix_[9 * row]);
+        blocks[k] = scale_[cluster] * weight * Eigen::Map<const transport::ColourBlock>(&unmix_[9 * row]);
         largest = std::max(largest, blocks[k].cwiseAbs().maxCoeff());
       }
       scale[pixel] = largest / 32767.0f;
       for (std::size_t k = 0; k < blocks.size(); ++k) {
         column[start[pixel] + k] = row_[rowStart_[cluster] + k];
-        codes[start[pixel] + k] = codeOf(blocks[k], scale[pixel]);
+        codes[start[pixel] + k] = transport::codeOf(blocks[k], scale[pixel]);
       }
     }
   });
-  return BlockSparse::assembled(cameras_.count(), std::move(start), std::move(column), std::move(codes),
-                                std::move(scale));
+  return transport::BlockSparse::assembled(cameras_.count(), std::move(start), std::move(column),
+                                           std::move(codes), std::move(scale));
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

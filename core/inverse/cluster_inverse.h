@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "clustering/clustering.h"
+#include "relucent/base/progress.h"
+#include "relucent/clustering/clustering.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 enum class ClusterSolver {
   ridge,        // A^+ = (A^T A + lambda I)^-1 A^T, by Cholesky on the smaller side
@@ -50,7 +50,7 @@ class ClusterInverse {
   Stack apply(const Stack& cameraResidual) const;
 
   /// The whole operator for other programs, U included: rows = projector pixels, columns = camera pixels.
-  BlockSparse matrix() const;
+  transport::BlockSparse matrix() const;
 
   bool operator==(const ClusterInverse&) const = default;
 
@@ -74,7 +74,8 @@ class ClusterInverse {
 /// pixel gets the weighted mean of the camera pixels that see it instead. `usable`: per camera pixel, 0 where
 /// it is unreliable. Throws: Error{usage} for wrong settings; Error{memory} if a cluster is too large to be
 /// inverted; Error{numerics} if one cannot be factored; Cancelled.
-ClusterInverse computeClusterInverse(const Clustering& clustering, const std::vector<std::uint8_t>& usable,
+ClusterInverse computeClusterInverse(const clustering::Clustering& clustering,
+                                     const std::vector<std::uint8_t>& usable,
                                      const ClusterInverseSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "inverse/cluster_inverse.h"
-#include "inverse/cluster_solver.h"
-#include "inverse/unmixing.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/inverse/cluster_inverse.h"
+#include "relucent/inverse/cluster_solver.h"
+#include "relucent/inverse/unmixing.h"
 
-namespace relucent {
+namespace relucent::inverse {
 namespace {
 
 /// Factoring more equations than this takes minutes, inverting more weights gigabytes: not what clusters
@@ -23,7 +23,7 @@ constexpr std::size_t clustersBetweenReports = 1024;
 void sortIntoGroups(const std::vector<std::uint32_t>& groupOf, const std::vector<std::uint8_t>* among,
                     std::size_t groups, std::vector<std::size_t>& start, std::vector<std::uint32_t>& member) {
   start.assign(groups + 1, 0);
-  auto takes = [&](std::size_t i) { return groupOf[i] != noCluster && (!among || (*among)[i]); };
+  auto takes = [&](std::size_t i) { return groupOf[i] != clustering::noCluster && (!among || (*among)[i]); };
   for (std::size_t i = 0; i < groupOf.size(); ++i)
     if (takes(i)) ++start[groupOf[i] + 1];
   for (std::size_t group = 0; group < groups; ++group) start[group + 1] += start[group];
@@ -38,7 +38,7 @@ void sortIntoGroups(const std::vector<std::uint32_t>& groupOf, const std::vector
 /// Fills a ClusterInverse.
 class ClusterInverter {
  public:
-  ClusterInverter(const Clustering& clustering, const std::vector<std::uint8_t>& usable,
+  ClusterInverter(const clustering::Clustering& clustering, const std::vector<std::uint8_t>& usable,
                   const ClusterInverseSettings& settings)
       : leaves_(clustering.transport.leaves()), settings_(settings) {
     inverse_.cameras_ = clustering.transport.cameras();
@@ -91,24 +91,24 @@ class ClusterInverter {
   }
 
   /// Takes each camera pixel to the common scale.
-  void unmix(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
-    std::vector<ColourBlock> mixing = transport.rowSums();
+  void unmix(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
+    std::vector<transport::ColourBlock> mixing = transport.rowSums();
     inverse_.unmix_.assign(9 * mixing.size(), 0.0f);
     parallelFor(0, mixing.size(), 256, [&](std::size_t row) {
       if (!usable[row]) return;
-      Eigen::Map<ColourBlock> u(&inverse_.unmix_[9 * row]);
+      Eigen::Map<transport::ColourBlock> u(&inverse_.unmix_[9 * row]);
       float brightness = mixing[row].sum() / 3.0f;
       if (!inverse_.full_)
         u = regularisedUnmixing(mixing[row]);
       else if (brightness > 0.0f)
-        u = ColourBlock::Identity() / brightness;
+        u = transport::ColourBlock::Identity() / brightness;
       if (!u.allFinite()) u.setZero();
     });
   }
 
   /// A connection of A: its 3x3 block on the common scale, or in its one value the mean of the channels.
-  ColourBlock connection(std::size_t row, std::size_t entry) const {
-    return Eigen::Map<const ColourBlock>(&inverse_.unmix_[9 * row]) * leaves_.block(row, entry);
+  transport::ColourBlock connection(std::size_t row, std::size_t entry) const {
+    return Eigen::Map<const transport::ColourBlock>(&inverse_.unmix_[9 * row]) * leaves_.block(row, entry);
   }
 
   /// Mean diagonal of A^T A over all unknowns of all clusters.
@@ -118,7 +118,7 @@ class ClusterInverter {
       for (std::size_t k = begin; k < end; ++k) {
         std::size_t row = inverse_.row_[k];
         for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-          ColourBlock value = connection(row, entry);
+          transport::ColourBlock value = connection(row, entry);
           float mean = value.trace() / 3.0f;
           sums[part] += static_cast<double>(inverse_.full_ ? value.squaredNorm() : mean * mean);
         }
@@ -141,7 +141,7 @@ class ClusterInverter {
       std::size_t row = inverse_.row_[firstRow + static_cast<std::size_t>(i)];
       for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
         auto j = static_cast<Eigen::Index>(placeInCluster_[leaves_.column(entry)]);
-        ColourBlock value = connection(row, entry);
+        transport::ColourBlock value = connection(row, entry);
         if (inverse_.full_)
           block.block<3, 3>(3 * i, 3 * j) = value;
         else
@@ -167,13 +167,14 @@ class ClusterInverter {
             *code++ = static_cast<std::int16_t>(std::lround(weights(side * j + p, side * i + c) / scale));
   }
 
-  const BlockSparse& leaves_;
+  const transport::BlockSparse& leaves_;
   const ClusterInverseSettings& settings_;
   std::vector<std::uint32_t> placeInCluster_;
   ClusterInverse inverse_;
 };
 
-ClusterInverse computeClusterInverse(const Clustering& clustering, const std::vector<std::uint8_t>& usable,
+ClusterInverse computeClusterInverse(const clustering::Clustering& clustering,
+                                     const std::vector<std::uint8_t>& usable,
                                      const ClusterInverseSettings& settings, Progress& progress) {
   if (auto found = problems(settings); !found.empty())
     throw Error(ErrorKind::usage, found.front(),
@@ -185,4 +186,4 @@ ClusterInverse computeClusterInverse(const Clustering& clustering, const std::ve
   return ClusterInverter(clustering, usable, settings).invertAll(progress);
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/cluster_solver.h"
+#include "relucent/inverse/cluster_solver.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::inverse {
 namespace {
 
 /// Below this ridge the conditioning of A^T A, at most 1 / ridge times its size, is more than single floats
@@ -89,4 +89,4 @@ Eigen::MatrixXf clusterPseudoInverse(const Eigen::MatrixXf& block, double lambda
   return inverse;
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

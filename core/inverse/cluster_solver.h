@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "inverse/cluster_inverse.h"
+#include "relucent/inverse/cluster_inverse.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// Regularised inverse of one cluster's matrix (see computeClusterInverse()), scaled to white on request.
 /// Shapes: rows x columns -> columns x rows.  `lambda`: absolute, for the ridge.
@@ -13,4 +13,4 @@ namespace relucent {
 Eigen::MatrixXf clusterPseudoInverse(const Eigen::MatrixXf& block, double lambda,
                                      const ClusterInverseSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::inverse

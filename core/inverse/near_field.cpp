@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/near_field.h"
+#include "relucent/inverse/near_field.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "inverse/unmixing.h"
-#include "transport/statistics.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/inverse/unmixing.h"
+#include "relucent/transport/statistics.h"
 
-namespace relucent {
+namespace relucent::inverse {
 namespace {
 
 /// Below this share of the row's brightest projector pixel a leaf cannot matter beside the ridge: pairs of
@@ -21,7 +21,7 @@ float mean(const NearField::Value& value) {
 }
 
 /// diag(U T) of one leaf.
-NearField::Value unmixed(const ColourBlock& unmix, const ColourBlock& block) {
+NearField::Value unmixed(const transport::ColourBlock& unmix, const transport::ColourBlock& block) {
   NearField::Value value{};
   for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = unmix.row(c).dot(block.col(c));
   return value;
@@ -29,16 +29,16 @@ NearField::Value unmixed(const ColourBlock& unmix, const ColourBlock& block) {
 
 }  // namespace
 
-NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
-  const BlockSparse& leaves = transport.leaves();
+NearField nearFieldOf(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
+  const transport::BlockSparse& leaves = transport.leaves();
   require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
           leaves.rows());
 
-  NodeTable nodes(transport.layout());
+  transport::NodeTable nodes(transport.layout());
   NearField near;
-  near.unmix.assign(leaves.rows(), ColourBlock::Zero());
+  near.unmix.assign(leaves.rows(), transport::ColourBlock::Zero());
   near.flood.assign(leaves.rows(), NearField::Value{});
-  std::vector<ColourBlock> mixing = transport.rowSums();
+  std::vector<transport::ColourBlock> mixing = transport.rowSums();
   std::vector<float> threshold(leaves.rows(), 0.0f);
 
   // Twice over the same leaves, first to count: the near field is the largest array here and is made to
@@ -77,4 +77,4 @@ NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::u
   return near;
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// The bright part of every row of T, with the colours unmixed and so reduced to one number a projector
 /// channel: value(leaf) = diag(U_i T_i,leaf), zero rows where a camera pixel is not usable.
@@ -17,13 +17,13 @@ namespace relucent {
 struct NearField {
   using Value = std::array<float, 4>;  // three channels and padding to a vector register
 
-  std::vector<ColourBlock> unmix;   // U_i per camera pixel
-  std::vector<Value> flood;         // U_i B_i 1: the unmixed flood image, 1 up to regularisation
-  std::vector<std::size_t> start;   // leaves of row i: [start[i], start[i + 1])
-  std::vector<std::uint32_t> node;  // index in the NodeLayout
+  std::vector<transport::ColourBlock> unmix;  // U_i per camera pixel
+  std::vector<Value> flood;                   // U_i B_i 1: the unmixed flood image, 1 up to regularisation
+  std::vector<std::size_t> start;             // leaves of row i: [start[i], start[i + 1])
+  std::vector<std::uint32_t> node;            // index in the NodeLayout
   std::vector<Value> value;
 };
 
-NearField nearFieldOf(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable);
+NearField nearFieldOf(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable);
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/prepared_windows.h"
+#include "relucent/inverse/prepared_windows.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "inverse/window_rows.h"
-#include "inverse/window_system.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/inverse/window_rows.h"
+#include "relucent/inverse/window_system.h"
 
-namespace relucent {
+namespace relucent::inverse {
 namespace {
 
 constexpr float largestCode = 32767.0f;
@@ -34,18 +34,19 @@ struct Scratch {
 /// Fills in the weights of a WindowInverse that has none yet.
 class WindowBuilder {
  public:
-  WindowBuilder(const NearField& near, const NodeLayout& layout, double ridge, WindowInverse without)
+  WindowBuilder(const NearField& near, const transport::NodeLayout& layout, double ridge,
+                WindowInverse without)
       : near_(near), layout_(layout), ridge_(static_cast<float>(ridge)), result_(std::move(without)) {}
 
   /// All but the weights, see PreparedWindows.
-  static WindowInverse without(const TransportMatrix& transport, const NearField& near,
+  static WindowInverse without(const transport::TransportMatrix& transport, const NearField& near,
                                const WindowSettings& settings) {
     WindowInverse result;
     result.cameras_ = transport.cameras();
     result.projectors_ = transport.projectors();
     result.tile_ = settings.tile;
     result.tiles_ = tilesOf(transport.projectors(), settings.tile);
-    for (const ColourBlock& unmix : near.unmix)
+    for (const transport::ColourBlock& unmix : near.unmix)
       result.unmix_.insert(result.unmix_.end(), unmix.data(), unmix.data() + 9);
     WindowRows rows = chooseWindowRows(near, transport.layout(), result.tiles_, settings);
     result.tileStart_ = std::move(rows.start);
@@ -78,7 +79,7 @@ class WindowBuilder {
   }
 
   /// Pixels [x0, x1) x [y0, y1) of a tile on its projector.
-  Block blockOfTile(std::size_t projector, Pixel tile) const {
+  transport::Block blockOfTile(std::size_t projector, Pixel tile) const {
     Size size = layout_.projectors().size(projector);
     int side = result_.tile_;
     return {tile.x * side, tile.y * side, std::min((tile.x + 1) * side, size.width),
@@ -163,13 +164,14 @@ class WindowBuilder {
   }
 
   const NearField& near_;
-  const NodeLayout& layout_;
+  const transport::NodeLayout& layout_;
   float ridge_;
   WindowInverse result_;
 };
 
-PreparedWindows::PreparedWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
-                                 const WindowSettings& settings, Progress& progress)
+PreparedWindows::PreparedWindows(const transport::TransportMatrix& transport,
+                                 const std::vector<std::uint8_t>& usable, const WindowSettings& settings,
+                                 Progress& progress)
     : layout_(transport.layout()) {
   auto wrong = problems(settings);
   require(wrong.empty(), "window settings: {}", fmt::join(wrong, "; "));
@@ -183,12 +185,13 @@ WindowInverse PreparedWindows::inverse(double ridge, Progress& progress) const {
   return WindowBuilder(near_, layout_, ridge, without_).build(progress);
 }
 
-WindowInverse computeWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
-                             const WindowSettings& settings, Progress& progress) {
+WindowInverse computeWindows(const transport::TransportMatrix& transport,
+                             const std::vector<std::uint8_t>& usable, const WindowSettings& settings,
+                             Progress& progress) {
   Progress preparing = progress.part(0.4, progress.stage());
   PreparedWindows prepared(transport, usable, settings, preparing);
   Progress solving = progress.part(0.6, progress.stage());
   return prepared.inverse(settings.ridge, solving);
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

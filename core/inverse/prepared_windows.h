@@ -4,18 +4,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/progress.h"
-#include "inverse/near_field.h"
-#include "inverse/windows.h"
+#include "relucent/base/progress.h"
+#include "relucent/inverse/near_field.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// The part of the windows of one T that does not depend on the ridge: steps 1 to 3 of computeWindows(),
 /// about half of its work. For the search of a ridge. `transport` must outlive it.
 class PreparedWindows {
  public:
   /// `settings.ridge` is ignored.
-  PreparedWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+  PreparedWindows(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
                   const WindowSettings& settings, Progress& progress);
 
   /// Steps 4 and 5. Same bits as computeWindows() with that ridge.
@@ -23,9 +23,9 @@ class PreparedWindows {
   WindowInverse inverse(double ridge, Progress& progress) const;
 
  private:
-  const NodeLayout& layout_;
+  const transport::NodeLayout& layout_;
   NearField near_;
   WindowInverse without_;  // everything but the weights
 };
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/unmixing.h"
+#include "relucent/inverse/unmixing.h"
 
 #include <Eigen/LU>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
-ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share) {
+transport::ColourBlock regularisedUnmixing(const transport::ColourBlock& mixing, float share) {
   float norm = mixing.norm();
-  if (!(norm > 0.0f)) return ColourBlock::Zero();
+  if (!(norm > 0.0f)) return transport::ColourBlock::Zero();
   Eigen::Matrix3d b = mixing.cast<double>() / static_cast<double>(norm);
   Eigen::Matrix3d normal = b.transpose() * b;
   normal.diagonal().array() += static_cast<double>(share) * static_cast<double>(share);
@@ -30,4 +30,4 @@ Stack unmixed(const std::vector<float>& unmixing, const Stack& camera) {
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

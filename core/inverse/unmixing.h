@@ -3,19 +3,19 @@
 
 #include <vector>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// Colours that a surface reflects by less than this share of the others are treated as noise.
 inline constexpr float unmixingShare = 0.03f;
 
 /// Inverse of a 3x3 colour mixing that stays bounded where the mixing suppresses a colour:
 ///   U = (B^T B + (share * |B|_F)^2 I)^-1 B^T.   Zero for B = 0.
-ColourBlock regularisedUnmixing(const ColourBlock& mixing, float share = unmixingShare);
+transport::ColourBlock regularisedUnmixing(const transport::ColourBlock& mixing, float share = unmixingShare);
 
 /// U_i y_i of every camera pixel.  Shapes: 9 floats a camera pixel, row-major; 3 values a camera pixel.
 /// Throws: std::logic_error if the shapes differ.
 Stack unmixed(const std::vector<float>& unmixing, const Stack& camera);
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inverse/windows.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// Blocks of single projector pixels, out of the tiles that hold them.
 class WindowBlocks {
@@ -22,7 +22,7 @@ class WindowBlocks {
     auto pixels = static_cast<std::size_t>(side * side);
     for (std::size_t k = inverse_.tileStart_[tile]; k < inverse_.tileStart_[tile + 1]; ++k) {
       std::size_t camera = inverse_.row_[k];
-      ColourBlock block = Eigen::Map<const ColourBlock>(&inverse_.unmix_[9 * camera]);
+      transport::ColourBlock block = Eigen::Map<const transport::ColourBlock>(&inverse_.unmix_[9 * camera]);
       for (std::size_t c = 0; c < 3; ++c)
         block.row(static_cast<Eigen::Index>(c)) *=
             inverse_.scale_[3 * tile + c] *
@@ -35,7 +35,7 @@ class WindowBlocks {
   const WindowInverse& inverse_;
 };
 
-BlockSparse WindowInverse::matrix() const {
+transport::BlockSparse WindowInverse::matrix() const {
   WindowBlocks blocks(*this);
   std::vector<float> fullScale(projectors_.count(), 0.0f);
   std::size_t count = 0;
@@ -45,19 +45,19 @@ BlockSparse WindowInverse::matrix() const {
         visit(device, local, projectors_.offset(device) + local);
   };
   forEachPixel([&](std::size_t device, std::size_t local, std::size_t row) {
-    blocks.visitRow(device, local, [&](std::size_t, const ColourBlock& block) {
+    blocks.visitRow(device, local, [&](std::size_t, const transport::ColourBlock& block) {
       fullScale[row] = std::max(fullScale[row], block.cwiseAbs().maxCoeff());
       ++count;
     });
   });
-  BlockSparseWriter writer(cameras_.count(), fullScale, count);
+  transport::BlockSparseWriter writer(cameras_.count(), fullScale, count);
   forEachPixel([&](std::size_t device, std::size_t local, std::size_t row) {
-    blocks.visitRow(device, local, [&](std::size_t camera, const ColourBlock& block) {
-      writer.add(camera, codeOf(block, fullScale[row] / 32767.0f));
+    blocks.visitRow(device, local, [&](std::size_t camera, const transport::ColourBlock& block) {
+      writer.add(camera, transport::codeOf(block, fullScale[row] / 32767.0f));
     });
     writer.endRow();
   });
   return writer.build();
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

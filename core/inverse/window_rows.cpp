@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/window_rows.h"
+#include "relucent/inverse/window_rows.h"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::inverse {
 namespace {
 
 /// A row whose near field spreads over more tiles than this carries no detail for the rest of them.
@@ -28,11 +28,11 @@ struct Candidates {
 using Reach = std::vector<std::pair<std::uint32_t, float>>;
 
 /// How strongly one row's near field reaches each tile, those that it reaches most.
-Reach reachOf(std::size_t row, const NearField& near, const NodeLayout& layout, const Rasters& tiles,
-              int tileLevel) {
+Reach reachOf(std::size_t row, const NearField& near, const transport::NodeLayout& layout,
+              const Rasters& tiles, int tileLevel) {
   Reach reach;
   for (std::size_t leaf = near.start[row]; leaf < near.start[row + 1]; ++leaf) {
-    Node node = layout.node(near.node[leaf]);
+    transport::Node node = layout.node(near.node[leaf]);
     const NearField::Value& value = near.value[leaf];
     float light = value[0] + value[1] + value[2];
     auto projector = static_cast<std::size_t>(node.projector);
@@ -82,7 +82,7 @@ Candidates candidatesOf(const std::vector<Reach>& reach, std::size_t tiles) {
 
 }  // namespace
 
-WindowRows chooseWindowRows(const NearField& near, const NodeLayout& layout, const Rasters& tiles,
+WindowRows chooseWindowRows(const NearField& near, const transport::NodeLayout& layout, const Rasters& tiles,
                             const WindowSettings& settings) {
   int tileLevel = std::countr_zero(static_cast<unsigned>(settings.tile));
   std::vector<Reach> reach(near.unmix.size());
@@ -112,4 +112,4 @@ WindowRows chooseWindowRows(const NearField& near, const NodeLayout& layout, con
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "inverse/near_field.h"
-#include "inverse/windows.h"
+#include "relucent/inverse/near_field.h"
+#include "relucent/inverse/windows.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// The camera pixels of every window, ascending: neighbours in memory when the window is applied.
 struct WindowRows {
@@ -17,7 +17,7 @@ struct WindowRows {
 
 /// For every tile of projector pixels the `settings.rows` camera pixels whose near fields have most light in
 /// it. `tiles`: their grid on each projector.
-WindowRows chooseWindowRows(const NearField& near, const NodeLayout& layout, const Rasters& tiles,
+WindowRows chooseWindowRows(const NearField& near, const transport::NodeLayout& layout, const Rasters& tiles,
                             const WindowSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::inverse

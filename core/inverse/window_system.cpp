@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/window_system.h"
+#include "relucent/inverse/window_system.h"
 
 #include <algorithm>
 #include <climits>
 #include <cmath>
 #include <utility>
 
-namespace relucent {
+namespace relucent::inverse {
 namespace {
 
 /// Pixels told apart on either side of the tile: the camera pixels of a window lie within about as many.
@@ -18,17 +18,18 @@ float brightness(const NearField::Value& value) {
   return std::abs(value[0] + value[1] + value[2]);
 }
 
-bool overlap(const Block& a, const Block& b) {
+bool overlap(const transport::Block& a, const transport::Block& b) {
   return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-Block intersection(const Block& a, const Block& b) {
+transport::Block intersection(const transport::Block& a, const transport::Block& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
 }  // namespace
 
-void WindowSystem::gather(const Block& tile, int side, int projector, std::span<const std::uint32_t> rows) {
+void WindowSystem::gather(const transport::Block& tile, int side, int projector,
+                          std::span<const std::uint32_t> rows) {
   tile_ = tile;
   side_ = side;
   projector_ = projector;
@@ -49,7 +50,7 @@ void WindowSystem::gatherLeaves(std::span<const std::uint32_t> rows) {
   groups_.clear();
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     if (i == 0 || leaves_[i].node != leaves_[i - 1].node) {
-      Node place = layout_.node(leaves_[i].node);
+      transport::Node place = layout_.node(leaves_[i].node);
       groups_.push_back({leaves_[i].node, place, static_cast<float>(layout_.block(place).count()), i, i});
     }
     groups_.back().end = i + 1;
@@ -61,11 +62,11 @@ void WindowSystem::gatherLeaves(std::span<const std::uint32_t> rows) {
 void WindowSystem::chooseRegions() {
   regions_.clear();
   for (int device = 0; device < static_cast<int>(layout_.projectors().devices()); ++device) {
-    Block box{INT_MAX, INT_MAX, 0, 0};
+    transport::Block box{INT_MAX, INT_MAX, 0, 0};
     double x = 0.0, y = 0.0, light = 0.0;
     for (const Group& group : groups_) {
       if (group.place.projector != device) continue;
-      Block block = layout_.block(group.place);
+      transport::Block block = layout_.block(group.place);
       box = {std::min(box.x0, block.x0), std::min(box.y0, block.y0), std::max(box.x1, block.x1),
              std::max(box.y1, block.y1)};
       double sum = 0.0;
@@ -76,7 +77,7 @@ void WindowSystem::chooseRegions() {
       light += sum;
     }
     if (!(light > 0.0)) continue;
-    Block centre = tile_;
+    transport::Block centre = tile_;
     if (device != projector_) {
       int left = static_cast<int>(x / light) - side_ / 2, top = static_cast<int>(y / light) - side_ / 2;
       centre = {left, top, left + side_, top + side_};
@@ -91,13 +92,13 @@ void WindowSystem::gatherBeyond() {
   areaSide_.clear();
   std::vector<std::pair<std::size_t, Eigen::Index>> areas;
   for (Group& group : groups_) {
-    Block block = layout_.block(group.place);
+    transport::Block block = layout_.block(group.place);
     group.beyond = -1;
     if (std::any_of(regions_.begin(), regions_.end(), [&](const Region& region) {
           return region.projector == group.place.projector && overlap(block, region.block);
         }))
       continue;
-    Node area = group.place;
+    transport::Node area = group.place;
     int top = layout_.levels(static_cast<std::size_t>(area.projector)) - 1;
     while (area.level < std::min(beyondLevel, top)) area = layout_.parent(area);
     std::size_t key = layout_.index(area);
@@ -116,7 +117,7 @@ void WindowSystem::expand(const Region& region, std::size_t channel) {
   seen_.setZero(rows_, static_cast<Eigen::Index>(region.size().count()));
   for (const Group& group : groups_) {
     if (group.place.projector != region.projector) continue;
-    Block block = intersection(region.block, layout_.block(group.place));
+    transport::Block block = intersection(region.block, layout_.block(group.place));
     for (int y = block.y0; y < block.y1; ++y)
       for (int x = block.x0; x < block.x1; ++x) {
         float* column = seen_.col((y - region.block.y0) * width + x - region.block.x0).data();
@@ -146,7 +147,7 @@ void WindowSystem::correlate(std::size_t channel) {
     expand(region, channel);
     gram_.selfadjointView<Eigen::Lower>().rankUpdate(seen_);
     if (region.projector != projector_) continue;
-    Block block = intersection(tile_, region.block);
+    transport::Block block = intersection(tile_, region.block);
     for (int y = block.y0; y < block.y1; ++y)
       for (int x = block.x0; x < block.x1; ++x)
         columns_.col((y - tile_.y0) * side_ + x - tile_.x0) =
@@ -154,4 +155,4 @@ void WindowSystem::correlate(std::size_t channel) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "inverse/near_field.h"
+#include "relucent/inverse/near_field.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 /// The linear system of one window at a time,
 ///   G = T_W T_W^T   and   T_J,   one colour channel,
@@ -19,10 +19,10 @@ namespace relucent {
 class WindowSystem {
  public:
   /// Keeps references: both outlive it.
-  WindowSystem(const NearField& near, const NodeLayout& layout) : near_(near), layout_(layout) {}
+  WindowSystem(const NearField& near, const transport::NodeLayout& layout) : near_(near), layout_(layout) {}
 
   /// `tile`: pixels of a projector. `rows`: camera pixels, the order of G.
-  void gather(const Block& tile, int side, int projector, std::span<const std::uint32_t> rows);
+  void gather(const transport::Block& tile, int side, int projector, std::span<const std::uint32_t> rows);
   /// Fills gram() and columns() for a channel.
   void correlate(std::size_t channel);
 
@@ -41,7 +41,7 @@ class WindowSystem {
   /// All leaves of the window that share a node.
   struct Group {
     std::uint32_t node;
-    Node place;
+    transport::Node place;
     float pixels;
     std::size_t begin, end;
     Eigen::Index beyond = -1;  // index of the area beyond all regions that contains it
@@ -49,7 +49,7 @@ class WindowSystem {
   /// The part of a projector in which single pixels are resolved.
   struct Region {
     int projector;
-    Block block;
+    transport::Block block;
     Size size() const { return {block.x1 - block.x0, block.y1 - block.y0}; }
   };
 
@@ -60,8 +60,8 @@ class WindowSystem {
   void expandBeyond(std::size_t channel);
 
   const NearField& near_;
-  const NodeLayout& layout_;
-  Block tile_;
+  const transport::NodeLayout& layout_;
+  transport::Block tile_;
   int side_ = 0;
   int projector_ = 0;
   Eigen::Index rows_ = 0;
@@ -74,4 +74,4 @@ class WindowSystem {
   Eigen::MatrixXf gram_, columns_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::inverse

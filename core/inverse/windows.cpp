@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/windows.h"
+#include "relucent/inverse/windows.h"
 
-#include "base/parallel.h"
-#include "inverse/unmixing.h"
+#include "relucent/base/parallel.h"
+#include "relucent/inverse/unmixing.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 std::vector<Message> problems(const WindowSettings& settings) {
   std::vector<Message> found;
@@ -63,4 +63,4 @@ Stack WindowInverse::apply(const Stack& cameraResidual) const {
   return projector;
 }
 
-}  // namespace relucent
+}  // namespace relucent::inverse

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/progress.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::inverse {
 
 struct WindowSettings {
   int tile = 4;        // side of a tile of projector pixels, 4 or 8
@@ -53,7 +53,7 @@ class WindowInverse {
 
   /// The whole operator for other programs, unmixing included: rows = projector pixels, columns = camera
   /// pixels.
-  BlockSparse matrix() const;
+  transport::BlockSparse matrix() const;
 
   bool operator==(const WindowInverse&) const = default;
 
@@ -81,7 +81,8 @@ class WindowInverse {
 /// `usable`: per camera pixel, 0 where it is unreliable. A thresholded T should have been rescaled to the
 /// flood image before.  Source: core/inverse/README.md.
 /// Throws: Error{numerics} if a G is not positive definite; Cancelled.
-WindowInverse computeWindows(const TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
-                             const WindowSettings& settings, Progress& progress);
+WindowInverse computeWindows(const transport::TransportMatrix& transport,
+                             const std::vector<std::uint8_t>& usable, const WindowSettings& settings,
+                             Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::inverse

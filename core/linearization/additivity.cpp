@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/additivity.h"
+#include "relucent/linearization/additivity.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr int halves = 2;
 constexpr int shotCount = 7 + 2 * halves;
 
 /// A random half of the projector's blocks lit, and the other half.
-std::pair<std::vector<Image>, std::vector<Image>> randomHalves(const Rig& rig, std::size_t projector,
-                                                               Random random) {
-  std::vector<Image> half = evenPatterns(rig, {0, 0, 0}), rest = half;
+std::pair<std::vector<image::Image>, std::vector<image::Image>> randomHalves(const rig::Rig& rig,
+                                                                             std::size_t projector,
+                                                                             Random random) {
+  std::vector<image::Image> half = evenPatterns(rig, {0, 0, 0}), rest = half;
   Size size = half[projector].size();
   int side = std::max(1, std::min(size.width, size.height) / 8);
   int across = (size.width + side - 1) / side;
@@ -33,7 +34,7 @@ std::pair<std::vector<Image>, std::vector<Image>> randomHalves(const Rig& rig, s
 /// Sums over each camera channel of white's well-lit values, so that their noise does not matter.
 class ChannelSums {
  public:
-  ChannelSums(const HdrFrame& white, const HdrFrame& black) : black_(black) {
+  ChannelSums(const hdr::HdrFrame& white, const hdr::HdrFrame& black) : black_(black) {
     double brightest = 0.0;
     for (std::size_t at = 0; at < white.radiance.size(); ++at)
       brightest = std::max(brightest, static_cast<double>(white.radiance[at] - black.radiance[at]));
@@ -44,7 +45,7 @@ class ChannelSums {
     }
   }
 
-  std::array<double, 3> of(const HdrFrame& frame) const {
+  std::array<double, 3> of(const hdr::HdrFrame& frame) const {
     std::array<double, 3> sums{};
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t at : used_[c])
@@ -53,7 +54,7 @@ class ChannelSums {
   }
 
  private:
-  const HdrFrame& black_;
+  const hdr::HdrFrame& black_;
   std::array<std::vector<std::size_t>, 3> used_;
 };
 
@@ -76,20 +77,21 @@ std::array<double, 3> operator+(std::array<double, 3> a, const std::array<double
 
 Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std::uint64_t seed,
                              Progress& progress) {
-  const Rig& rig = meter.rig();
+  const rig::Rig& rig = meter.rig();
   int taken = 0;
-  auto shoot = [&](const std::vector<Image>& patterns) {
-    HdrFrame frame = meter.measure(patterns, progress);
+  auto shoot = [&](const std::vector<image::Image>& patterns) {
+    hdr::HdrFrame frame = meter.measure(patterns, progress);
     progress.report(static_cast<double>(++taken) / shotCount);
     return frame;
   };
   auto even = [&](Drive drive) { return shoot(evenPatterns(rig, projector, drive)); };
 
   // White and black stand at both ends: what changes evenly meanwhile falls out of their means.
-  HdrFrame blackBefore = even({0, 0, 0}), whiteBefore = even({1, 1, 1});
-  std::array<HdrFrame, 3> primary{even({1, 0, 0}), even({0, 1, 0}), even({0, 0, 1})};
-  HdrFrame whiteAfter = even({1, 1, 1}), blackAfter = even({0, 0, 0});
-  HdrFrame white = meanOf({whiteBefore, whiteAfter}), black = meanOf({blackBefore, blackAfter});
+  hdr::HdrFrame blackBefore = even({0, 0, 0}), whiteBefore = even({1, 1, 1});
+  std::array<hdr::HdrFrame, 3> primary{even({1, 0, 0}), even({0, 1, 0}), even({0, 0, 1})};
+  hdr::HdrFrame whiteAfter = even({1, 1, 1}), blackAfter = even({0, 0, 0});
+  hdr::HdrFrame white = hdr::meanOf({whiteBefore, whiteAfter}),
+                black = hdr::meanOf({blackBefore, blackAfter});
 
   Additivity result;
   result.whiteWeights = LightWeights(white, black);
@@ -166,4 +168,4 @@ std::vector<Message> additivityFindings(const Additivity& additivity, const std:
   return findings;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

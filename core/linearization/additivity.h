@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
-#include "base/progress.h"
-#include "linearization/test_light.h"
+#include "relucent/base/progress.h"
+#include "relucent/linearization/test_light.h"
 
-namespace relucent {
+namespace relucent::linearization {
 
 /// Deviations of a projector's light from additivity, and the weights for its ramps.
 struct Additivity {
@@ -27,4 +27,4 @@ Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std
 std::vector<Message> additivityFindings(const Additivity& additivity, const std::string& projector,
                                         double limit);
 
-}  // namespace relucent
+}  // namespace relucent::linearization

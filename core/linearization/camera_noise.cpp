@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/camera_noise.h"
+#include "relucent/linearization/camera_noise.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr std::size_t binCount = 32;
@@ -34,18 +34,19 @@ std::size_t binOf(double linear) {
 /// Calls use(first, second, signal, channel) for linear signals of two equal frames, where both are clear of
 /// saturation and of zero.
 template <typename Use>
-void forPairs(const RawFrame& first, const RawFrame& second, const CameraModel& model, const Use& use) {
+void forPairs(const rig::RawFrame& first, const rig::RawFrame& second, const hdr::CameraModel& model,
+              const Use& use) {
   for (std::size_t at = 0; at < first.signal.data().size(); ++at) {
     double a = static_cast<double>(first.signal.data()[at]),
            b = static_cast<double>(second.signal.data()[at]);
     if (std::max(a, b) >= brightestShare * model.saturation || std::min(a, b) <= 0.0) continue;
-    const ResponseCurve& response = model.response[at % 3];
+    const hdr::ResponseCurve& response = model.response[at % 3];
     use(response(a), response(b), 0.5 * (a + b), at % 3);
   }
 }
 
 /// How much brighter the first frame is than the second, over what is well lit; 1 where nothing is.
-double powerRatio(const RawFrame& first, const RawFrame& second, const CameraModel& model) {
+double powerRatio(const rig::RawFrame& first, const rig::RawFrame& second, const hdr::CameraModel& model) {
   double a = 0.0, b = 0.0, count = 0.0;
   forPairs(first, second, model, [&](double linearA, double linearB, double, std::size_t) {
     if (0.5 * (linearA + linearB) < 0.05) return;
@@ -54,7 +55,8 @@ double powerRatio(const RawFrame& first, const RawFrame& second, const CameraMod
   return count >= leastValues ? a / b : 1.0;
 }
 
-void collect(Bins& bins, const RawFrame& first, const RawFrame& second, const CameraModel& model) {
+void collect(Bins& bins, const rig::RawFrame& first, const rig::RawFrame& second,
+             const hdr::CameraModel& model) {
   double ratio = powerRatio(first, second, model);
   double rounding = roundingVariance(first.bits);
   forPairs(first, second, model, [&](double a, double b, double signal, std::size_t channel) {
@@ -95,7 +97,8 @@ std::vector<Point> pointsOf(const Bins& bins, double brightest) {
 
 /// Half the mean square of differences in the darkest pair of frames, if it is dark: cut at zero or not, the
 /// read noise is at least that.
-double spreadInDarkFrames(const std::vector<ShotPair>& pairs, const CameraModel& model, std::size_t camera) {
+double spreadInDarkFrames(const std::vector<ShotPair>& pairs, const hdr::CameraModel& model,
+                          std::size_t camera) {
   double darkest = 1e30, spread = 0.0;
   for (const auto& [first, second] : pairs) {
     for (std::size_t exposure = 0; exposure < first.frames.size(); ++exposure) {
@@ -103,7 +106,7 @@ double spreadInDarkFrames(const std::vector<ShotPair>& pairs, const CameraModel&
       const std::vector<float>& b = second.frames[exposure][camera].signal.data();
       double sum = 0.0, squares = 0.0, count = static_cast<double>(a.size());
       for (std::size_t at = 0; at < a.size(); ++at) {
-        const ResponseCurve& response = model.response[at % 3];
+        const hdr::ResponseCurve& response = model.response[at % 3];
         double linearA = response(static_cast<double>(a[at])), linearB = response(static_cast<double>(b[at]));
         sum += 0.5 * (linearA + linearB);
         squares += 0.5 * (linearA - linearB) * (linearA - linearB);
@@ -153,7 +156,8 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-CameraModel withMeasuredNoise(CameraModel model, const std::vector<ShotPair>& pairs, std::size_t camera) {
+hdr::CameraModel withMeasuredNoise(hdr::CameraModel model, const std::vector<ShotPair>& pairs,
+                                   std::size_t camera) {
   Bins bins;
   double rounding = 0.0;
   for (const auto& [first, second] : pairs) {
@@ -163,7 +167,7 @@ CameraModel withMeasuredNoise(CameraModel model, const std::vector<ShotPair>& pa
     }
   }
   double brightest = 1.0;
-  for (const ResponseCurve& response : model.response)
+  for (const hdr::ResponseCurve& response : model.response)
     brightest = std::min(brightest, response(brightestShare * model.saturation));
   if (std::optional<Line> line = robustLine(pointsOf(bins, brightest))) {
     model.readNoise = std::sqrt(line->offset);
@@ -175,7 +179,7 @@ CameraModel withMeasuredNoise(CameraModel model, const std::vector<ShotPair>& pa
   return model;
 }
 
-double flickerOf(const CameraModel& model, const std::vector<ShotPair>& pairs, std::size_t camera) {
+double flickerOf(const hdr::CameraModel& model, const std::vector<ShotPair>& pairs, std::size_t camera) {
   double squares = 0.0, count = 0.0;
   for (const auto& [first, second] : pairs)
     for (std::size_t exposure = 0; exposure < first.frames.size(); ++exposure) {
@@ -187,27 +191,29 @@ double flickerOf(const CameraModel& model, const std::vector<ShotPair>& pairs, s
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-CameraModel withMeasuredTimes(CameraModel model, const std::vector<ShotPair>& pairs, std::size_t camera) {
+hdr::CameraModel withMeasuredTimes(hdr::CameraModel model, const std::vector<ShotPair>& pairs,
+                                   std::size_t camera) {
   model.times.clear();
-  const std::vector<std::vector<RawFrame>>& bracket = pairs.front().first.frames;
+  const std::vector<std::vector<rig::RawFrame>>& bracket = pairs.front().first.frames;
   double reference = bracket.back()[camera].seconds;
   for (std::size_t exposure = 0; exposure < bracket.size(); ++exposure) {
     double reported = bracket[exposure][camera].seconds;
     std::vector<double> scales;
     for (const auto& [first, second] : pairs)
-      for (const Shot* shot : {&first, &second}) {
-        std::vector<double> ratios = exposureRatios(*shot, camera, model);
+      for (const rig::Shot* shot : {&first, &second}) {
+        std::vector<double> ratios = hdr::exposureRatios(*shot, camera, model);
         double scale = ratios[exposure] / ratios.back() * reference / reported;
         // Exactly 1 says that there was too little light to tell.
         if (scale != 1.0) scales.push_back(scale);
       }
     model.times.push_back({reported, scales.empty() ? 1.0 : median(scales)});
   }
-  std::stable_sort(model.times.begin(), model.times.end(),
-                   [](const ExposureTime& a, const ExposureTime& b) { return a.reported < b.reported; });
-  auto same = [](const ExposureTime& a, const ExposureTime& b) { return a.reported == b.reported; };
+  std::stable_sort(
+      model.times.begin(), model.times.end(),
+      [](const hdr::ExposureTime& a, const hdr::ExposureTime& b) { return a.reported < b.reported; });
+  auto same = [](const hdr::ExposureTime& a, const hdr::ExposureTime& b) { return a.reported == b.reported; };
   model.times.erase(std::unique(model.times.begin(), model.times.end(), same), model.times.end());
   return model;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

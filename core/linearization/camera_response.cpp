@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/camera_response.h"
+#include "relucent/linearization/camera_response.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "hdr/isotonic.h"
+#include "relucent/base/error.h"
+#include "relucent/hdr/isotonic.h"
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr int knots = 20;
@@ -23,8 +23,8 @@ constexpr std::size_t pixelsPerChannel = 4000;
 /// Unknowns: ln response at the knots of three channels, then one time error an exposure.
 class Estimate {
  public:
-  Estimate(const Shot& bracket, std::size_t camera, double saturation) : saturation_(saturation) {
-    for (const std::vector<RawFrame>& exposure : bracket.frames) frames_.push_back(&exposure.at(camera));
+  Estimate(const rig::Shot& bracket, std::size_t camera, double saturation) : saturation_(saturation) {
+    for (const std::vector<rig::RawFrame>& exposure : bracket.frames) frames_.push_back(&exposure.at(camera));
     int bits = frames_.front()->bits;
     step_ = bits > 0 ? 1.0 / (std::ldexp(1.0, bits) - 1.0) : 0.0;
     // Below some 6 codes the logarithm of a rounded signal is biased.
@@ -164,7 +164,7 @@ class Estimate {
       }
   }
 
-  std::vector<const RawFrame*> frames_;
+  std::vector<const rig::RawFrame*> frames_;
   double saturation_;
   double step_ = 0.0, darkest_ = 0.0, spacing_ = 0.0;
   Eigen::MatrixXd normal_;
@@ -199,7 +199,7 @@ PowerLaw closestPowerLaw(const Estimate& estimate, std::size_t channel) {
 }
 
 /// Below the darkest knot the curve goes on as the power law that it has there.
-ResponseCurve curveOf(const Estimate& estimate, std::size_t channel) {
+hdr::ResponseCurve curveOf(const Estimate& estimate, std::size_t channel) {
   double exponent = (estimate.logResponse(channel, 2) - estimate.logResponse(channel, 0)) /
                     (estimate.knot(2) - estimate.knot(0));
   exponent = std::max(exponent, 0.1);
@@ -212,12 +212,12 @@ ResponseCurve curveOf(const Estimate& estimate, std::size_t channel) {
     x.push_back(i + 1 < knots ? std::exp(estimate.knot(i)) : 1.0);
     y.push_back(std::exp(estimate.logResponse(channel, i)));
   }
-  return curveFromRamp(x, y, std::vector<double>(x.size(), 1.0));
+  return hdr::curveFromRamp(x, y, std::vector<double>(x.size(), 1.0));
 }
 
 }  // namespace
 
-std::vector<double> responseBracket(const ExposureRange& range, const std::vector<double>& exposures) {
+std::vector<double> responseBracket(const rig::ExposureRange& range, const std::vector<double>& exposures) {
   require(!exposures.empty(), "a response cannot be told without exposures");
   double least = std::max(exposures.back() / 4.0, range.shortest);
   std::vector<double> seconds;
@@ -227,7 +227,7 @@ std::vector<double> responseBracket(const ExposureRange& range, const std::vecto
   return seconds;
 }
 
-CameraResponse cameraResponse(const Shot& bracket, std::size_t camera, double saturation) {
+CameraResponse cameraResponse(const rig::Shot& bracket, std::size_t camera, double saturation) {
   require(!bracket.frames.empty(), "a bracket without exposures tells no response");
   CameraResponse response;
   if (bracket.frames.size() < 2) return response;
@@ -244,4 +244,4 @@ CameraResponse cameraResponse(const Shot& bracket, std::size_t camera, double sa
   return response;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

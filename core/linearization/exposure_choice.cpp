@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/exposure_choice.h"
+#include "relucent/linearization/exposure_choice.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "linearization/test_light.h"
+#include "relucent/base/error.h"
+#include "relucent/linearization/test_light.h"
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr double wantedShare = 0.8;   // of saturation, at the 99.5th percentile of the flood image
@@ -18,7 +18,7 @@ constexpr double clipping = 0.98;  // share of saturation that counts as clipped
 constexpr int mostRefinements = 8;
 
 /// The brightest channel of every pixel.
-std::vector<float> brightest(const Image& signal) {
+std::vector<float> brightest(const image::Image& signal) {
   std::vector<float> values(signal.pixels());
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = *std::max_element(signal.pixel(i).begin(), signal.pixel(i).end());
@@ -32,7 +32,7 @@ double quantile(std::vector<float> values, double share) {
 }
 
 /// The whole range in steps of at most 4, longest first; at most 12.
-std::vector<double> sweep(const ExposureRange& range) {
+std::vector<double> sweep(const rig::ExposureRange& range) {
   double ratio = range.longest / range.shortest;
   int steps = std::clamp(static_cast<int>(std::ceil(std::log(ratio) / std::log(4.0) - 1e-9)), 0, 11);
   std::vector<double> seconds;
@@ -43,7 +43,7 @@ std::vector<double> sweep(const ExposureRange& range) {
 
 /// The signal at which a camera clips: some deliver less than full scale. It shows as many equal values at
 /// the top of an exposure that a much shorter one reaches as well.
-double saturationOf(const Shot& white, std::size_t camera) {
+double saturationOf(const rig::Shot& white, std::size_t camera) {
   double top = 1.0;
   if (white.frames.size() > 1) {
     std::vector<float> longest = brightest(white.frames[0][camera].signal);
@@ -70,14 +70,14 @@ struct Search {
   bool clips = false;           // unless something does at every one
   bool settled = false;
 
-  double levelOf(const Image& signal) const {
+  double levelOf(const image::Image& signal) const {
     std::vector<float> all = brightest(signal), values;
     for (std::size_t at : lit) values.push_back(all[at]);
     return quantile(lit.empty() ? all : values, 0.995);
   }
 
   /// From the sweep: the exposure at which the brightest of what is lit comes to the wanted level.
-  void findHighlights(const Shot& white, std::size_t camera, const std::vector<double>& sweepSeconds) {
+  void findHighlights(const rig::Shot& white, std::size_t camera, const std::vector<double>& sweepSeconds) {
     for (std::size_t exposure = 0; exposure < sweepSeconds.size(); ++exposure) {
       double most = brightestLit(white.frames[exposure][camera].signal);
       highlights = sweepSeconds[exposure];
@@ -88,7 +88,7 @@ struct Search {
     }
   }
 
-  double brightestLit(const Image& signal) const {
+  double brightestLit(const image::Image& signal) const {
     std::vector<float> values = brightest(signal);
     float most = 0.0f;
     for (std::size_t at : lit) most = std::max(most, values[at]);
@@ -96,7 +96,7 @@ struct Search {
   }
 
   /// Takes in a photograph at `seconds` and moves on towards the wanted level.
-  void learn(const Image& signal, const ExposureRange& range) {
+  void learn(const image::Image& signal, const rig::ExposureRange& range) {
     level = levelOf(signal);
     highlightsClip = brightestLit(signal) > clipping * saturation;
     double wanted = wantedShare * saturation;
@@ -110,8 +110,8 @@ struct Search {
 };
 
 /// Pixels that white makes brighter than two photographs of black differ from each other.
-std::vector<std::size_t> litPixels(const Image& white, const Image& black, const Image& blackAgain,
-                                   int bits) {
+std::vector<std::size_t> litPixels(const image::Image& white, const image::Image& black,
+                                   const image::Image& blackAgain, int bits) {
   std::vector<float> noise;
   for (std::size_t i = 0; i < black.data().size(); ++i)
     noise.push_back(std::abs(black.data()[i] - blackAgain.data()[i]));
@@ -145,7 +145,7 @@ std::vector<double> wantedBy(const std::vector<Search>& searches, bool unsettled
 }
 
 /// From the shortest that a camera needs to the longest, in even steps.
-std::vector<double> spread(const std::vector<Search>& searches, const ExposureRange& range) {
+std::vector<double> spread(const std::vector<Search>& searches, const rig::ExposureRange& range) {
   std::vector<double> wanted = wantedBy(searches, false);
   double shortest = wanted.back(), longest = std::min(longerBy * wanted.front(), range.longest);
   double ratio = longest / shortest;
@@ -160,7 +160,7 @@ std::vector<double> spread(const std::vector<Search>& searches, const ExposureRa
 
 /// Shorter exposures for the highlights that clip at the shortest of `seconds`, in even steps.
 void addHighlights(std::vector<double>& seconds, const std::vector<Search>& searches,
-                   const ExposureRange& range) {
+                   const rig::ExposureRange& range) {
   double shortest = seconds.back(), least = shortest;
   for (const Search& search : searches)
     if (search.highlightsClip) least = std::min(least, search.highlights);
@@ -173,7 +173,8 @@ void addHighlights(std::vector<double>& seconds, const std::vector<Search>& sear
 
 /// What a sweep over the whole range tells about every camera: where it clips, and the longest exposure at
 /// which it does not.
-std::vector<Search> startSearches(const Rig& rig, const Shot& white, const std::vector<double>& seconds) {
+std::vector<Search> startSearches(const rig::Rig& rig, const rig::Shot& white,
+                                  const std::vector<double>& seconds) {
   std::vector<Search> searches;
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     Search search;
@@ -189,11 +190,11 @@ std::vector<Search> startSearches(const Rig& rig, const Shot& white, const std::
   return searches;
 }
 
-void findLight(std::vector<Search>& searches, const Shot& white, const std::vector<double>& sweepSeconds,
-               const Shot& black, const Shot& blackAgain, const std::vector<double>& blackSeconds) {
+void findLight(std::vector<Search>& searches, const rig::Shot& white, const std::vector<double>& sweepSeconds,
+               const rig::Shot& black, const rig::Shot& blackAgain, const std::vector<double>& blackSeconds) {
   for (std::size_t camera = 0; camera < searches.size(); ++camera) {
     Search& search = searches[camera];
-    const RawFrame& lit = white.frames[indexIn(sweepSeconds, search.seconds)][camera];
+    const rig::RawFrame& lit = white.frames[indexIn(sweepSeconds, search.seconds)][camera];
     std::size_t exposure = indexIn(blackSeconds, search.seconds);
     search.lit = litPixels(lit.signal, black.frames[exposure][camera].signal,
                            blackAgain.frames[exposure][camera].signal, lit.bits);
@@ -237,8 +238,8 @@ std::vector<Message> remarks(const std::vector<Search>& searches) {
 
 }  // namespace
 
-ExposureRange commonRange(const Rig& rig) {
-  ExposureRange range = rig.cameras.front()->exposures();
+rig::ExposureRange commonRange(const rig::Rig& rig) {
+  rig::ExposureRange range = rig.cameras.front()->exposures();
   for (const auto& camera : rig.cameras) {
     range.shortest = std::max(range.shortest, camera->exposures().shortest);
     range.longest = std::min(range.longest, camera->exposures().longest);
@@ -252,18 +253,18 @@ ExposureRange commonRange(const Rig& rig) {
   return range;
 }
 
-ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress) {
-  const Rig& rig = shots.rig();
-  ExposureRange range = commonRange(rig);
+ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress) {
+  const rig::Rig& rig = shots.rig();
+  rig::ExposureRange range = commonRange(rig);
   std::vector<double> seconds = sweep(range);
-  Shot white = shots.take(evenPatterns(rig, {1, 1, 1}), seconds, progress);
+  rig::Shot white = shots.take(evenPatterns(rig, {1, 1, 1}), seconds, progress);
   progress.report(0.4);
 
   std::vector<Search> searches = startSearches(rig, white, seconds);
   std::vector<double> dark = wantedBy(searches, false);
-  Shot black = shots.take(evenPatterns(rig, {0, 0, 0}), dark, progress);
+  rig::Shot black = shots.take(evenPatterns(rig, {0, 0, 0}), dark, progress);
   progress.report(0.5);
-  Shot blackAgain = shots.take(evenPatterns(rig, {0, 0, 0}), dark, progress);
+  rig::Shot blackAgain = shots.take(evenPatterns(rig, {0, 0, 0}), dark, progress);
   progress.report(0.6);
   findLight(searches, white, seconds, black, blackAgain, dark);
   for (std::size_t camera = 0; camera < searches.size(); ++camera)
@@ -272,7 +273,7 @@ ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress) {
   for (int round = 0; round < mostRefinements; ++round) {
     std::vector<double> open = wantedBy(searches, true);
     if (open.empty()) break;
-    Shot closer = shots.take(evenPatterns(rig, {1, 1, 1}), open, progress);
+    rig::Shot closer = shots.take(evenPatterns(rig, {1, 1, 1}), open, progress);
     for (std::size_t camera = 0; camera < searches.size(); ++camera)
       if (!searches[camera].settled)
         searches[camera].learn(closer.frames[indexIn(open, searches[camera].seconds)][camera].signal, range);
@@ -285,4 +286,4 @@ ExposureChoice chooseExposures(ShotTaker& shots, Progress& progress) {
   return choice;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/linearization.h"
+#include "relucent/linearization/linearization.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "linearization/additivity.h"
-#include "linearization/camera_noise.h"
-#include "linearization/camera_response.h"
-#include "linearization/exposure_choice.h"
-#include "linearization/projector_ramp.h"
-#include "linearization/test_light.h"
+#include "relucent/base/error.h"
+#include "relucent/linearization/additivity.h"
+#include "relucent/linearization/camera_noise.h"
+#include "relucent/linearization/camera_response.h"
+#include "relucent/linearization/exposure_choice.h"
+#include "relucent/linearization/projector_ramp.h"
+#include "relucent/linearization/test_light.h"
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr double flickerLimit = 0.01;  // of the light between photographs, relative
 
-std::vector<ShotPair> takePairs(ShotTaker& shots, const LinearizationSettings& settings,
+std::vector<ShotPair> takePairs(rig::ShotTaker& shots, const LinearizationSettings& settings,
                                 const std::vector<double>& exposures, Progress& progress) {
   // Full and half light, and what lies in the dark, so that all signals occur.
   constexpr std::array<float, 4> drives{1.0f, 0.75f, 0.5f, 0.0f};
   std::vector<ShotPair> pairs;
   for (int i = 0; i < settings.noisePairs; ++i) {
     float drive = drives[static_cast<std::size_t>(i) % drives.size()];
-    std::vector<Image> patterns = evenPatterns(shots.rig(), {drive, drive, drive});
-    Shot first = shots.take(patterns, exposures, progress);
+    std::vector<image::Image> patterns = evenPatterns(shots.rig(), {drive, drive, drive});
+    rig::Shot first = shots.take(patterns, exposures, progress);
     progress.report((i + 0.5) / settings.noisePairs);
     pairs.emplace_back(std::move(first), shots.take(patterns, exposures, progress));
     progress.report((i + 1.0) / settings.noisePairs);
@@ -34,10 +34,10 @@ std::vector<ShotPair> takePairs(ShotTaker& shots, const LinearizationSettings& s
 }
 
 /// Step 2 of linearize().
-void calibrateCameras(ShotTaker& shots, const LinearizationSettings& settings,
+void calibrateCameras(rig::ShotTaker& shots, const LinearizationSettings& settings,
                       const std::vector<double>& saturation, Linearization& result, Progress& progress) {
-  const Rig& rig = shots.rig();
-  Shot bracket =
+  const rig::Rig& rig = shots.rig();
+  rig::Shot bracket =
       shots.take(evenPatterns(rig, {1, 1, 1}), responseBracket(commonRange(rig), result.exposures), progress);
   progress.report(0.3);
   Progress rest = progress.part(0.7, progress.stage());
@@ -45,7 +45,7 @@ void calibrateCameras(ShotTaker& shots, const LinearizationSettings& settings,
 
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     progress.checkpoint();
-    CameraModel model;
+    hdr::CameraModel model;
     model.saturation = saturation[camera];
     model.response = cameraResponse(bracket, camera, model.saturation).curves;
     model = withMeasuredNoise(std::move(model), pairs, camera);
@@ -85,9 +85,9 @@ std::vector<Message> problems(const LinearizationSettings& settings) {
   return found;
 }
 
-Linearization linearize(ShotTaker& shots, const LinearizationSettings& settings, Progress& progress) {
+Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& settings, Progress& progress) {
   for (const Message& problem : problems(settings)) require(false, "{}", problem);
-  const Rig& rig = shots.rig();
+  const rig::Rig& rig = shots.rig();
   require(!rig.projectors.empty() && !rig.cameras.empty(), "{} projectors and {} cameras make no rig",
           rig.projectors.size(), rig.cameras.size());
 
@@ -124,4 +124,4 @@ Linearization linearize(ShotTaker& shots, const LinearizationSettings& settings,
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

@@ -6,22 +6,22 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "hdr/hdr.h"
-#include "rig/shot.h"
+#include "relucent/base/message.h"
+#include "relucent/hdr/hdr.h"
+#include "relucent/rig/shot.h"
 
-namespace relucent {
+namespace relucent::linearization {
 
 /// Per projector and channel: encoded drive -> relative radiance.
 struct ProjectorResponse {
-  std::array<ResponseCurve, 3> channels;
+  std::array<hdr::ResponseCurve, 3> channels;
 
   /// Encoded drive for linear values; clamps to [0, 1].
   /// Large images go through tables: the resulting light, decode(encode(L)), is within
   /// sqrt(L) / 2000 of L for every curve, and within 1e-6 for smooth ones. 0 and 1 are exact.
-  Image encode(const Image& linear) const;
+  image::Image encode(const image::Image& linear) const;
   /// Linear values of encoded drive, exact; clamps to [0, 1].
-  Image decode(const Image& encoded) const;
+  image::Image decode(const image::Image& encoded) const;
 };
 
 struct LinearizationSettings {
@@ -38,7 +38,7 @@ std::vector<Message> problems(const LinearizationSettings& settings);
 struct Linearization {
   std::vector<ProjectorResponse> projectors;
   /// With the true exposure times (CameraModel::times), relative to the shortest of `exposures`.
-  std::vector<CameraModel> cameras;
+  std::vector<hdr::CameraModel> cameras;
   /// Exposure times, longest first, that cover this venue: the flood image just unsaturated at the shortest,
   /// dim interreflections above the noise at the longest. Only one if the camera has no longer one.
   std::vector<double> exposures;
@@ -46,7 +46,7 @@ struct Linearization {
   /// the sum of two halves.
   std::vector<double> additivityError;
   /// Time that its shots took: a benchmark of the devices. Shots read from a log do not count.
-  ShotTimes times;
+  rig::ShotTimes times;
   /// Findings (a white segment, a picture mode, flicker); empty: none.
   std::vector<Message> findings;
 };
@@ -62,6 +62,6 @@ struct Linearization {
 /// About 3 * levels + 60 shots for one projector.  Source: core/linearization/README.md.
 /// Throws: Error{input} if a camera sees no difference between black and white, or no camera sees a
 /// projector's channel; Error{device, disk}; Cancelled.
-Linearization linearize(ShotTaker& shots, const LinearizationSettings& settings, Progress& progress);
+Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::linearization

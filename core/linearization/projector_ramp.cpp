@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/projector_ramp.h"
+#include "relucent/linearization/projector_ramp.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "hdr/isotonic.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/hdr/isotonic.h"
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr std::size_t shotsBetweenReferences = 8;
@@ -49,7 +49,7 @@ struct Level {
   double weighted = 0.0, weights = 0.0;
 };
 
-ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<Level>& levels) {
+hdr::ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<Level>& levels) {
   std::vector<double> x{0.0}, y{0.0}, weights{0.0};
   for (std::size_t i = 0; i < drives.size(); ++i) {
     x.push_back(drives[i]);
@@ -58,7 +58,7 @@ ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<Level
   }
   // Black is the zero by definition, not by one measurement.
   weights.front() = 100.0 * *std::max_element(weights.begin(), weights.end());
-  return curveFromRamp(x, y, weights);
+  return hdr::curveFromRamp(x, y, weights);
 }
 
 }  // namespace
@@ -76,18 +76,18 @@ std::vector<double> rampLevels(const LinearizationSettings& settings, int bits) 
 
 ProjectorResponse measureRamps(const LightMeter& meter, std::size_t projector, const Additivity& additivity,
                                const LinearizationSettings& settings, Progress& progress) {
-  const Rig& rig = meter.rig();
+  const rig::Rig& rig = meter.rig();
   std::vector<double> drives = rampLevels(settings, rig.projectors[projector]->bits());
   std::vector<Step> steps = shuffledSteps(drives.size(), settings.seed, projector);
   std::size_t references = (steps.size() + shotsBetweenReferences - 1) / shotsBetweenReferences + 1;
   double shots = static_cast<double>(steps.size() + 2 * references), taken = 0.0;
   auto shoot = [&](Drive drive) {
-    HdrFrame frame = meter.measure(evenPatterns(rig, projector, drive), progress);
+    hdr::HdrFrame frame = meter.measure(evenPatterns(rig, projector, drive), progress);
     progress.report(++taken / shots);
     return frame;
   };
   auto reference = [&] {
-    HdrFrame white = shoot({1, 1, 1}), black = shoot({0, 0, 0});
+    hdr::HdrFrame white = shoot({1, 1, 1}), black = shoot({0, 0, 0});
     Reference result{additivity.whiteWeights.of(white) - additivity.whiteWeights.of(black), {}};
     for (std::size_t c = 0; c < 3; ++c) result.black[c] = additivity.channelWeights[c].of(black);
     return result;
@@ -106,7 +106,7 @@ ProjectorResponse measureRamps(const LightMeter& meter, std::size_t projector, c
     for (std::size_t i = begin; i < end; ++i) {
       Drive drive{};
       drive[steps[i].channel] = static_cast<float>(drives[steps[i].level]);
-      HdrFrame frame = shoot(drive);
+      hdr::HdrFrame frame = shoot(drive);
       const LightWeights& weights = additivity.channelWeights[steps[i].channel];
       readings.push_back({steps[i], weights.of(frame), weights.varianceOf(frame)});
     }
@@ -130,4 +130,4 @@ ProjectorResponse measureRamps(const LightMeter& meter, std::size_t projector, c
   return response;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

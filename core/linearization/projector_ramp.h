@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "linearization/additivity.h"
-#include "linearization/linearization.h"
+#include "relucent/linearization/additivity.h"
+#include "relucent/linearization/linearization.h"
 
-namespace relucent {
+namespace relucent::linearization {
 
 /// Measures the light of each channel of a projector at each drive level. Shots in random order over levels
 /// and channels, white and black before, after and every 8 shots: lamp power and black level of a shot are
@@ -17,4 +17,4 @@ ProjectorResponse measureRamps(const LightMeter& meter, std::size_t projector, c
 /// Drive levels in ascending order, without 0, exact codes of the projector.
 std::vector<double> rampLevels(const LinearizationSettings& settings, int bits);
 
-}  // namespace relucent
+}  // namespace relucent::linearization

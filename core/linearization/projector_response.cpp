@@ -2,18 +2,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "linearization/linearization.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/linearization/linearization.h"
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 constexpr std::size_t tableSteps = 4096;
 
 /// Drive over the square root of light, where display curves are close to straight. Linear in between; as
 /// curve and table ascend together, the light is never further off than one step: 2 sqrt(L) / tableSteps.
-std::vector<float> driveTable(const ResponseCurve& curve) {
+std::vector<float> driveTable(const hdr::ResponseCurve& curve) {
   std::vector<float> table(tableSteps + 2);
   for (std::size_t i = 0; i <= tableSteps; ++i) {
     double root = static_cast<double>(i) / tableSteps;
@@ -24,9 +24,9 @@ std::vector<float> driveTable(const ResponseCurve& curve) {
 }
 
 template <typename Function>
-Image mapped(const Image& image, const Function& function) {
+image::Image mapped(const image::Image& image, const Function& function) {
   require(image.channels() == 3, "an image of {} channels where 3 are needed", image.channels());
-  Image result(image.size(), 3);
+  image::Image result(image.size(), 3);
   parallelFor(0, image.pixels(), 1024, [&](std::size_t pixel) {
     for (std::size_t c = 0; c < 3; ++c)
       result.pixel(pixel)[c] = function(c, std::clamp(image.pixel(pixel)[c], 0.0f, 1.0f));
@@ -36,7 +36,7 @@ Image mapped(const Image& image, const Function& function) {
 
 }  // namespace
 
-Image ProjectorResponse::encode(const Image& linear) const {
+image::Image ProjectorResponse::encode(const image::Image& linear) const {
   if (linear.pixels() <= tableSteps)
     return mapped(linear, [&](std::size_t c, float value) {
       return static_cast<float>(channels[c].inverse(static_cast<double>(value)));
@@ -51,10 +51,10 @@ Image ProjectorResponse::encode(const Image& linear) const {
   });
 }
 
-Image ProjectorResponse::decode(const Image& encoded) const {
+image::Image ProjectorResponse::decode(const image::Image& encoded) const {
   return mapped(encoded, [&](std::size_t c, float value) {
     return static_cast<float>(channels[c](static_cast<double>(value)));
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

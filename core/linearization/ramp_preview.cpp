@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/ramp_preview.h"
+#include "relucent/linearization/ramp_preview.h"
 
 #include <algorithm>
 #include <optional>
 
-namespace relucent {
+namespace relucent::linearization {
 namespace {
 
 // Beyond it a frame's mean is cut off by saturation in too many of its pixels.
@@ -12,7 +12,7 @@ constexpr float brightest = 0.97f;
 constexpr double saturatedShare = 0.02;
 
 /// The drive of a pattern whose pixels are all alike.
-std::optional<std::array<float, 3>> evenDrive(const Image& pattern) {
+std::optional<std::array<float, 3>> evenDrive(const image::Image& pattern) {
   if (pattern.empty() || pattern.channels() != 3) return std::nullopt;
   auto first = pattern.pixel(0);
   for (std::size_t i = 1; i < pattern.pixels(); ++i)
@@ -21,7 +21,7 @@ std::optional<std::array<float, 3>> evenDrive(const Image& pattern) {
 }
 
 /// Mean light of a frame, per second; none if it is saturated.
-std::optional<double> lightOf(const RawFrame& frame) {
+std::optional<double> lightOf(const rig::RawFrame& frame) {
   const std::vector<float>& signal = frame.signal.data();
   if (signal.empty() || !(frame.seconds > 0.0)) return std::nullopt;
   double sum = 0.0, saturated = 0.0;
@@ -36,7 +36,7 @@ std::optional<double> lightOf(const RawFrame& frame) {
 
 }  // namespace
 
-void RampPreview::add(const Image& encodedPattern, const RawFrame& frame) {
+void RampPreview::add(const image::Image& encodedPattern, const rig::RawFrame& frame) {
   auto drive = evenDrive(encodedPattern);
   auto light = lightOf(frame);
   if (!drive || !light) return;
@@ -63,4 +63,4 @@ std::array<std::map<double, double>, 3> RampPreview::curves() const {
   return curves;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

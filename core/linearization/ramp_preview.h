@@ -4,16 +4,16 @@
 #include <array>
 #include <map>
 
-#include "rig/rig.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::linearization {
 
 /// Approximate ramps of a projector while they are being measured, drive -> light, without the weights, drift
 /// correction and noise model of the fit. For display only.
 class RampPreview {
  public:
   /// Adds one photograph of a uniform pattern; other patterns and saturated photographs are ignored.
-  void add(const Image& encodedPattern, const RawFrame& frame);
+  void add(const image::Image& encodedPattern, const rig::RawFrame& frame);
 
   /// Per channel: drive -> light relative to the brightest level so far, minus black. Empty until black and
   /// at least one level have been photographed.
@@ -28,4 +28,4 @@ class RampPreview {
   Mean black_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::linearization

@@ -1,44 +1,46 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/test_light.h"
+#include "relucent/linearization/test_light.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::linearization {
 
-std::vector<Image> evenPatterns(const Rig& rig, Drive drive) {
-  std::vector<Image> patterns;
+std::vector<image::Image> evenPatterns(const rig::Rig& rig, Drive drive) {
+  std::vector<image::Image> patterns;
   for (const auto& projector : rig.projectors) {
-    Image& pattern = patterns.emplace_back(projector->size(), 3);
+    image::Image& pattern = patterns.emplace_back(projector->size(), 3);
     for (std::size_t i = 0; i < pattern.pixels(); ++i)
       std::copy(drive.begin(), drive.end(), pattern.pixel(i).begin());
   }
   return patterns;
 }
 
-std::vector<Image> evenPatterns(const Rig& rig, std::size_t projector, Drive drive) {
-  std::vector<Image> patterns = evenPatterns(rig, drive);
+std::vector<image::Image> evenPatterns(const rig::Rig& rig, std::size_t projector, Drive drive) {
+  std::vector<image::Image> patterns = evenPatterns(rig, drive);
   for (std::size_t other = 0; other < patterns.size(); ++other)
-    if (other != projector) patterns[other] = Image(patterns[other].size(), 3);
+    if (other != projector) patterns[other] = image::Image(patterns[other].size(), 3);
   return patterns;
 }
 
-void showEven(Rig& rig, Drive drive) {
-  const std::vector<Image> patterns = evenPatterns(rig, drive);
+void showEven(rig::Rig& rig, Drive drive) {
+  const std::vector<image::Image> patterns = evenPatterns(rig, drive);
   for (std::size_t i = 0; i < patterns.size(); ++i) rig.projectors[i]->show(patterns[i]);
 }
 
-LightMeter::LightMeter(ShotTaker& shots, std::vector<CameraModel> cameras, std::vector<double> exposures)
+LightMeter::LightMeter(rig::ShotTaker& shots, std::vector<hdr::CameraModel> cameras,
+                       std::vector<double> exposures)
     : shots_(shots),
       cameras_(std::move(cameras)),
       exposures_(std::move(exposures)),
       rasters_(shots.rig().cameraRasters()) {}
 
-HdrFrame LightMeter::measure(const std::vector<Image>& encodedPatterns, const Progress& progress) const {
-  return mergeBracket(shots_.take(encodedPatterns, exposures_, progress), cameras_, rasters_);
+hdr::HdrFrame LightMeter::measure(const std::vector<image::Image>& encodedPatterns,
+                                  const Progress& progress) const {
+  return hdr::mergeBracket(shots_.take(encodedPatterns, exposures_, progress), cameras_, rasters_);
 }
 
-LightWeights::LightWeights(const HdrFrame& lit, const HdrFrame& black) {
+LightWeights::LightWeights(const hdr::HdrFrame& lit, const hdr::HdrFrame& black) {
   std::vector<float> difference(lit.radiance.size());
   for (std::size_t at = 0; at < difference.size(); ++at)
     difference[at] = lit.radiance[at] - black.radiance[at];
@@ -54,17 +56,17 @@ LightWeights::LightWeights(const HdrFrame& lit, const HdrFrame& black) {
   }
 }
 
-double LightWeights::of(const HdrFrame& frame) const {
+double LightWeights::of(const hdr::HdrFrame& frame) const {
   double sum = 0.0;
   for (const Term& term : terms_) sum += term.weight * static_cast<double>(frame.radiance[term.at]);
   return sum;
 }
 
-double LightWeights::varianceOf(const HdrFrame& frame) const {
+double LightWeights::varianceOf(const hdr::HdrFrame& frame) const {
   double sum = 0.0;
   for (const Term& term : terms_)
     sum += term.weight * term.weight * static_cast<double>(frame.variance[term.at]);
   return sum;
 }
 
-}  // namespace relucent
+}  // namespace relucent::linearization

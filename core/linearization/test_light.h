@@ -4,32 +4,32 @@
 #include <array>
 #include <vector>
 
-#include "hdr/hdr.h"
-#include "rig/shot.h"
+#include "relucent/hdr/hdr.h"
+#include "relucent/rig/shot.h"
 
-namespace relucent {
+namespace relucent::linearization {
 
 using Drive = std::array<float, 3>;
 
 /// Every pixel of every projector at `drive`.
-std::vector<Image> evenPatterns(const Rig& rig, Drive drive);
+std::vector<image::Image> evenPatterns(const rig::Rig& rig, Drive drive);
 /// Every pixel of one projector at `drive`, the others black.
-std::vector<Image> evenPatterns(const Rig& rig, std::size_t projector, Drive drive);
+std::vector<image::Image> evenPatterns(const rig::Rig& rig, std::size_t projector, Drive drive);
 
 /// Shows the first of these on all projectors, one after the other.
-void showEven(Rig& rig, Drive drive);
+void showEven(rig::Rig& rig, Drive drive);
 
 /// Takes shots at the chosen exposures and merges them.
 class LightMeter {
  public:
-  LightMeter(ShotTaker& shots, std::vector<CameraModel> cameras, std::vector<double> exposures);
+  LightMeter(rig::ShotTaker& shots, std::vector<hdr::CameraModel> cameras, std::vector<double> exposures);
 
-  const Rig& rig() const { return shots_.rig(); }
-  HdrFrame measure(const std::vector<Image>& encodedPatterns, const Progress& progress) const;
+  const rig::Rig& rig() const { return shots_.rig(); }
+  hdr::HdrFrame measure(const std::vector<image::Image>& encodedPatterns, const Progress& progress) const;
 
  private:
-  ShotTaker& shots_;
-  std::vector<CameraModel> cameras_;
+  rig::ShotTaker& shots_;
+  std::vector<hdr::CameraModel> cameras_;
   std::vector<double> exposures_;
   Rasters rasters_;
 };
@@ -40,12 +40,12 @@ class LightMeter {
 class LightWeights {
  public:
   LightWeights() = default;
-  LightWeights(const HdrFrame& lit, const HdrFrame& black);
+  LightWeights(const hdr::HdrFrame& lit, const hdr::HdrFrame& black);
 
   /// No value is above the limit: the cameras do not see this light.
   bool empty() const { return terms_.empty(); }
-  double of(const HdrFrame& frame) const;
-  double varianceOf(const HdrFrame& frame) const;
+  double of(const hdr::HdrFrame& frame) const;
+  double varianceOf(const hdr::HdrFrame& frame) const;
 
  private:
   struct Term {
@@ -55,4 +55,4 @@ class LightWeights {
   std::vector<Term> terms_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::linearization

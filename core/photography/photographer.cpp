@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "photography/photographer.h"
+#include "relucent/photography/photographer.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "photography/bracket.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/photography/bracket.h"
 
-namespace relucent {
+namespace relucent::photography {
 namespace {
 
 // Expected radiances come from noisy measurements: stay this far below saturation. What saturates all the
@@ -20,9 +20,9 @@ constexpr double tolerableLoss = 2.0;
 constexpr double worthAnExposure = 0.02;
 constexpr int previewWidth = 320;
 
-Preview previewOf(const Shot& shot) {
+Preview previewOf(const rig::Shot& shot) {
   // The shortest exposure: the one that a person would call well exposed.
-  const Image& photograph = shot.frames.back().front().signal;
+  const image::Image& photograph = shot.frames.back().front().signal;
   int step = std::max(1, (photograph.width() + previewWidth - 1) / previewWidth);
   Preview preview{"photograph", {photograph.width() / step, photograph.height() / step}, {}};
   preview.rgb.reserve(3 * preview.size.count());
@@ -34,7 +34,7 @@ Preview previewOf(const Shot& shot) {
 
 }  // namespace
 
-Photographer::Photographer(ShotTaker& shots, const Linearization& linearization)
+Photographer::Photographer(rig::ShotTaker& shots, const linearization::Linearization& linearization)
     : shots_(shots),
       linearization_(linearization),
       cameras_(shots.rig().cameraRasters()),
@@ -46,18 +46,18 @@ Photographer::Photographer(ShotTaker& shots, const Linearization& linearization)
           "{} exposures, longest first", linearization.exposures.size());
   for (std::size_t camera = 0; camera < cameras_.devices(); ++camera) {
     cameraOf_.insert(cameraOf_.end(), cameras_.size(camera).count(), static_cast<std::uint8_t>(camera));
-    const CameraModel& model = linearization.cameras[camera];
+    const hdr::CameraModel& model = linearization.cameras[camera];
     double lowest = 1.0;
-    for (const ResponseCurve& response : model.response)
+    for (const hdr::ResponseCurve& response : model.response)
       lowest = std::min(lowest, response(model.saturation));
     saturation_.push_back(lowest);
   }
 }
 
 double Photographer::deviation(std::size_t row, double radiance, std::size_t exposure) const {
-  const CameraModel& model = linearization_.cameras[cameraOf_[row]];
-  double seconds = trueSeconds(model, linearization_.exposures[exposure]);
-  return std::sqrt(linearVariance(model, radiance * seconds)) / seconds;
+  const hdr::CameraModel& model = linearization_.cameras[cameraOf_[row]];
+  double seconds = hdr::trueSeconds(model, linearization_.exposures[exposure]);
+  return std::sqrt(hdr::linearVariance(model, radiance * seconds)) / seconds;
 }
 
 std::size_t Photographer::longestUnsaturated(std::size_t row, double radiance) const {
@@ -112,16 +112,17 @@ std::vector<std::size_t> Photographer::exposuresFor(const std::vector<Demand>& d
   return chosen;
 }
 
-Shot Photographer::shoot(const std::vector<Image>& encoded, const std::vector<std::size_t>& exposures,
-                         const Progress& progress, const Meanwhile& meanwhile) {
+rig::Shot Photographer::shoot(const std::vector<image::Image>& encoded,
+                              const std::vector<std::size_t>& exposures, const Progress& progress,
+                              const Meanwhile& meanwhile) {
   std::vector<double> seconds;
   for (std::size_t exposure : exposures) seconds.push_back(linearization_.exposures[exposure]);
-  Shot shot = runWithBackground(meanwhile, [&] { return shots_.take(encoded, seconds, progress); });
+  rig::Shot shot = runWithBackground(meanwhile, [&] { return shots_.take(encoded, seconds, progress); });
   progress.preview(previewOf(shot));
   return shot;
 }
 
-bool Photographer::needsShorter(const HdrFrame& frame, const std::vector<Demand>& demands) const {
+bool Photographer::needsShorter(const hdr::HdrFrame& frame, const std::vector<Demand>& demands) const {
   for (std::size_t row = 0; row < demands.size(); ++row)
     if (demands[row].brightest >= 0.0f &&
         !(frame.valid[3 * row] && frame.valid[3 * row + 1] && frame.valid[3 * row + 2]))
@@ -129,40 +130,41 @@ bool Photographer::needsShorter(const HdrFrame& frame, const std::vector<Demand>
   return false;
 }
 
-HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& demands,
-                            const Progress& progress, const Meanwhile& meanwhile) {
+hdr::HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& demands,
+                                 const Progress& progress, const Meanwhile& meanwhile) {
   require(demands.size() == cameras_.count(), "{} demands for {} camera pixels", demands.size(),
           cameras_.count());
   std::vector<std::size_t> exposures = exposuresFor(demands);
   require(!exposures.empty(), "no camera pixel needs this photograph");
 
-  std::vector<Image> encoded;
+  std::vector<image::Image> encoded;
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)
-    encoded.push_back(imageFromStack(pattern, projectors_, projector));
-  Shot shot = shoot(encoded, exposures, progress, meanwhile);
-  HdrFrame frame = mergeBracket(shot, linearization_.cameras, cameras_);
+    encoded.push_back(image::imageFromStack(pattern, projectors_, projector));
+  rig::Shot shot = shoot(encoded, exposures, progress, meanwhile);
+  hdr::HdrFrame frame = hdr::mergeBracket(shot, linearization_.cameras, cameras_);
   overexposed_ = 0;
 
   for (std::size_t shorter = exposures.back() + 1; shorter < linearization_.exposures.size(); ++shorter) {
     if (!needsShorter(frame, demands)) break;
     ++overexposed_;
-    Shot again = shoot(encoded, {shorter}, progress, {});
+    rig::Shot again = shoot(encoded, {shorter}, progress, {});
     shot.frames.push_back(std::move(again.frames.front()));
-    frame = mergeBracket(shot, linearization_.cameras, cameras_);
+    frame = hdr::mergeBracket(shot, linearization_.cameras, cameras_);
   }
   contradiction_ = bracketContradiction(shot, linearization_.cameras);
   return frame;
 }
 
-HdrFrame Photographer::takeAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile) {
-  std::vector<Image> encoded;
+hdr::HdrFrame Photographer::takeAll(const Stack& pattern, const Progress& progress,
+                                    const Meanwhile& meanwhile) {
+  std::vector<image::Image> encoded;
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)
-    encoded.push_back(imageFromStack(pattern, projectors_, projector));
+    encoded.push_back(image::imageFromStack(pattern, projectors_, projector));
   std::vector<std::size_t> all(linearization_.exposures.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  Shot shot = shoot(encoded, all, progress, meanwhile);
+  rig::Shot shot = shoot(encoded, all, progress, meanwhile);
   contradiction_ = bracketContradiction(shot, linearization_.cameras);
-  return mergeBracket(shot, linearization_.cameras, cameras_);
+  return hdr::mergeBracket(shot, linearization_.cameras, cameras_);
 }
 
-}  // namespace relucent
+}  // namespace relucent::photography

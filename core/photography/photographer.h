@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "linearization/linearization.h"
+#include "relucent/linearization/linearization.h"
 
-namespace relucent {
+namespace relucent::photography {
 
 /// What one camera pixel needs of a photograph.
 struct Demand {
@@ -23,19 +23,19 @@ using Meanwhile = std::function<void()>;
 class Photographer {
  public:
   /// Keeps references: both outlive it.
-  Photographer(ShotTaker& shots, const Linearization& linearization);
+  Photographer(rig::ShotTaker& shots, const linearization::Linearization& linearization);
 
-  ShotTaker& shots() { return shots_; }
+  rig::ShotTaker& shots() { return shots_; }
   const Rasters& cameras() const { return cameras_; }
   const Rasters& projectors() const { return projectors_; }
 
   /// Merged radiance under linear binary patterns (a projector stack of zeros and ones: full drive needs no
   /// projector curve). Demands: one per camera pixel. Pixels with a demand that stay invalid are saturated
   /// at the shortest exposure. `meanwhile` is done, besides, when this returns.
-  HdrFrame take(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
-                const Meanwhile& meanwhile = {});
+  hdr::HdrFrame take(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
+                     const Meanwhile& meanwhile = {});
   /// With every exposure there is.
-  HdrFrame takeAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile = {});
+  hdr::HdrFrame takeAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile = {});
 
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }
@@ -52,12 +52,12 @@ class Photographer {
 
  private:
   std::size_t longestUnsaturated(std::size_t row, double radiance) const;
-  Shot shoot(const std::vector<Image>& encoded, const std::vector<std::size_t>& exposures,
-             const Progress& progress, const Meanwhile& meanwhile);
-  bool needsShorter(const HdrFrame& frame, const std::vector<Demand>& demands) const;
+  rig::Shot shoot(const std::vector<image::Image>& encoded, const std::vector<std::size_t>& exposures,
+                  const Progress& progress, const Meanwhile& meanwhile);
+  bool needsShorter(const hdr::HdrFrame& frame, const std::vector<Demand>& demands) const;
 
-  ShotTaker& shots_;
-  const Linearization& linearization_;
+  rig::ShotTaker& shots_;
+  const linearization::Linearization& linearization_;
   Rasters cameras_;
   Rasters projectors_;
   std::vector<std::uint8_t> cameraOf_;  // per row
@@ -66,4 +66,4 @@ class Photographer {
   std::vector<double> saturation_;  // per camera: linear signal that no channel should reach
 };
 
-}  // namespace relucent
+}  // namespace relucent::photography

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "photography/references.h"
+#include "relucent/photography/references.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::photography {
 namespace {
 
 // Room for noise above the brightest value that a row can hold, so that no code saturates.
@@ -22,7 +22,8 @@ Stack floodPattern(const Rasters& projectors, std::size_t projector, std::size_t
   return pattern;
 }
 
-void addFlood(References& references, std::size_t projector, std::size_t channel, const HdrFrame& flood) {
+void addFlood(References& references, std::size_t projector, std::size_t channel,
+              const hdr::HdrFrame& flood) {
   parallelFor(0, references.usable.size(), 4096, [&](std::size_t row) {
     for (std::size_t c = 0; c < 3; ++c) {
       std::size_t at = 3 * row + c;
@@ -37,13 +38,13 @@ void addFlood(References& references, std::size_t projector, std::size_t channel
 }
 
 /// Standard deviation of the floods' total light from round to round about a straight line, relative.
-double flickerIn(const std::vector<std::vector<HdrFrame>>& floods) {
+double flickerIn(const std::vector<std::vector<hdr::HdrFrame>>& floods) {
   double squares = 0.0;
   std::size_t freedom = 0;
-  for (const std::vector<HdrFrame>& rounds : floods) {
+  for (const std::vector<hdr::HdrFrame>& rounds : floods) {
     if (rounds.size() < 3) continue;
     std::vector<double> total;
-    for (const HdrFrame& frame : rounds)
+    for (const hdr::HdrFrame& frame : rounds)
       total.push_back(std::accumulate(frame.radiance.begin(), frame.radiance.end(), 0.0));
     auto n = static_cast<double>(total.size());
     double mean = std::accumulate(total.begin(), total.end(), 0.0) / n, slope = 0.0, spread = 0.0;
@@ -77,7 +78,7 @@ void findScales(References& references, double dimShare) {
   references.strongest.resize(rows);
   references.fullScale.resize(rows);
   parallelFor(0, rows, 4096, [&](std::size_t row) {
-    ColourBlock sum = ColourBlock::Zero(), variance = ColourBlock::Zero();
+    transport::ColourBlock sum = transport::ColourBlock::Zero(), variance = transport::ColourBlock::Zero();
     for (std::size_t projector = 0; projector < references.root.size(); ++projector) {
       sum += references.root[projector][row];
       variance += references.rootVariance[projector][row];
@@ -98,7 +99,7 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   std::size_t rows = photographer.cameras().count();
   std::size_t floods = 3 * projectors.devices();
 
-  std::vector<std::vector<HdrFrame>> frames(1 + floods);
+  std::vector<std::vector<hdr::HdrFrame>> frames(1 + floods);
   std::size_t total = static_cast<std::size_t>(rounds) * frames.size(), done = 0;
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -112,17 +113,17 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   References references;
   references.cameras = photographer.cameras();
   references.projectors = projectors;
-  references.black = meanOf(frames[0]);
+  references.black = hdr::meanOf(frames[0]);
   references.usable.assign(rows, 1);
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t c = 0; c < 3; ++c)
       if (!references.black.valid[3 * row + c]) references.usable[row] = 0;
-  references.root.assign(projectors.devices(), std::vector<ColourBlock>(rows));
+  references.root.assign(projectors.devices(), std::vector<transport::ColourBlock>(rows));
   references.rootVariance = references.root;
-  for (std::size_t i = 0; i < floods; ++i) addFlood(references, i / 3, i % 3, meanOf(frames[1 + i]));
+  for (std::size_t i = 0; i < floods; ++i) addFlood(references, i / 3, i % 3, hdr::meanOf(frames[1 + i]));
   findScales(references, dimShare);
   references.flicker = flickerIn({frames.begin() + 1, frames.end()});
   return references;
 }
 
-}  // namespace relucent
+}  // namespace relucent::photography

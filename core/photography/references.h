@@ -3,18 +3,19 @@
 
 #include <vector>
 
-#include "photography/photographer.h"
-#include "transport/block_sparse.h"
+#include "relucent/photography/photographer.h"
+#include "relucent/transport/block_sparse.h"
 
-namespace relucent {
+namespace relucent::photography {
 
 /// What is measured once, before the tree: black, and every projector's floods in red, green and blue, which
 /// are the root of its tree. It stays as it was measured; what becomes of e is followed by sentinels/watch.h.
 struct References {
-  Rasters cameras, projectors;                 // rows and columns of T
-  HdrFrame black;                              // e
-  std::vector<std::vector<ColourBlock>> root;  // [projector][row]: flood less e, camera x projector channel
-  std::vector<std::vector<ColourBlock>> rootVariance;
+  Rasters cameras, projectors;  // rows and columns of T
+  hdr::HdrFrame black;          // e
+  std::vector<std::vector<transport::ColourBlock>>
+      root;  // [projector][row]: flood less e, camera x projector channel
+  std::vector<std::vector<transport::ColourBlock>> rootVariance;
   std::vector<std::uint8_t> usable;  // per row: 0 where even the shortest exposure was saturated
   std::vector<float>
       strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest
@@ -27,4 +28,4 @@ struct References {
 /// `dimShare`: see AcquisitionSettings.
 References measureReferences(Photographer& photographer, int rounds, double dimShare, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::photography

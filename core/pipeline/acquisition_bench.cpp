@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/acquisition_bench.h"
+#include "relucent/pipeline/acquisition_bench.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "devices/temporary_folder.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/evaluation.h"
+#include "relucent/devices/temporary_folder.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/evaluation.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 struct Trial {
-  AcquisitionMode mode;
+  acquisition::AcquisitionMode mode;
   double threshold;
 };
 // sen spends several times the patterns at the same threshold, so that it is tried at looser ones too.
-constexpr Trial trials[] = {{AcquisitionMode::adaptive, 0.006}, {AcquisitionMode::adaptive, 0.008},
-                            {AcquisitionMode::adaptive, 0.02},  {AcquisitionMode::sen, 0.008},
-                            {AcquisitionMode::sen, 0.02},       {AcquisitionMode::sen, 0.05},
-                            {AcquisitionMode::fast, 0.02}};
+constexpr Trial trials[] = {
+    {acquisition::AcquisitionMode::adaptive, 0.006}, {acquisition::AcquisitionMode::adaptive, 0.008},
+    {acquisition::AcquisitionMode::adaptive, 0.02},  {acquisition::AcquisitionMode::sen, 0.008},
+    {acquisition::AcquisitionMode::sen, 0.02},       {acquisition::AcquisitionMode::sen, 0.05},
+    {acquisition::AcquisitionMode::fast, 0.02}};
 
-AcquisitionBenchRun measured(const VenueSettings& venue, const Trial& trial,
+AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& trial,
                              const std::filesystem::path& cache, Progress& progress) {
-  TemporaryFolder temporary;
+  devices::TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / venue.name;
   CalibrateSettings settings;
   settings.rig = venue;
@@ -34,7 +35,8 @@ AcquisitionBenchRun measured(const VenueSettings& venue, const Trial& trial,
   Progress calibrating = progress.part(0.9, progress.stage());
   CalibrateResult spent = calibrate(path, settings, cache, calibrating);
 
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress judging = progress.part(0.1, progress.stage());
   TransportScore score = transportScore(loadCalibration(folder, judging), cache, judging);
   return {venue.name,
@@ -50,7 +52,7 @@ AcquisitionBenchRun measured(const VenueSettings& venue, const Trial& trial,
 std::vector<std::string> venueNames(const AcquisitionBenchSettings& settings) {
   if (!settings.venues.empty()) return settings.venues;
   std::vector<std::string> names;
-  for (const VenueDescription& venue : venues()) names.push_back(venue.name);
+  for (const venue::VenueDescription& venue : venue::venues()) names.push_back(venue.name);
   return names;
 }
 
@@ -72,7 +74,7 @@ std::vector<Trial> trialsOf(const AcquisitionBenchSettings& settings) {
 std::vector<Message> problems(const AcquisitionBenchSettings& settings) {
   std::vector<Message> found;
   for (const std::string& name : venueNames(settings)) {
-    VenueSettings venue;
+    venue::VenueSettings venue;
     venue.name = name;
     venue.projector = settings.projector;
     venue.camera = settings.camera;
@@ -94,7 +96,7 @@ AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings
   std::vector<Trial> chosen = trialsOf(settings);
   double share = 1.0 / static_cast<double>(names.size() * chosen.size());
   for (const std::string& name : names) {
-    VenueSettings venue;
+    venue::VenueSettings venue;
     venue.name = name;
     venue.projector = settings.projector;
     venue.camera = settings.camera;
@@ -109,4 +111,4 @@ AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

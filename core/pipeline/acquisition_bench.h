@@ -5,17 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/settings.h"
-#include "base/progress.h"
-#include "base/raster.h"
-#include "pipeline/evaluate.h"
+#include "relucent/acquisition/settings.h"
+#include "relucent/base/progress.h"
+#include "relucent/base/raster.h"
+#include "relucent/pipeline/evaluate.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct AcquisitionBenchSettings {
-  std::vector<std::string> venues;     // names; none: all of them
-  std::vector<AcquisitionMode> modes;  // of those that are compared, only these; none: all of them
-  std::vector<double> thresholds;      // likewise
+  std::vector<std::string> venues;  // names; none: all of them
+  std::vector<acquisition::AcquisitionMode>
+      modes;                       // of those that are compared, only these; none: all of them
+  std::vector<double> thresholds;  // likewise
   Size projector{256, 192};
   Size camera{160, 120};
 };
@@ -24,7 +25,7 @@ std::vector<Message> problems(const AcquisitionBenchSettings& settings);
 /// One measurement of one venue, and how near T came to the truth.
 struct AcquisitionBenchRun {
   std::string venue;
-  AcquisitionMode mode = AcquisitionMode::adaptive;
+  acquisition::AcquisitionMode mode = acquisition::AcquisitionMode::adaptive;
   double threshold = 0.0;  // as a share of the flood image
   int patterns = 0;        // linearization, references and verification included
   int exposures = 0;
@@ -45,4 +46,4 @@ struct AcquisitionBenchResult {
 AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings,
                                         const std::filesystem::path& cache, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

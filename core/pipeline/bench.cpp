@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/bench.h"
+#include "relucent/pipeline/bench.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,14 +10,14 @@
 #include <functional>
 #include <thread>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "base/random.h"
-#include "compensation/ridge_choice.h"
-#include "engine/bench/bench_transport.h"
-#include "engine/bench/engine_bench.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
+#include "relucent/compensation/ridge_choice.h"
+#include "relucent/engine/bench/bench_transport.h"
+#include "relucent/engine/bench/engine_bench.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -83,25 +83,25 @@ double availableMemory() {
   return 0.0;
 }
 
-void append(const EngineBenchResult& engine, const std::string& prefix, BenchResult& result) {
-  for (const EngineBenchLine& line : engine.lines)
+void append(const engine::EngineBenchResult& engine, const std::string& prefix, BenchResult& result) {
+  for (const engine::EngineBenchLine& line : engine.lines)
     result.benchmarks.push_back(
         {prefix + line.name, line.seconds, line.bytes, line.shareOfCopy, line.best, line.timesAsFastAs});
   result.notes.insert(result.notes.end(), engine.notes.begin(), engine.notes.end());
 }
 
-std::string sizesOf(const EngineBenchSettings& settings) {
+std::string sizesOf(const engine::EngineBenchSettings& settings) {
   return fmt::format("{}x{} / {}x{}", settings.projector.width, settings.projector.height,
                      settings.camera.width, settings.camera.height);
 }
 
 }  // namespace
 
-BenchResult benchEngine(BackendChoice backend, Progress& progress) {
-  EngineBenchSettings settings;
+BenchResult benchEngine(engine::BackendChoice backend, Progress& progress) {
+  engine::EngineBenchSettings settings;
   settings.backend = backend;
   Progress usual = progress.part(0.4, Message::plain(sizesOf(settings)));
-  const EngineBenchResult engine = benchEngine(settings, usual);
+  const engine::EngineBenchResult engine = benchEngine(settings, usual);
   BenchResult result;
   result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
   append(engine, "", result);
@@ -131,18 +131,18 @@ BenchResult bench(const std::string& name, Progress& progress) {
   result.machine.copyBytesPerSecond = copyBandwidth();
   preparing.report(0.3);
 
-  const TransportMatrix transport = benchTransport({1024, 768}, {640, 480});
+  const transport::TransportMatrix transport = engine::benchTransport({1024, 768}, {640, 480});
   preparing.report(0.8);
   auto cameraValues = transport.cameras().count() * 3;
   auto projectorValues = transport.projectors().count() * 3;
   auto nodeValues = transport.layout().count() * 3;
   Stack camera = randomStack(cameraValues, 1);
   Stack projector = randomStack(projectorValues, 2);
-  WindowInverse windows;
+  inverse::WindowInverse windows;
   auto prepareWindows = [&] {
     std::vector<std::uint8_t> usable(transport.cameras().count(), 1);
     Progress silent;
-    windows = computeWindows(transport, usable, WindowSettings{}, silent);
+    windows = inverse::computeWindows(transport, usable, inverse::WindowSettings{}, silent);
   };
 
   auto floats = [](std::size_t count) { return static_cast<double>(count) * sizeof(float); };
@@ -158,9 +158,9 @@ BenchResult bench(const std::string& name, Progress& progress) {
       {"windows/choose-ridge", leaves,
        [&] {
          Progress silent;
-         MeasuredVenue venue{transport, Stack(cameraValues, 0.0f), transport.floodlight(),
-                             std::vector<std::uint8_t>(transport.cameras().count(), 1)};
-         windows = chooseRidge(venue, WindowSettings{}, silent).inverse;
+         compensation::MeasuredVenue venue{transport, Stack(cameraValues, 0.0f), transport.floodlight(),
+                                           std::vector<std::uint8_t>(transport.cameras().count(), 1)};
+         windows = chooseRidge(venue, inverse::WindowSettings{}, silent).inverse;
        }},
       {"windows/apply", 0.0, [&] { windows.apply(camera); }},
   };
@@ -193,4 +193,4 @@ BenchResult bench(const std::string& name, Progress& progress) {
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "engine/bench/engine_bench.h"
-#include "engine/fallback_backend.h"
+#include "relucent/base/progress.h"
+#include "relucent/engine/bench/engine_bench.h"
+#include "relucent/engine/fallback_backend.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct Benchmark {
   std::string name;
@@ -16,7 +16,8 @@ struct Benchmark {
   double bytes = 0.0;        // memory traffic of one run that cannot be avoided
   double shareOfCopy = 0.0;  // bytes / seconds / the machine's copy bandwidth
   double best = 0.0;         // of the engine: the shortest run, by which its shares are counted
-  std::vector<EngineBenchRatio> timesAsFastAs{};  // of the engine: other programs with the same operator
+  std::vector<engine::EngineBenchRatio>
+      timesAsFastAs{};  // of the engine: other programs with the same operator
 };
 
 struct BenchResult {
@@ -37,6 +38,6 @@ BenchResult bench(const std::string& name, Progress& progress);
 /// Times the real-time engine, see benchEngine(const EngineBenchSettings&, Progress&): at 1024x768 / 640x480
 /// beside other programs' products, and without them at 1920x1080 / 1632x1224 where the memory is enough. The
 /// copy bandwidth is that of the device. Throws: Error{device} if OpenGL was asked for and there is none.
-BenchResult benchEngine(BackendChoice backend, Progress& progress);
+BenchResult benchEngine(engine::BackendChoice backend, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

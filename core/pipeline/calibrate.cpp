@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/calibrate.h"
+#include "relucent/pipeline/calibrate.h"
 
-#include "base/error.h"
-#include "base/stopwatch.h"
-#include "pipeline/devices.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/measuring.h"
-#include "pipeline/stored_settings.h"
-#include "platform/process.h"
+#include "relucent/base/error.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/platform/process.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 /// The stages of a calibration, each taken from the folder where it is done already.
 class Calibrating {
  public:
-  Calibrating(CalibrationFolder& folder, OpenedRig& devices, const AlarmHandler& handler)
+  Calibrating(calibration::CalibrationFolder& folder, OpenedRig& devices,
+              const sentinels::AlarmHandler& handler)
       : folder_(folder), devices_(devices), handler_(handler), settings_(settingsOf(folder)) {}
 
   CalibrateResult run(Progress& progress) {
@@ -34,27 +35,27 @@ class Calibrating {
     measureInverse(folder_, measured.venue, inverting);
     progress.report(1.0);
     CalibrateResult result = summaryOf(folder_, measured);
-    result.peakMemoryBytes = peakMemoryBytes();
+    result.peakMemoryBytes = platform::peakMemoryBytes();
     return result;
   }
 
  private:
   /// The acquisition itself is let go of: there is no room for two T beside the inverse.
   void measureVenue(MeasuredCalibration& measured, Progress& progress) {
-    const Acquisition acquisition =
+    const transport::Acquisition acquisition =
         measureAcquisition(folder_, devices_.rig, measured.linearization, handler_, progress);
     measured.acquisition = figuresOf(acquisition);
     measured.venue = measuredVenueOf(acquisition, settings_.threshold);
   }
 
-  CalibrationFolder& folder_;
+  calibration::CalibrationFolder& folder_;
   OpenedRig& devices_;
-  const AlarmHandler& handler_;
+  const sentinels::AlarmHandler& handler_;
   CalibrateSettings settings_;
 };
 
-CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, const AlarmHandler& handler,
-                          Progress& progress) {
+CalibrateResult runStages(calibration::CalibrationFolder& folder, const fs::path& cache,
+                          const sentinels::AlarmHandler& handler, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   OpenedRig devices = openRig(settings.rig, cache, opening);
@@ -66,8 +67,8 @@ CalibrateResult runStages(CalibrationFolder& folder, const fs::path& cache, cons
 }  // namespace
 
 CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
-                          const AlarmHandler& handler, Progress& progress) {
-  CalibrationFolder folder = beginCalibration(path, settings);
+                          const sentinels::AlarmHandler& handler, Progress& progress) {
+  calibration::CalibrationFolder folder = beginCalibration(path, settings);
   return runStages(folder, cache, handler, progress);
 }
 
@@ -76,9 +77,10 @@ CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& setting
   return calibrate(path, settings, cache, {}, progress);
 }
 
-CalibrateResult resume(const fs::path& path, const fs::path& cache, const AlarmHandler& handler,
+CalibrateResult resume(const fs::path& path, const fs::path& cache, const sentinels::AlarmHandler& handler,
                        Progress& progress) {
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
   return runStages(folder, cache, handler, progress);
 }
 
@@ -86,4 +88,4 @@ CalibrateResult resume(const fs::path& path, const fs::path& cache, Progress& pr
   return resume(path, cache, {}, progress);
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

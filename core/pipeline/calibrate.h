@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "pipeline/calibrate_settings.h"
-#include "sentinels/alarm.h"
+#include "relucent/base/progress.h"
+#include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/sentinels/alarm.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct CalibrateResult {
   int patterns = 0;   // shown, all stages
@@ -38,7 +38,7 @@ CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSe
 /// The same with somebody to ask when a sentinel finds something wrong while the light transport is measured
 /// (sentinels/alarm.h); with nobody, that is Error{device}, and resume() goes on from what is safe.
 CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSettings& settings,
-                          const std::filesystem::path& cache, const AlarmHandler& handler,
+                          const std::filesystem::path& cache, const sentinels::AlarmHandler& handler,
                           Progress& progress);
 
 /// Goes on where an interrupted calibration stopped, with the settings it was begun with. A finished one is
@@ -46,6 +46,6 @@ CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSe
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
                        Progress& progress);
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
-                       const AlarmHandler& handler, Progress& progress);
+                       const sentinels::AlarmHandler& handler, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

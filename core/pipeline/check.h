@@ -3,29 +3,29 @@
 
 #include <filesystem>
 
-#include "base/progress.h"
-#include "devices/latency.h"
-#include "devices/light_check.h"
-#include "devices/screen_proof.h"
-#include "pipeline/rig_settings.h"
+#include "relucent/base/progress.h"
+#include "relucent/devices/latency.h"
+#include "relucent/devices/light_check.h"
+#include "relucent/devices/screen_proof.h"
+#include "relucent/pipeline/rig_settings.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct CheckSettings {
   RigSettings rig;
-  LatencySettings latency;
-  ScreenProofSettings proof;
+  devices::LatencySettings latency;
+  devices::ScreenProofSettings proof;
 };
 std::vector<Message> problems(const CheckSettings& settings);
 
 /// How a projector and a camera work together.
 struct RigCheck {
-  ScreenProof proof;  // which output the camera sees
-  Latency latency;
-  LightCheck light;
+  devices::ScreenProof proof;  // which output the camera sees
+  devices::Latency latency;
+  devices::LightCheck light;
 };
 /// All that was found, in this order.
-std::vector<CheckVerdict> verdictsOf(const RigCheck& check);
+std::vector<devices::CheckVerdict> verdictsOf(const RigCheck& check);
 
 /// Opens the first projector and camera, and finds with an exposure at which white is well exposed: whether
 /// the camera sees that projector (devices/screen_proof.h), how long a picture takes from one to the other
@@ -33,4 +33,4 @@ std::vector<CheckVerdict> verdictsOf(const RigCheck& check);
 /// Throws: Error{device} if the camera sees another output or none; as openRig() and measureLatency().
 RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

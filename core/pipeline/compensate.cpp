@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/compensate.h"
+#include "relucent/pipeline/compensate.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/stopwatch.h"
-#include "compensation/methods.h"
-#include "compensation/prediction.h"
-#include "compensation/uncorrectable.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/pictures.h"
-#include "pipeline/projection.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/compensation/prediction.h"
+#include "relucent/compensation/uncorrectable.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/pictures.h"
+#include "relucent/pipeline/projection.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
@@ -31,16 +31,16 @@ class Writer {
   void writeLinear(const std::string& stem, const Stack& stack, const Rasters& rasters, const char* units) {
     for (std::size_t device = 0; device < rasters.devices(); ++device) {
       fs::path path = numbered(folder_ / (stem + ".exr"), device);
-      writeExr(path, imageFromStack(stack, rasters, device), ExrType::floatType,
-               {{exr_attribute::units, std::string(units)}});
+      image::writeExr(path, image::imageFromStack(stack, rasters, device), image::ExrType::floatType,
+                      {{image::exr_attribute::units, std::string(units)}});
       files_.push_back(path);
     }
   }
 
-  void writeDrive(const std::string& stem, const std::vector<Image>& drive) {
+  void writeDrive(const std::string& stem, const std::vector<image::Image>& drive) {
     for (std::size_t device = 0; device < drive.size(); ++device) {
       fs::path path = numbered(folder_ / (stem + ".png"), device);
-      writePng(path, drive[device], 8);
+      image::writePng(path, drive[device], 8);
       files_.push_back(path);
     }
   }
@@ -50,19 +50,20 @@ class Writer {
                    const std::array<float, 3>& white) {
     for (std::size_t device = 0; device < rasters.devices(); ++device) {
       fs::path path = numbered(folder_ / (stem + ".png"), device);
-      writePng(path, viewed(imageFromStack(stack, rasters, device), white), 8);
+      image::writePng(path, image::viewed(image::imageFromStack(stack, rasters, device), white), 8);
       files_.push_back(path);
     }
   }
 
   /// One image of the first camera.
-  void writeMap(const std::string& stem, const Image& map, const char* units) {
+  void writeMap(const std::string& stem, const image::Image& map, const char* units) {
     files_.push_back(folder_ / (stem + ".exr"));
-    writeExr(files_.back(), map, ExrType::floatType, {{exr_attribute::units, std::string(units)}});
+    image::writeExr(files_.back(), map, image::ExrType::floatType,
+                    {{image::exr_attribute::units, std::string(units)}});
   }
-  void writeColours(const std::string& stem, const Image& encoded) {
+  void writeColours(const std::string& stem, const image::Image& encoded) {
     files_.push_back(folder_ / (stem + ".png"));
-    writePng(files_.back(), encoded, 8);
+    image::writePng(files_.back(), encoded, 8);
   }
 
   const std::vector<fs::path>& files() const { return files_; }
@@ -74,22 +75,22 @@ class Writer {
 
 /// Reasons as colours that also differ in brightness: what can be corrected is grey, what is not asked for
 /// black.
-Image reasonColours(const std::vector<Uncorrectable>& map, Size size) {
-  constexpr std::array<std::array<float, 3>, allReasons.size()> colours{{{0.55f, 0.55f, 0.55f},
-                                                                         {0.0f, 0.0f, 0.0f},
-                                                                         {0.25f, 0.15f, 0.35f},
-                                                                         {0.1f, 0.35f, 0.65f},
-                                                                         {0.15f, 0.7f, 0.5f},
-                                                                         {0.85f, 0.45f, 0.1f},
-                                                                         {1.0f, 0.95f, 0.45f}}};
-  Image picture(size, 3);
+image::Image reasonColours(const std::vector<compensation::Uncorrectable>& map, Size size) {
+  constexpr std::array<std::array<float, 3>, compensation::allReasons.size()> colours{{{0.55f, 0.55f, 0.55f},
+                                                                                       {0.0f, 0.0f, 0.0f},
+                                                                                       {0.25f, 0.15f, 0.35f},
+                                                                                       {0.1f, 0.35f, 0.65f},
+                                                                                       {0.15f, 0.7f, 0.5f},
+                                                                                       {0.85f, 0.45f, 0.1f},
+                                                                                       {1.0f, 0.95f, 0.45f}}};
+  image::Image picture(size, 3);
   for (std::size_t i = 0; i < picture.pixels(); ++i)
     std::copy_n(colours[static_cast<std::size_t>(map[i])].begin(), 3, picture.pixel(i).begin());
   return picture;
 }
 
-Image reasonNumbers(const std::vector<Uncorrectable>& map, Size size) {
-  Image numbers(size, 1);
+image::Image reasonNumbers(const std::vector<compensation::Uncorrectable>& map, Size size) {
+  image::Image numbers(size, 1);
   for (std::size_t i = 0; i < numbers.pixels(); ++i) numbers.data()[i] = static_cast<float>(map[i]);
   return numbers;
 }
@@ -101,27 +102,28 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
-  Image content = readLinearContent(settings.image);
+  image::Image content = image::readLinearContent(settings.image);
 
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
-  const MeasuredVenue& venue = measured.venue;
+  const compensation::MeasuredVenue& venue = measured.venue;
 
-  Target target = fitTarget(content, venue, settings.target);
-  CompensatorSettings compensatorSettings;
-  compensatorSettings.optimum = defaultsOf(settings.solver);
-  Compensator compensator(venue, measured.inverse, compensatorSettings);
+  compensation::Target target = fitTarget(content, venue, settings.target);
+  compensation::CompensatorSettings compensatorSettings;
+  compensatorSettings.optimum = compensation::defaultsOf(settings.solver);
+  compensation::Compensator compensator(venue, measured.inverse, compensatorSettings);
   Progress solving = progress.part(0.5, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   Stopwatch watch;
-  Compensation compensation = compensator.solve(settings.method, target, solving);
+  compensation::Compensation compensation = compensator.solve(settings.method, target, solving);
 
   CompensateResult result;
   result.method = settings.method;
   result.seconds = watch.seconds();
 
-  Prediction prediction = predict(venue, target, compensation);
+  compensation::Prediction prediction = compensation::predict(venue, target, compensation);
   if (prediction.reachable == 0.0)
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.no-part-picture-can-shown",
@@ -135,10 +137,11 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   result.deltaE = prediction.meanDeltaE;
   Progress explaining = progress.part(
       0.05, RELUCENT_MESSAGE("stage.finding-uncorrectable-pixels", "Looking for what cannot be corrected"));
-  std::vector<Uncorrectable> reasons = uncorrectableMap(venue, target, {}, explaining);
-  auto shares = sharesOf(reasons);
-  for (Uncorrectable reason : allReasons)
-    if (reason != Uncorrectable::none && reason != Uncorrectable::outside)
+  std::vector<compensation::Uncorrectable> reasons =
+      compensation::uncorrectableMap(venue, target, {}, explaining);
+  auto shares = compensation::sharesOf(reasons);
+  for (compensation::Uncorrectable reason : compensation::allReasons)
+    if (reason != compensation::Uncorrectable::none && reason != compensation::Uncorrectable::outside)
       result.uncorrectable.emplace(reason, shares[static_cast<std::size_t>(reason)]);
 
   Progress writing = progress.part(0.05, RELUCENT_MESSAGE("stage.writing-results", "Writing the results"));
@@ -158,4 +161,4 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

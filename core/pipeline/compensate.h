@@ -6,32 +6,33 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "compensation/method.h"
-#include "compensation/solver.h"
-#include "compensation/target.h"
-#include "compensation/uncorrectable.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/method.h"
+#include "relucent/compensation/solver.h"
+#include "relucent/compensation/target.h"
+#include "relucent/compensation/uncorrectable.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct CompensateSettings {
   std::filesystem::path image;  // content, sRGB file or linear EXR
-  Method method = Method::refined;
-  SolverSettings::Algorithm solver = SolverSettings::Algorithm::fista;  // of `optimum`
-  TargetSettings target;
+  compensation::Method method = compensation::Method::refined;
+  compensation::SolverSettings::Algorithm solver =
+      compensation::SolverSettings::Algorithm::fista;  // of `optimum`
+  compensation::TargetSettings target;
   std::filesystem::path out;  // folder; created; files of the same names are replaced
 };
 std::vector<Message> problems(const CompensateSettings& settings);
 
 struct CompensateResult {
-  Method method = Method::refined;
+  compensation::Method method = compensation::Method::refined;
   double psnrPredicted = 0.0;  // dB, prediction against target where reachable
   double clipped = 0.0;        // share of drive values at 0 or 1
   double reachable = 0.0;      // share of the content's camera pixels
   double seconds = 0.0;        // solving alone
   std::vector<std::filesystem::path> files;
   double deltaE = 0.0;  // mean CIEDE2000, prediction against target over the whole content
-  std::map<Uncorrectable, double> uncorrectable{};  // shares of the content's pixels
+  std::map<compensation::Uncorrectable, double> uncorrectable{};  // shares of the content's pixels
 };
 
 /// Computes the pattern that makes the venue look like an image, and what the camera should then see.
@@ -41,4 +42,4 @@ struct CompensateResult {
 CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
                             Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

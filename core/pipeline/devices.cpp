@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/devices.h"
+#include "relucent/pipeline/devices.h"
 
-#include "base/error.h"
-#include "devices/camera_registry.h"
-#include "devices/command_camera.h"
-#include "devices/command_projector.h"
-#include "devices/latency.h"
-#include "devices/recording.h"
-#include "devices/whole_frames.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/devices/command_camera.h"
+#include "relucent/devices/command_projector.h"
+#include "relucent/devices/latency.h"
+#include "relucent/devices/recording.h"
+#include "relucent/devices/whole_frames.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
-CameraAddress addressFrom(const std::string& text) {
-  const std::optional<CameraAddress> address = cameraRegistry().addressFrom(text);
+devices::CameraAddress addressFrom(const std::string& text) {
+  const std::optional<devices::CameraAddress> address = devices::cameraRegistry().addressFrom(text);
   if (!address)
-    throw Error(
-        ErrorKind::usage, RELUCENT_ENGLISH_MESSAGE("calibration.no-camera", "'{}' is no camera").with(text),
-        RELUCENT_ENGLISH_MESSAGE("calibration.write", "write {}").with(cameraRegistry().addressForms()));
+    throw Error(ErrorKind::usage,
+                RELUCENT_ENGLISH_MESSAGE("calibration.no-camera", "'{}' is no camera").with(text),
+                RELUCENT_ENGLISH_MESSAGE("calibration.write", "write {}")
+                    .with(devices::cameraRegistry().addressForms()));
   return *address;
 }
 
-CameraAddress cameraOf(const CommandRigSettings& settings) {
-  if (settings.cameraAddress.empty()) return {CommandCamera::kind, settings.cameraCommand};
+devices::CameraAddress cameraOf(const CommandRigSettings& settings) {
+  if (settings.cameraAddress.empty()) return {devices::CommandCamera::kind, settings.cameraCommand};
   return addressFrom(settings.cameraAddress);
 }
 
 template <typename Settings>
-std::unique_ptr<Camera> cameraFor(const Settings& settings, const CameraAddress& address) {
-  return cameraRegistry().open(address,
-                               {settings.camera, {settings.shortestExposure, settings.longestExposure}});
+std::unique_ptr<rig::Camera> cameraFor(const Settings& settings, const devices::CameraAddress& address) {
+  return devices::cameraRegistry().open(
+      address, {settings.camera, {settings.shortestExposure, settings.longestExposure}});
 }
 
 /// One overload a kind of rig.
@@ -38,7 +39,7 @@ struct Opener {
   const ScreenOpener& screens;
   Progress& progress;
 
-  OpenedRig operator()(const VenueSettings& settings) const {
+  OpenedRig operator()(const venue::VenueSettings& settings) const {
     OpenedRig result;
     result.venue.emplace(settings, cache, progress);
     result.rig = result.venue->rig();
@@ -46,20 +47,20 @@ struct Opener {
   }
 
   OpenedRig operator()(const CommandRigSettings& settings) const {
-    CommandProjectorSettings projector;
+    devices::CommandProjectorSettings projector;
     projector.command = settings.projectorCommand;
     projector.size = settings.projector;
 
     OpenedRig result;
-    result.rig.projectors.push_back(std::make_unique<CommandProjector>(std::move(projector)));
+    result.rig.projectors.push_back(std::make_unique<devices::CommandProjector>(std::move(projector)));
     result.rig.cameras.push_back(cameraFor(settings, cameraOf(settings)));
     if (settings.frameRate > 0.0)
       result.rig.cameras.front() =
-          inWholeFrames(std::move(result.rig.cameras.front()), 1.0 / settings.frameRate);
+          devices::inWholeFrames(std::move(result.rig.cameras.front()), 1.0 / settings.frameRate);
     if (settings.latency > 0.0)
       result.rig.projectors.front() =
-          delayed(std::move(result.rig.projectors.front()), settings.latency, sleepFor);
-    if (!settings.record.empty()) result.rig = recorded(std::move(result.rig), settings.record);
+          devices::delayed(std::move(result.rig.projectors.front()), settings.latency, devices::sleepFor);
+    if (!settings.record.empty()) result.rig = devices::recorded(std::move(result.rig), settings.record);
     return result;
   }
 
@@ -77,15 +78,15 @@ struct Opener {
           RELUCENT_ENGLISH_MESSAGE("calibration.choose-one-step-camera", "choose one at the step Camera"));
     OpenedRig result;
     auto camera = cameraFor(settings, addressFrom(settings.cameraAddress));
-    ScreenRig screen = screenRig(screens(settings), std::move(camera),
-                                 {settings.latency, 1.0 / settings.frameRate}, sleepFor);
+    devices::ScreenRig screen = screenRig(screens(settings), std::move(camera),
+                                          {settings.latency, 1.0 / settings.frameRate}, devices::sleepFor);
     result.rig = std::move(screen.rig);
     result.screen = std::move(screen.control);
     return result;
   }
 
   OpenedRig operator()(const ReplayRigSettings& settings) const {
-    return {replayed(settings.folder), std::nullopt};
+    return {devices::replayed(settings.folder), std::nullopt};
   }
 
   OpenedRig operator()(const ImportedRigSettings& settings) const {
@@ -109,9 +110,9 @@ OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cach
   return openRig(settings, cache, {}, progress);
 }
 
-Rig& RigSource::open(const RigSettings& settings, const TransportMatrix& transport,
-                     const std::filesystem::path& calibration, Progress& progress) {
-  Rig& rig = given_ != nullptr ? *given_ : opened_.emplace(openRig(settings, cache_, progress)).rig;
+rig::Rig& RigSource::open(const RigSettings& settings, const transport::TransportMatrix& transport,
+                          const std::filesystem::path& calibration, Progress& progress) {
+  rig::Rig& rig = given_ != nullptr ? *given_ : opened_.emplace(openRig(settings, cache_, progress)).rig;
   if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.devices-other-sizes-than-calibrated",
@@ -122,4 +123,4 @@ Rig& RigSource::open(const RigSettings& settings, const TransportMatrix& transpo
   return rig;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

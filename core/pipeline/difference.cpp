@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/difference.h"
+#include "relucent/pipeline/difference.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "pipeline/pictures.h"
+#include "relucent/base/error.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/pictures.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 /// Any picture as linear values; those of floating-point files as they are, negative ones too.
-Image readLinear(const fs::path& path) {
+image::Image readLinear(const fs::path& path) {
   if (valueNamed<PictureFormat>(path.extension().string()) != PictureFormat::exr)
-    return readLinearContent(path);
-  Image image = readRgbExr(path);
-  checkFinite(image, path);
+    return image::readLinearContent(path);
+  image::Image image = image::readRgbExr(path);
+  image::checkFinite(image, path);
   return image;
 }
 
 /// The gain that shows all but the largest half percent of the differences.
-double fullContrast(const Image& difference) {
+double fullContrast(const image::Image& difference) {
   std::vector<float> sizes;
   for (float value : difference.data()) sizes.push_back(std::abs(value));
   auto place = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 995 / 1000);
@@ -32,8 +32,8 @@ double fullContrast(const Image& difference) {
 }
 
 /// Grey where the two are equal; brighter where the first is. Signal values, not light: nothing to encode.
-Image centredOnGrey(const Image& difference, double gain) {
-  Image picture = difference;
+image::Image centredOnGrey(const image::Image& difference, double gain) {
+  image::Image picture = difference;
   for (float& value : picture.data())
     value = static_cast<float>(std::clamp(0.5 + gain * static_cast<double>(value), 0.0, 1.0));
   return picture;
@@ -60,9 +60,9 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
   const PictureFormat format = pictureFormatOf(settings.out);
-  Image first = readLinear(settings.first);
+  image::Image first = readLinear(settings.first);
   progress.report(0.3);
-  Image second = readLinear(settings.second);
+  image::Image second = readLinear(settings.second);
   progress.report(0.6);
   if (first.size() != second.size())
     throw Error(ErrorKind::input,
@@ -73,7 +73,7 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
                                          "choose two pictures of one camera"));
 
   DifferenceResult result;
-  Image difference = first;
+  image::Image difference = first;
   double apart = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < difference.data().size(); ++i) {
     auto b = static_cast<double>(second.data()[i]);
@@ -91,11 +91,11 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
     if (!settings.gain) result.gain = 1.0;
     writePicture(settings.out, difference, "difference of linear values, times the gain", 1.0f);
   } else {
-    writePng(settings.out, centredOnGrey(difference, result.gain), 8);
+    image::writePng(settings.out, centredOnGrey(difference, result.gain), 8);
   }
   result.files = {settings.out};
   progress.report(1.0);
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

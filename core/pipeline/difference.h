@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "relucent/base/progress.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct DifferenceSettings {
   std::filesystem::path first;
@@ -31,4 +31,4 @@ struct DifferenceResult {
 /// Throws: Error{input} if the sizes differ or values are not finite; as readPicture().
 DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/evaluate.h"
+#include "relucent/pipeline/evaluate.h"
 
 #include <cmath>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "base/stopwatch.h"
-#include "image/colour.h"
-#include "image/metrics.h"
-#include "image/picture_files.h"
-#include "pipeline/devices.h"
-#include "pipeline/evaluation.h"
-#include "pipeline/projection.h"
-#include "pipeline/standard_images.h"
-#include "transport/difference.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/metrics.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/evaluation.h"
+#include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/standard_images.h"
+#include "relucent/transport/difference.h"
 
 // The only place that asks a simulated venue for its true light transport.
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 /// |T p - R p| / |R p|
-double relightError(const TransportMatrix& transport, const TransportMatrix& reference,
+double relightError(const transport::TransportMatrix& transport, const transport::TransportMatrix& reference,
                     const Stack& pattern) {
   Stack relit = transport.apply(pattern);
   Stack truth = reference.apply(pattern);
@@ -40,9 +40,9 @@ double sumOf(const Stack& stack) {
   return std::accumulate(stack.begin(), stack.end(), 0.0);
 }
 
-TransportScore scoreOf(const TransportMatrix& transport, const SimulatedVenue& venue) {
-  const TransportMatrix& truth = venue.trueTransport();
-  TransportDifference apart = difference(transport, truth);
+TransportScore scoreOf(const transport::TransportMatrix& transport, const venue::SimulatedVenue& venue) {
+  const transport::TransportMatrix& truth = venue.trueTransport();
+  transport::TransportDifference apart = transport::difference(transport, truth);
   Stack natural = patternFrom(standardImages().front().linear, transport.projectors());
   Stack binary(natural.size());
   Random random{20071028, 2};
@@ -56,7 +56,7 @@ TransportScore scoreOf(const TransportMatrix& transport, const SimulatedVenue& v
 }
 
 OpenedRig openedVenue(const MeasuredCalibration& measured, const fs::path& cache, Progress& progress) {
-  if (!std::holds_alternative<VenueSettings>(measured.rig))
+  if (!std::holds_alternative<venue::VenueSettings>(measured.rig))
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.only-simulated-venue-true-light",
                                          "only a simulated venue's true light transport is known"),
@@ -69,7 +69,7 @@ OpenedRig openedVenue(const MeasuredCalibration& measured, const fs::path& cache
 /// Judges projections by what they truly look like in the venue.
 class Judge {
  public:
-  Judge(const MeasuredCalibration& measured, const SimulatedVenue& venue)
+  Judge(const MeasuredCalibration& measured, const venue::SimulatedVenue& venue)
       : measured_(measured), venue_(venue), rasters_(measured.venue.transport.cameras()) {
     Stack white(measured.venue.transport.projectors().count() * 3, 1.0f);
     brightest_ = venue.trueTransport().apply(white);
@@ -77,7 +77,7 @@ class Judge {
   }
 
   /// Pixels inside the target that the true venue can reach: e <= wanted <= T 1 + e in all channels.
-  std::vector<std::uint8_t> reachable(const Target& target) const {
+  std::vector<std::uint8_t> reachable(const compensation::Target& target) const {
     std::vector<std::uint8_t> reachable = target.inside;
     for (std::size_t i = 0; i < target.wanted.size(); ++i)
       if (target.wanted[i] < venue_.trueBlack()[i] || target.wanted[i] > brightest_[i]) reachable[i / 3] = 0;
@@ -85,27 +85,29 @@ class Judge {
   }
 
   /// What the first camera would see, free of noise.
-  Image seen(const Compensation& compensation) const {
-    std::vector<Image> drive =
+  image::Image seen(const compensation::Compensation& compensation) const {
+    std::vector<image::Image> drive =
         encodedDrive(compensation.projector, measured_.venue.transport.projectors(), measured_.linearization);
-    return imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
+    return image::imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
   }
 
-  Image wanted(const Target& target) const { return imageFromStack(target.wanted, rasters_, 0); }
+  image::Image wanted(const compensation::Target& target) const {
+    return image::imageFromStack(target.wanted, rasters_, 0);
+  }
 
-  MethodScore score(Method method, const Image& seen, const Target& target,
+  MethodScore score(compensation::Method method, const image::Image& seen, const compensation::Target& target,
                     const std::vector<std::uint8_t>& reachableMask) const {
     std::size_t pixels = rasters_.size(0).count();
     std::span<const std::uint8_t> inside(target.inside.data(), pixels);
     std::span<const std::uint8_t> mask(reachableMask.data(), pixels);
-    Image wantedImage = wanted(target);
+    image::Image wantedImage = wanted(target);
 
     MethodScore result;
     result.method = method;
     result.psnrReachable = psnr(seen, wantedImage, target.white, mask);
     result.psnrAll = psnr(seen, wantedImage, target.white, inside);
-    Image seenEncoded = viewed(seen, target.white);
-    Image wantedEncoded = viewed(wantedImage, target.white);
+    image::Image seenEncoded = image::viewed(seen, target.white);
+    image::Image wantedEncoded = image::viewed(wantedImage, target.white);
     result.ssim = ssim(seenEncoded, wantedEncoded, inside);
     result.deltaE = meanDeltaE(seenEncoded, wantedEncoded, inside);
     return result;
@@ -113,7 +115,7 @@ class Judge {
 
  private:
   const MeasuredCalibration& measured_;
-  const SimulatedVenue& venue_;
+  const venue::SimulatedVenue& venue_;
   Rasters rasters_;
   Stack brightest_;
 };
@@ -132,12 +134,12 @@ std::vector<NamedImage> contentOf(const EvaluateSettings& settings) {
   if (settings.images.empty()) return standardImages();
   std::vector<NamedImage> content;
   for (const fs::path& path : settings.images)
-    content.push_back({path.stem().string(), readLinearContent(path)});
+    content.push_back({path.stem().string(), image::readLinearContent(path)});
   return content;
 }
 
-std::vector<Method> methodsOf(const EvaluateSettings& settings) {
-  return settings.methods.empty() ? allValues<Method>() : settings.methods;
+std::vector<compensation::Method> methodsOf(const EvaluateSettings& settings) {
+  return settings.methods.empty() ? allValues<compensation::Method>() : settings.methods;
 }
 
 }  // namespace
@@ -145,10 +147,10 @@ std::vector<Method> methodsOf(const EvaluateSettings& settings) {
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
                      const fs::path& cache, Progress& progress) {
   std::vector<NamedImage> content = contentOf(settings);
-  std::vector<Method> methods = methodsOf(settings);
+  std::vector<compensation::Method> methods = methodsOf(settings);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-venue", "Preparing the venue"));
   OpenedRig devices = openedVenue(measured, cache, opening);
-  const SimulatedVenue& venue = devices.venue.value();
+  const venue::SimulatedVenue& venue = devices.venue.value();
 
   Evaluation evaluation;
   EvaluateResult& result = evaluation.result;
@@ -158,25 +160,25 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   result.transport = scoreOf(measured.venue.transport, venue);
 
   Judge judge(measured, venue);
-  Compensator compensator(measured.venue, measured.inverse, settings.compensator);
+  compensation::Compensator compensator(measured.venue, measured.inverse, settings.compensator);
   Progress judging = progress.part(0.8, RELUCENT_MESSAGE("stage.comparing-methods", "Comparing the methods"));
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
-    Target target = fitTarget(image.linear, measured.venue, settings.target);
+    compensation::Target target = fitTarget(image.linear, measured.venue, settings.target);
     std::vector<std::uint8_t> reachable = judge.reachable(target);
     ImageScore score{image.name, shareOf(reachable, target.inside), {}};
     std::size_t pixels = venue.settings().camera.count();
     EvaluatedPictures pictures{image.name,   judge.wanted(target), {},
                                target.white, target.inside,        score.reachable};
     pictures.inside.resize(pixels);
-    for (Method method : methods) {
+    for (compensation::Method method : methods) {
       Progress solving = judging.part(
           share,
           RELUCENT_ENGLISH_MESSAGE("stage.picture-and-method", "{}: {}").with(image.name, nameOf(method)));
       Stopwatch watch;
-      Compensation compensation = compensator.solve(method, target, solving);
+      compensation::Compensation compensation = compensator.solve(method, target, solving);
       double seconds = watch.seconds();
-      Image seen = judge.seen(compensation);
+      image::Image seen = judge.seen(compensation);
       score.methods.push_back(judge.score(method, seen, target, reachable));
       score.methods.back().seconds = seconds;
       pictures.seen.emplace(method, std::move(seen));
@@ -201,7 +203,8 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.2, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
@@ -209,4 +212,4 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
   return evaluated(measured, settings, cache, evaluating).result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

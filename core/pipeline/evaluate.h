@@ -5,24 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "base/raster.h"
-#include "compensation/methods.h"
-#include "compensation/target.h"
+#include "relucent/base/progress.h"
+#include "relucent/base/raster.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/compensation/target.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct EvaluateSettings {
   std::vector<std::filesystem::path> images;  // none: the product's own test pictures
-  std::vector<Method> methods;                // none: all of them
-  TargetSettings target;
-  CompensatorSettings compensator;
+  std::vector<compensation::Method> methods;  // none: all of them
+  compensation::TargetSettings target;
+  compensation::CompensatorSettings compensator;
 };
 std::vector<Message> problems(const EvaluateSettings& settings);
 
 /// How well one method did on one image, through the venue's true transport.
 struct MethodScore {
-  Method method = Method::none;
+  compensation::Method method = compensation::Method::none;
   double psnrReachable = 0.0;  // dB, linear light, peak = the target's white
   double psnrAll = 0.0;
   double ssim = 0.0;
@@ -60,4 +60,4 @@ struct EvaluateResult {
 EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSettings& settings,
                         const std::filesystem::path& cache, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "compensation/methods.h"
-#include "image/image.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/measured_venue.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/image/image.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// What one image truly looks like in the venue, as the first camera would see it without noise.
 struct EvaluatedPictures {
   std::string name;
-  Image wanted;
-  std::map<Method, Image> seen;  // camera signal per second
+  image::Image wanted;
+  std::map<compensation::Method, image::Image> seen;  // camera signal per second
   std::array<float, 3> white{};
   std::vector<std::uint8_t> inside;  // per pixel of the first camera
   double reachable = 0.0;
@@ -41,4 +41,4 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
 TransportScore transportScore(const MeasuredCalibration& measured, const std::filesystem::path& cache,
                               Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "pipeline/written_files.h"
+#include "relucent/base/progress.h"
+#include "relucent/pipeline/written_files.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct ExportSettings {
   std::filesystem::path transport;  // T as SciPy BSR, 3x3 blocks, expanded to pixels; empty: not wanted
@@ -24,4 +24,4 @@ std::vector<Message> problems(const ExportSettings& settings);
 WrittenFiles exportCalibration(const std::filesystem::path& folder, const ExportSettings& settings,
                                Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

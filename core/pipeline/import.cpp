@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/import.h"
+#include "relucent/pipeline/import.h"
 
 #include <algorithm>
 #include <set>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/fingerprint.h"
-#include "base/stopwatch.h"
-#include "calibration/results.h"
-#include "calibration/stage_fingerprint.h"
-#include "devices/raw_photograph.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/photograph_sequence.h"
-#include "pipeline/stored_settings.h"
-#include "platform/process.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/devices/raw_photograph.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/photograph_sequence.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/platform/process.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
@@ -62,7 +62,7 @@ std::vector<fs::path> picturesIn(const fs::path& folder, const char* what, bool 
 }
 
 bool isPhotographName(const fs::path& path) {
-  return isPictureName(path) || (isRawName(path) && !path.filename().string().starts_with("."));
+  return isPictureName(path) || (devices::isRawName(path) && !path.filename().string().starts_with("."));
 }
 
 /// The photographs of a folder in the order in which they were taken. Of a photograph that is there
@@ -71,11 +71,11 @@ PhotographSequence photographsIn(const fs::path& folder) {
   const std::vector<fs::path> files = picturesIn(folder, "photographs", isPhotographName);
   std::set<fs::path> raw;
   for (const fs::path& file : files)
-    if (isRawName(file)) raw.insert(file.stem());
+    if (devices::isRawName(file)) raw.insert(file.stem());
   std::vector<TakenPhotograph> photographs;
   for (const fs::path& file : files)
-    if (isRawName(file))
-      photographs.push_back({file, timeTaken(file)});
+    if (devices::isRawName(file))
+      photographs.push_back({file, devices::timeTaken(file)});
     else if (!raw.contains(file.stem()))
       photographs.push_back({file, std::nullopt});
   return inOrder(std::move(photographs));
@@ -87,22 +87,23 @@ bool isDeveloped(const fs::path& path) {
   return endings.count(endingOf(path)) > 0;
 }
 
-void clampToDrive(Image& image) {
+void clampToDrive(image::Image& image) {
   for (float& value : image.data()) value = std::clamp(value, 0.0f, 1.0f);
 }
 
 /// Reads all pictures of a folder, which must be of one size.
-PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive, Fingerprint& fingerprint,
-                             Progress& progress) {
-  PictureSequence sequence;
+importing::PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive,
+                                        Fingerprint& fingerprint, Progress& progress) {
+  importing::PictureSequence sequence;
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    Image image = isRawName(paths[k]) ? readRawPicture(paths[k]) : readPicture(paths[k]).encoded;
-    checkFinite(image, paths[k]);
+    image::Image image = devices::isRawName(paths[k]) ? devices::readRawPicture(paths[k])
+                                                      : image::readPicture(paths[k]).encoded;
+    image::checkFinite(image, paths[k]);
     if (drive)
       clampToDrive(image);
     else if (isDeveloped(paths[k]))
-      image = srgbDecoded(image);
-    if (k == 0) sequence = PictureSequence(image.size(), static_cast<int>(paths.size()));
+      image = image::srgbDecoded(image);
+    if (k == 0) sequence = importing::PictureSequence(image.size(), static_cast<int>(paths.size()));
     if (image.size() != sequence.size())
       throw Error(ErrorKind::input,
                   RELUCENT_ENGLISH_MESSAGE("calibration.picture-pixels-but",
@@ -133,7 +134,7 @@ void checkFolderIsFree(const fs::path& folder) {
 }
 
 struct Pictures {
-  PictureSequence patterns, photographs;
+  importing::PictureSequence patterns, photographs;
   bool developed = false;  // some of the photographs were not linear
   Message finding;         // on the order of the photographs; empty: nothing to be said
   ImportedRigSettings rig;
@@ -167,34 +168,42 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   return pictures;
 }
 
-double flaggedShare(const Acquisition& acquisition) {
+double flaggedShare(const transport::Acquisition& acquisition) {
   auto flagged = static_cast<double>(
       acquisition.flagged.size() -
       static_cast<std::size_t>(std::count(acquisition.flagged.begin(), acquisition.flagged.end(), 0)));
   return flagged / static_cast<double>(acquisition.flagged.size());
 }
 
-void store(const fs::path& path, const CalibrateSettings& settings, const Import& import, double seconds) {
-  CalibrationFolder folder = createCalibration(path, settings);
-  storeLinearization(folder, fingerprintOf(folder, Stage::linearization), import.linearization, {});
-  const ImportScore score{import.heldOut, import.error.oneToOne, import.error.mix, import.error.transport};
-  storeAcquisition(folder, fingerprintOf(folder, Stage::acquisition), import.acquisition,
-                   {seconds, import.acquisition.patterns, import.acquisition.exposures, score});
+void store(const fs::path& path, const CalibrateSettings& settings, const importing::Import& import,
+           double seconds) {
+  calibration::CalibrationFolder folder = createCalibration(path, settings);
+  calibration::storeLinearization(folder,
+                                  calibration::fingerprintOf(folder, calibration::Stage::linearization),
+                                  import.linearization, {});
+  const calibration::ImportScore score{import.heldOut, import.error.oneToOne, import.error.mix,
+                                       import.error.transport};
+  calibration::storeAcquisition(folder, calibration::fingerprintOf(folder, calibration::Stage::acquisition),
+                                import.acquisition,
+                                {seconds, import.acquisition.patterns, import.acquisition.exposures, score});
 }
 
-void storeInverse(const fs::path& path, const RidgeChoice& choice, double seconds) {
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+void storeInverse(const fs::path& path, const compensation::RidgeChoice& choice, double seconds) {
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
   storeInverse(folder, inverseResultOf(choice, {seconds}));
 }
 
 /// What is estimated from the pictures, which are let go of. Sets the rig that they came from.
-Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stages, Progress& progress) {
+importing::Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stages,
+                            Progress& progress) {
   Progress reading = progress.part(0.1, RELUCENT_MESSAGE("stage.reading-pictures", "Reading the pictures"));
   Pictures pictures = readPictures(settings, reading);
   stages.rig = pictures.rig;
   Progress estimating = progress.part(
       0.7, RELUCENT_MESSAGE("stage.estimating-light-transport", "Estimating the light transport"));
-  Import import = importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
+  importing::Import import =
+      importing::importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
   if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
   if (pictures.developed)
     import.linearization.findings.emplace_back(RELUCENT_MESSAGE(
@@ -204,7 +213,7 @@ Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stag
   return import;
 }
 
-ImportResult resultOf(const Import& import, const ImportedRigSettings& rig) {
+ImportResult resultOf(const importing::Import& import, const ImportedRigSettings& rig) {
   ImportResult result;
   result.projector = rig.projector;
   result.camera = rig.camera;
@@ -232,9 +241,9 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
   Stopwatch watch;
   ImportResult result;
   CalibrateSettings stages;
-  MeasuredVenue venue;
+  compensation::MeasuredVenue venue;
   {
-    const Import import = estimated(settings, stages, progress);
+    const importing::Import import = estimated(settings, stages, progress);
     result = resultOf(import, std::get<ImportedRigSettings>(stages.rig));
     // What was estimated is safe before it is inverted.
     store(path, stages, import, watch.seconds());
@@ -243,12 +252,12 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
   Stopwatch invertingWatch;
   Progress inverting = progress.part(
       0.2, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
-  RidgeChoice choice = invert(venue, stages, inverting);
+  compensation::RidgeChoice choice = invert(venue, stages, inverting);
   storeInverse(path, choice, invertingWatch.seconds());
   progress.report(1.0);
   result.seconds = watch.seconds();
-  result.peakMemoryBytes = peakMemoryBytes();
+  result.peakMemoryBytes = platform::peakMemoryBytes();
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

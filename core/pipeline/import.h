@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "base/raster.h"
-#include "importing/import.h"
+#include "relucent/base/progress.h"
+#include "relucent/base/raster.h"
+#include "relucent/importing/import.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct ImportPicturesSettings {
   std::filesystem::path patterns;  // folder of pictures: what was projected, in the projector's own pixels
@@ -18,7 +18,7 @@ struct ImportPicturesSettings {
   /// files give the sensor's own values at half its size; of a photograph that is there twice the raw file
   /// counts.
   std::filesystem::path photographs;
-  ImportSettings import;
+  importing::ImportSettings import;
 };
 std::vector<Message> problems(const ImportPicturesSettings& settings);
 
@@ -26,7 +26,7 @@ struct ImportResult {
   int patterns = 0;
   int fitted = 0;
   int heldOut = 0;
-  HeldOutError error;  // on held-out patterns, normalised root mean square
+  importing::HeldOutError error;  // on held-out patterns, normalised root mean square
   Size projector;
   Size camera;
   std::uint64_t leaves = 0;
@@ -44,4 +44,4 @@ struct ImportResult {
 ImportResult importPictures(const std::filesystem::path& folder, const ImportPicturesSettings& settings,
                             Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

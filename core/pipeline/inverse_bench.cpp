@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/inverse_bench.h"
+#include "relucent/pipeline/inverse_bench.h"
 
-#include "base/stopwatch.h"
-#include "compensation/methods.h"
-#include "devices/temporary_folder.h"
-#include "inverse/cluster_inverse.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/evaluation.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/devices/temporary_folder.h"
+#include "relucent/inverse/cluster_inverse.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/evaluation.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 template <typename Work>
@@ -19,60 +19,61 @@ double secondsOf(const Work& work) {
 }
 
 /// Everything that is timed works on T as it was measured.
-void timeInversions(const MeasuredVenue& venue, VenueInversion& result, Progress& progress) {
-  const CompensatorSettings standard;
+void timeInversions(const compensation::MeasuredVenue& venue, VenueInversion& result, Progress& progress) {
+  const compensation::CompensatorSettings standard;
   result.windowSeconds = secondsOf([&] {
     Progress part = progress.part(0.4, RELUCENT_MESSAGE("stage.windows", "Windows"));
-    result.ridge = chooseRidge(venue, WindowSettings{}, part).ridge;
+    result.ridge = chooseRidge(venue, inverse::WindowSettings{}, part).ridge;
   });
-  Clustering capped;
+  clustering::Clustering capped;
   {
-    std::optional<ConnectionGraph> graph;
+    std::optional<clustering::ConnectionGraph> graph;
     result.clusterSeconds = secondsOf([&] {
       Progress part = progress.part(0.1, RELUCENT_MESSAGE("stage.algorithm-1", "Algorithm 1"));
-      graph.emplace(venue.transport, venue.usable, ConnectionGraphSettings{}, part);
-      ClusteringSettings printed;
-      printed.cap = SizeCap::never;
-      result.printed = clustered(*graph, printed, part).statistics;
+      graph.emplace(venue.transport, venue.usable, clustering::ConnectionGraphSettings{}, part);
+      clustering::ClusteringSettings printed;
+      printed.cap = clustering::SizeCap::never;
+      result.printed = clustering::clustered(*graph, printed, part).statistics;
     });
     result.cappedSeconds = secondsOf([&] {
       Progress part =
           progress.part(0.1, RELUCENT_MESSAGE("stage.clusters-held-size", "Clusters held to a size"));
-      capped = clustered(*graph, standard.clustering, part);
+      capped = clustering::clustered(*graph, standard.clustering, part);
     });
     result.capped = capped.statistics;
   }
-  auto invert = [&](const Message& stage, ClusterSolver solver, ClusterColour colour) {
+  auto invert = [&](const Message& stage, inverse::ClusterSolver solver, inverse::ClusterColour colour) {
     Progress part = progress.part(0.13, stage);
-    ClusterInverseSettings settings = standard.clusterInverse;
+    inverse::ClusterInverseSettings settings = standard.clusterInverse;
     settings.solver = solver;
     settings.colour = colour;
-    return secondsOf([&] { computeClusterInverse(capped, venue.usable, settings, part); });
+    return secondsOf([&] { inverse::computeClusterInverse(capped, venue.usable, settings, part); });
   };
   result.truncatedSeconds =
       invert(RELUCENT_ENGLISH_MESSAGE("stage.truncated-singular-values", "Truncated singular values"),
-             ClusterSolver::truncatedSvd, ClusterColour::shared);
-  result.ridgeSeconds =
-      invert(RELUCENT_ENGLISH_MESSAGE("stage.ridge", "Ridge"), ClusterSolver::ridge, ClusterColour::shared);
+             inverse::ClusterSolver::truncatedSvd, inverse::ClusterColour::shared);
+  result.ridgeSeconds = invert(RELUCENT_ENGLISH_MESSAGE("stage.ridge", "Ridge"),
+                               inverse::ClusterSolver::ridge, inverse::ClusterColour::shared);
   result.fullColourSeconds =
       invert(RELUCENT_ENGLISH_MESSAGE("stage.ridge-in-full-colour", "Ridge in full colour"),
-             ClusterSolver::ridge, ClusterColour::full);
+             inverse::ClusterSolver::ridge, inverse::ClusterColour::full);
 }
 
 /// dB per method, mean over the product's pictures.
-std::map<Method, double> qualityOf(const MeasuredCalibration& measured, const EvaluateSettings& settings,
-                                   const std::filesystem::path& cache, Progress& progress) {
+std::map<compensation::Method, double> qualityOf(const MeasuredCalibration& measured,
+                                                 const EvaluateSettings& settings,
+                                                 const std::filesystem::path& cache, Progress& progress) {
   EvaluateResult scores = evaluated(measured, settings, cache, progress).result;
-  std::map<Method, double> quality;
+  std::map<compensation::Method, double> quality;
   for (const ImageScore& image : scores.images)
     for (const MethodScore& score : image.methods)
       quality[score.method] += score.psnrReachable / static_cast<double>(scores.images.size());
   return quality;
 }
 
-double clusterQuality(const MeasuredCalibration& measured, ClusterSolver solver, ClusterColour colour,
-                      const std::filesystem::path& cache, Progress& progress) {
-  const Method method = Method::clusters;
+double clusterQuality(const MeasuredCalibration& measured, inverse::ClusterSolver solver,
+                      inverse::ClusterColour colour, const std::filesystem::path& cache, Progress& progress) {
+  const compensation::Method method = compensation::Method::clusters;
   EvaluateSettings settings;
   settings.methods = {method};
   settings.compensator.clusterInverse.solver = solver;
@@ -81,9 +82,9 @@ double clusterQuality(const MeasuredCalibration& measured, ClusterSolver solver,
 }
 
 VenueInversion inverted(const std::string& name, const std::filesystem::path& cache, Progress& progress) {
-  TemporaryFolder temporary;
+  devices::TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / name;
-  VenueSettings venue;
+  venue::VenueSettings venue;
   venue.name = name;
   CalibrateSettings settings;
   settings.rig = venue;
@@ -93,7 +94,8 @@ VenueInversion inverted(const std::string& name, const std::filesystem::path& ca
 
   VenueInversion result;
   result.venue = name;
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading = progress.part(0.05, RELUCENT_MESSAGE("stage.reading-venue", "Reading {}").with(name));
   MeasuredCalibration measured = loadCalibration(folder, loading);
   result.leaves = measured.venue.transport.leaves().blocks();
@@ -105,10 +107,10 @@ VenueInversion inverted(const std::string& name, const std::filesystem::path& ca
   Progress comparing = progress.part(0.04, RELUCENT_MESSAGE("stage.comparing-cluster-inverses-in-venue",
                                                             "Comparing the inverses of clusters in {}")
                                                .with(name));
-  result.truncatedQuality =
-      clusterQuality(measured, ClusterSolver::truncatedSvd, ClusterColour::shared, cache, comparing);
+  result.truncatedQuality = clusterQuality(measured, inverse::ClusterSolver::truncatedSvd,
+                                           inverse::ClusterColour::shared, cache, comparing);
   result.fullColourQuality =
-      clusterQuality(measured, ClusterSolver::ridge, ClusterColour::full, cache, comparing);
+      clusterQuality(measured, inverse::ClusterSolver::ridge, inverse::ClusterColour::full, cache, comparing);
   return result;
 }
 
@@ -116,12 +118,13 @@ VenueInversion inverted(const std::string& name, const std::filesystem::path& ca
 
 InverseBenchResult benchInverse(const std::filesystem::path& cache, Progress& progress) {
   InverseBenchResult result;
-  for (const VenueDescription& venue : venues()) {
-    Progress part = progress.part(1.0 / static_cast<double>(venues().size()), Message::plain(venue.name));
+  for (const venue::VenueDescription& venue : venue::venues()) {
+    Progress part =
+        progress.part(1.0 / static_cast<double>(venue::venues().size()), Message::plain(venue.name));
     result.venues.push_back(inverted(venue.name, cache, part));
   }
   progress.report(1.0);
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -6,28 +6,28 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "clustering/clustering.h"
-#include "compensation/method.h"
+#include "relucent/base/progress.h"
+#include "relucent/clustering/clustering.h"
+#include "relucent/compensation/method.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// What inverting one venue's light transport took, and what it was good for.
 struct VenueInversion {
   std::string venue;
   std::size_t leaves = 0;
-  double windowSeconds = 0.0;        // the default operator, with the search for its ridge
-  double ridge = 0.0;                // that it found
-  double clusterSeconds = 0.0;       // Algorithm 1 as printed, connected components and maps
-  ClusteringStatistics printed;      // its clusters
-  double cappedSeconds = 0.0;        // the same, clusters held to a size
-  ClusteringStatistics capped;       //
-  double truncatedSeconds = 0.0;     // inverting the capped clusters: the paper's truncated SVD
-  double ridgeSeconds = 0.0;         // and by ridge
-  double fullColourSeconds = 0.0;    // by ridge, every connection its 3x3 block
-  std::map<Method, double> quality;  // dB, per method, mean over the product's pictures
-  double truncatedQuality = 0.0;     // dB of `clusters` inverted by truncated SVD
-  double fullColourQuality = 0.0;    // dB of `clusters` with full 3x3 blocks (paper, eq. 2)
+  double windowSeconds = 0.0;                      // the default operator, with the search for its ridge
+  double ridge = 0.0;                              // that it found
+  double clusterSeconds = 0.0;                     // Algorithm 1 as printed, connected components and maps
+  clustering::ClusteringStatistics printed;        // its clusters
+  double cappedSeconds = 0.0;                      // the same, clusters held to a size
+  clustering::ClusteringStatistics capped;         //
+  double truncatedSeconds = 0.0;                   // inverting the capped clusters: the paper's truncated SVD
+  double ridgeSeconds = 0.0;                       // and by ridge
+  double fullColourSeconds = 0.0;                  // by ridge, every connection its 3x3 block
+  std::map<compensation::Method, double> quality;  // dB, per method, mean over the product's pictures
+  double truncatedQuality = 0.0;                   // dB of `clusters` inverted by truncated SVD
+  double fullColourQuality = 0.0;                  // dB of `clusters` with full 3x3 blocks (paper, eq. 2)
 };
 
 struct InverseBenchResult {
@@ -48,4 +48,4 @@ struct PaperFigures {
   double mostFrameRate = 30.0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/json.h"
+#include "relucent/pipeline/json.h"
 
 #include <map>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
-Json sentencesOf(const std::vector<Message>& messages) {
-  Json list = Json::array();
+calibration::Json sentencesOf(const std::vector<Message>& messages) {
+  calibration::Json list = calibration::Json::array();
   for (const Message& message : messages) list.push_back(english(message));
   return list;
 }
 
-Json sizeToJson(Size size) {
+calibration::Json sizeToJson(Size size) {
   return {size.width, size.height};
 }
 
-Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
-  Json json = Json::array();
+calibration::Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
+  calibration::Json json = calibration::Json::array();
   for (const std::filesystem::path& path : paths) json.push_back(path.string());
   return json;
 }
 
-Json scoreToJson(const ImageScore& image) {
-  Json methods = Json::object();
+calibration::Json scoreToJson(const ImageScore& image) {
+  calibration::Json methods = calibration::Json::object();
   for (const MethodScore& score : image.methods)
     methods[std::string(nameOf(score.method))] = {{"psnr_reachable", score.psnrReachable},
                                                   {"psnr_all", score.psnrAll},
@@ -35,15 +35,15 @@ Json scoreToJson(const ImageScore& image) {
   return {{"name", image.name}, {"reachable", image.reachable}, {"methods", std::move(methods)}};
 }
 
-Json sharesToJson(const std::map<Uncorrectable, double>& shares) {
+calibration::Json sharesToJson(const std::map<compensation::Uncorrectable, double>& shares) {
   std::map<std::string_view, double> byName;  // documents list them in the order of the alphabet
   for (const auto& [reason, share] : shares) byName.emplace(nameOf(reason), share);
-  Json json = Json::object();
+  calibration::Json json = calibration::Json::object();
   for (const auto& [name, share] : byName) json[std::string(name)] = share;
   return json;
 }
 
-Json clustersToJson(double seconds, const ClusteringStatistics& clusters) {
+calibration::Json clustersToJson(double seconds, const clustering::ClusteringStatistics& clusters) {
   return {{"seconds", seconds},
           {"connections", clusters.connections},
           {"kept", clusters.kept},
@@ -55,7 +55,7 @@ Json clustersToJson(double seconds, const ClusteringStatistics& clusters) {
           {"error_p95", clusters.errorP95}};
 }
 
-Json transportToJson(const TransportScore& score) {
+calibration::Json transportToJson(const TransportScore& score) {
   return {{"frobenius", score.frobenius},
           {"row_median", score.rowMedian},
           {"row_p95", score.rowP95},
@@ -66,7 +66,7 @@ Json transportToJson(const TransportScore& score) {
 
 }  // namespace
 
-Json toJson(const CalibrateResult& result) {
+calibration::Json toJson(const CalibrateResult& result) {
   return {{"patterns", result.patterns},
           {"exposures", result.exposures},
           {"seconds",
@@ -82,9 +82,9 @@ Json toJson(const CalibrateResult& result) {
           {"findings", sentencesOf(result.findings)}};
 }
 
-Json toJson(const VerifyResult& result) {
-  Json errors = Json::object();
-  for (int size = 0; size < verificationSizes; ++size)
+calibration::Json toJson(const VerifyResult& result) {
+  calibration::Json errors = calibration::Json::object();
+  for (int size = 0; size < acquisition::verificationSizes; ++size)
     errors[std::to_string(1 << size)] = result.found.errorOf[static_cast<std::size_t>(size)];
   return {{"verdict", toString(result.judgement.verdict)},
           {"sentence", english(result.judgement.sentence)},
@@ -101,13 +101,13 @@ Json toJson(const VerifyResult& result) {
           {"files", pathsToJson(result.files)}};
 }
 
-Json toJson(const ProveResult& result) {
+calibration::Json toJson(const ProveResult& result) {
   auto projection = [](const ProvedProjection& proved) {
-    return Json{{"psnr_predicted", proved.predicted.psnr},
-                {"psnr_measured", proved.measured.psnr},
-                {"delta_e_predicted", proved.predicted.deltaE},
-                {"delta_e_measured", proved.measured.deltaE},
-                {"surprise", proved.surprise}};
+    return calibration::Json{{"psnr_predicted", proved.predicted.psnr},
+                             {"psnr_measured", proved.measured.psnr},
+                             {"delta_e_predicted", proved.predicted.deltaE},
+                             {"delta_e_measured", proved.measured.deltaE},
+                             {"surprise", proved.surprise}};
   };
   return {{"method", nameOf(result.method)},   {"before", projection(result.before)},
           {"after", projection(result.after)}, {"reachable", result.reachable},
@@ -115,15 +115,15 @@ Json toJson(const ProveResult& result) {
           {"files", pathsToJson(result.files)}};
 }
 
-Json toJson(const CompensateResult& result) {
+calibration::Json toJson(const CompensateResult& result) {
   return {{"method", nameOf(result.method)}, {"psnr_predicted", result.psnrPredicted},
           {"delta_e", result.deltaE},        {"clipped", result.clipped},
           {"reachable", result.reachable},   {"uncorrectable", sharesToJson(result.uncorrectable)},
           {"seconds", result.seconds},       {"files", pathsToJson(result.files)}};
 }
 
-Json toJson(const EvaluateResult& result) {
-  Json images = Json::array();
+calibration::Json toJson(const EvaluateResult& result) {
+  calibration::Json images = calibration::Json::array();
   for (const ImageScore& image : result.images) images.push_back(scoreToJson(image));
   return {{"venue", result.venue},
           {"projector", sizeToJson(result.projector)},
@@ -133,26 +133,26 @@ Json toJson(const EvaluateResult& result) {
           {"images", std::move(images)}};
 }
 
-Json toJson(const WrittenFiles& result) {
+calibration::Json toJson(const WrittenFiles& result) {
   return {{"files", pathsToJson(result.files)}, {"notes", sentencesOf(result.notes)}};
 }
 
-Json toJson(const SeparateResult& result) {
+calibration::Json toJson(const SeparateResult& result) {
   return {{"direct_share", result.directShare}, {"files", pathsToJson(result.files)}};
 }
 
-Json toJson(const DifferenceResult& result) {
+calibration::Json toJson(const DifferenceResult& result) {
   return {{"rms", result.rms},
           {"relative", result.relative},
           {"gain", result.gain},
           {"files", pathsToJson(result.files)}};
 }
 
-Json toJson(const InverseBenchResult& result) {
+calibration::Json toJson(const InverseBenchResult& result) {
   const PaperFigures paper;
-  Json list = Json::array();
+  calibration::Json list = calibration::Json::array();
   for (const VenueInversion& venue : result.venues) {
-    Json quality = Json::object();
+    calibration::Json quality = calibration::Json::object();
     for (const auto& [method, decibels] : venue.quality) quality[std::string(nameOf(method))] = decibels;
     list.push_back(
         {{"venue", venue.venue},
@@ -175,8 +175,8 @@ Json toJson(const InverseBenchResult& result) {
           {"venues", std::move(list)}};
 }
 
-Json toJson(const AcquisitionBenchResult& result) {
-  Json runs = Json::array();
+calibration::Json toJson(const AcquisitionBenchResult& result) {
+  calibration::Json runs = calibration::Json::array();
   for (const AcquisitionBenchRun& run : result.runs)
     runs.push_back({{"venue", run.venue},
                     {"mode", nameOf(run.mode)},
@@ -191,27 +191,28 @@ Json toJson(const AcquisitionBenchResult& result) {
           {"runs", std::move(runs)}};
 }
 
-Json toJson(const BenchResult& result) {
-  Json benchmarks = Json::array();
+calibration::Json toJson(const BenchResult& result) {
+  calibration::Json benchmarks = calibration::Json::array();
   for (const Benchmark& benchmark : result.benchmarks) {
-    Json& line = benchmarks.emplace_back(Json{{"name", benchmark.name},
-                                              {"seconds", benchmark.seconds},
-                                              {"bytes", benchmark.bytes},
-                                              {"share_of_copy", benchmark.shareOfCopy}});
+    calibration::Json& line =
+        benchmarks.emplace_back(calibration::Json{{"name", benchmark.name},
+                                                  {"seconds", benchmark.seconds},
+                                                  {"bytes", benchmark.bytes},
+                                                  {"share_of_copy", benchmark.shareOfCopy}});
     if (benchmark.best > 0.0) line["best"] = benchmark.best;
-    for (const EngineBenchRatio& ratio : benchmark.timesAsFastAs)
+    for (const engine::EngineBenchRatio& ratio : benchmark.timesAsFastAs)
       line["times_as_fast_as"][ratio.reference] = ratio.times;
   }
-  Json machine{{"processor", result.machine.processor},
-               {"threads", result.machine.threads},
-               {"copy_bytes_per_second", result.machine.copyBytesPerSecond}};
+  calibration::Json machine{{"processor", result.machine.processor},
+                            {"threads", result.machine.threads},
+                            {"copy_bytes_per_second", result.machine.copyBytesPerSecond}};
   if (!result.machine.device.empty()) machine["device"] = result.machine.device;
-  Json document{{"machine", std::move(machine)}, {"benchmarks", std::move(benchmarks)}};
+  calibration::Json document{{"machine", std::move(machine)}, {"benchmarks", std::move(benchmarks)}};
   if (!result.notes.empty()) document["notes"] = sentencesOf(result.notes);
   return document;
 }
 
-Json toJson(const ImportResult& result) {
+calibration::Json toJson(const ImportResult& result) {
   return {{"patterns", result.patterns},
           {"fitted", result.fitted},
           {"held_out", result.heldOut},
@@ -228,11 +229,11 @@ Json toJson(const ImportResult& result) {
           {"findings", sentencesOf(result.findings)}};
 }
 
-Json toJson(const std::vector<VenueDescription>& venues) {
-  Json list = Json::array();
-  for (const VenueDescription& venue : venues)
+calibration::Json toJson(const std::vector<venue::VenueDescription>& venues) {
+  calibration::Json list = calibration::Json::array();
+  for (const venue::VenueDescription& venue : venues)
     list.push_back({{"name", venue.name}, {"sentence", venue.sentence}, {"projectors", venue.projectors}});
   return {{"venues", std::move(list)}};
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/measured_venue.h"
+#include "relucent/pipeline/measured_venue.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
-#include "calibration/results.h"
-#include "calibration/stage_progress.h"
-#include "compensation/direct_light.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/compensation/direct_light.h"
+#include "relucent/pipeline/stored_settings.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 /// Everything but the inverse.
-MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& progress) {
+MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
-  auto linearization = currentResultOf(folder, Stage::linearization);
-  auto acquisition = currentResultOf(folder, Stage::acquisition);
+  auto linearization = calibration::currentResultOf(folder, calibration::Stage::linearization);
+  auto acquisition = calibration::currentResultOf(folder, calibration::Stage::acquisition);
   if (!linearization || !acquisition)
     throw Error(
         ErrorKind::input,
@@ -29,9 +29,9 @@ MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& 
         folder.path().string());
   MeasuredCalibration measured;
   measured.rig = settings.rig;
-  measured.linearization = loadLinearization(*linearization);
+  measured.linearization = calibration::loadLinearization(*linearization);
   progress.report(0.1);
-  const Acquisition stored = loadAcquisition(*acquisition);
+  const transport::Acquisition stored = calibration::loadAcquisition(*acquisition);
   progress.report(0.7);
   measured.acquisition = figuresOf(stored);
   measured.venue = measuredVenueOf(stored, settings.threshold);
@@ -41,7 +41,7 @@ MeasuredCalibration loadMeasurements(const CalibrationFolder& folder, Progress& 
 
 }  // namespace
 
-std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition) {
+std::vector<std::uint8_t> usablePixels(const transport::Acquisition& acquisition) {
   // Below this share of the venue's bright pixels, compensating would ask for many times the projector's
   // power; and a pixel has to stand out of its own noise before it can be relied on.
   constexpr float leastShare = 0.02f;
@@ -67,52 +67,54 @@ std::vector<std::uint8_t> usablePixels(const Acquisition& acquisition) {
   return usable;
 }
 
-AcquisitionFigures figuresOf(const Acquisition& acquisition) {
+AcquisitionFigures figuresOf(const transport::Acquisition& acquisition) {
   return {acquisition.flagged, acquisition.floodVariance, acquisition.unresolvedEnergy,
           acquisition.verificationError, acquisition.findings};
 }
 
-MeasuredVenue measuredVenueOf(const Acquisition& acquisition, const ThresholdSettings& threshold) {
-  MeasuredVenue venue;
+compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquisition,
+                                            const transport::ThresholdSettings& threshold) {
+  compensation::MeasuredVenue venue;
   venue.usable = usablePixels(acquisition);
-  venue.transport = thresholded(acquisition.transport, threshold, acquisition.flood);
+  venue.transport = transport::thresholded(acquisition.transport, threshold, acquisition.flood);
   venue.black = acquisition.black;
   venue.flood = acquisition.flood;
   Progress quiet;
-  venue.direct = directlyLit(directLooks(venue.transport, {}, quiet));
+  venue.direct = compensation::directlyLit(compensation::directLooks(venue.transport, {}, quiet));
   return venue;
 }
 
 namespace {
 
 /// Pairs of a camera pixel and a projector pixel that the leaves connect; nested leaves count once each.
-std::uint64_t connectionsOf(const TransportMatrix& transport) {
+std::uint64_t connectionsOf(const transport::TransportMatrix& transport) {
   std::uint64_t connections = 0;
-  const BlockSparse& leaves = transport.leaves();
-  const NodeLayout& layout = transport.layout();
+  const transport::BlockSparse& leaves = transport.leaves();
+  const transport::NodeLayout& layout = transport.layout();
   for (std::size_t entry = 0; entry < leaves.blocks(); ++entry)
     connections += static_cast<std::uint64_t>(layout.block(layout.node(leaves.column(entry))).count());
   return connections;
 }
 
 /// What a stage cost when it was done last.
-template <Stage stage>
-StageCost costOf(const CalibrationFolder& folder) {
-  const std::optional<StageResult> stored = folder.latest(stage);
-  return stored ? resultFrom<stage>(*stored).cost.value_or(StageCost()) : StageCost();
+template <calibration::Stage stage>
+calibration::StageCost costOf(const calibration::CalibrationFolder& folder) {
+  const std::optional<calibration::StageResult> stored = folder.latest(stage);
+  return stored ? resultFrom<stage>(*stored).cost.value_or(calibration::StageCost())
+                : calibration::StageCost();
 }
 
 }  // namespace
 
-CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibration& measured) {
+CalibrateResult summaryOf(const calibration::CalibrationFolder& folder, const MeasuredCalibration& measured) {
   CalibrateResult result;
-  const StageCost linearization = costOf<Stage::linearization>(folder),
-                  acquiring = costOf<Stage::acquisition>(folder);
+  const calibration::StageCost linearization = costOf<calibration::Stage::linearization>(folder),
+                               acquiring = costOf<calibration::Stage::acquisition>(folder);
   result.patterns = linearization.patterns + acquiring.patterns;
   result.exposures = linearization.exposures + acquiring.exposures;
   result.seconds.linearization = linearization.seconds;
   result.seconds.acquisition = acquiring.seconds;
-  result.seconds.inverse = costOf<Stage::inverse>(folder).seconds;
+  result.seconds.inverse = costOf<calibration::Stage::inverse>(folder).seconds;
   const AcquisitionFigures& acquisition = measured.acquisition;
   result.leaves = measured.venue.transport.leaves().blocks();
   result.connections = connectionsOf(measured.venue.transport);
@@ -127,23 +129,28 @@ CalibrateResult summaryOf(const CalibrationFolder& folder, const MeasuredCalibra
   return result;
 }
 
-MeasuredVenue loadMeasuredVenue(const CalibrationFolder& folder, Progress& progress) {
+compensation::MeasuredVenue loadMeasuredVenue(const calibration::CalibrationFolder& folder,
+                                              Progress& progress) {
   return loadMeasurements(folder, progress).venue;
 }
 
-RidgeChoice invert(const MeasuredVenue& venue, const CalibrateSettings& settings, Progress& progress) {
+compensation::RidgeChoice invert(const compensation::MeasuredVenue& venue, const CalibrateSettings& settings,
+                                 Progress& progress) {
   if (settings.chooseRidge) return chooseRidge(venue, settings.windows, progress);
-  return {
-      settings.windows.ridge, {}, computeWindows(venue.transport, venue.usable, settings.windows, progress)};
+  return {settings.windows.ridge,
+          {},
+          inverse::computeWindows(venue.transport, venue.usable, settings.windows, progress)};
 }
 
-InverseResult inverseResultOf(const RidgeChoice& choice, const StageCost& cost) {
-  InverseResult result{choice.ridge, {}, choice.inverse.bytes(), cost};
-  for (const RidgeTrial& trial : choice.curve) result.curve.push_back({trial.ridge, trial.psnr});
+calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choice,
+                                           const calibration::StageCost& cost) {
+  calibration::InverseResult result{choice.ridge, {}, choice.inverse.bytes(), cost};
+  for (const compensation::RidgeTrial& trial : choice.curve)
+    result.curve.push_back({trial.ridge, trial.psnr});
   return result;
 }
 
-MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& progress) {
+MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress) {
   Progress reading =
       progress.part(0.5, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadMeasurements(folder, reading);
@@ -151,18 +158,18 @@ MeasuredCalibration loadCalibration(const CalibrationFolder& folder, Progress& p
       0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
   CalibrateSettings settings = settingsOf(folder);
   // Which ridge is best has been tried already, unless an older version made the calibration.
-  if (const auto stored = currentResultOf(folder, Stage::inverse)) {
-    const InverseResult done = resultFrom<Stage::inverse>(*stored);
+  if (const auto stored = calibration::currentResultOf(folder, calibration::Stage::inverse)) {
+    const calibration::InverseResult done = resultFrom<calibration::Stage::inverse>(*stored);
     settings.windows.ridge = done.ridge.value_or(settings.windows.ridge);
     settings.chooseRidge = false;
-    for (const InverseResult::Trial& trial : done.curve)
+    for (const calibration::InverseResult::Trial& trial : done.curve)
       measured.ridgeCurve.push_back({trial.ridge, trial.psnr});
   }
-  RidgeChoice choice = invert(measured.venue, settings, inverting);
+  compensation::RidgeChoice choice = invert(measured.venue, settings, inverting);
   measured.ridge = choice.ridge;
   measured.inverse = std::move(choice.inverse);
   if (measured.ridgeCurve.empty()) measured.ridgeCurve = std::move(choice.curve);
   return measured;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

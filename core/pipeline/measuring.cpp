@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/measuring.h"
+#include "relucent/pipeline/measuring.h"
 
-#include "acquisition/acquisition.h"
-#include "base/error.h"
-#include "base/file.h"
-#include "base/stopwatch.h"
-#include "calibration/results.h"
-#include "calibration/shot_journal.h"
-#include "calibration/stage_fingerprint.h"
-#include "calibration/stage_progress.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/acquisition/acquisition.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/shot_journal.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/stored_settings.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 /// What a stage's run cost, kept with its result.
-StageCost costOf(const Stopwatch& watch, const ShotTaker& shots) {
+calibration::StageCost costOf(const Stopwatch& watch, const rig::ShotTaker& shots) {
   return {watch.seconds(), shots.shots(), shots.exposures()};
 }
 
@@ -31,7 +31,7 @@ fs::path unusedFolder(const fs::path& parent) {
 
 }  // namespace
 
-CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
+calibration::CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
@@ -39,47 +39,55 @@ CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings
   return createCalibration(path, settings);
 }
 
-Linearization measureLinearization(CalibrationFolder& folder, Rig& rig, Progress& progress) {
-  const std::string inputs = fingerprintOf(folder, Stage::linearization);
-  if (auto done = folder.find(Stage::linearization, inputs)) return loadLinearization(*done);
+linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                                  Progress& progress) {
+  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::linearization);
+  if (auto done = folder.find(calibration::Stage::linearization, inputs))
+    return calibration::loadLinearization(*done);
   Stopwatch watch;
-  ShotJournal journal(folder.shotFolder());
-  ShotTaker shots(rig, journal, std::string(nameOf(Stage::linearization)));
-  Linearization linearization = linearize(shots, settingsOf(folder).linearization, progress);
-  storeLinearization(folder, inputs, linearization, costOf(watch, shots));
+  calibration::ShotJournal journal(folder.shotFolder());
+  rig::ShotTaker shots(rig, journal, std::string(nameOf(calibration::Stage::linearization)));
+  linearization::Linearization linearization =
+      linearization::linearize(shots, settingsOf(folder).linearization, progress);
+  calibration::storeLinearization(folder, inputs, linearization, costOf(watch, shots));
   return linearization;
 }
 
-Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
-                               const AlarmHandler& handler, Progress& progress) {
-  AcquisitionObserver nobody;
+transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                          const linearization::Linearization& linearization,
+                                          const sentinels::AlarmHandler& handler, Progress& progress) {
+  sentinels::AcquisitionObserver nobody;
   return measureAcquisition(folder, rig, linearization, handler, nobody, progress);
 }
 
-Acquisition measureAcquisition(CalibrationFolder& folder, Rig& rig, const Linearization& linearization,
-                               const AlarmHandler& handler, AcquisitionObserver& observer,
-                               Progress& progress) {
-  const std::string inputs = fingerprintOf(folder, Stage::acquisition);
-  if (auto done = folder.find(Stage::acquisition, inputs)) return loadAcquisition(*done);
+transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                          const linearization::Linearization& linearization,
+                                          const sentinels::AlarmHandler& handler,
+                                          sentinels::AcquisitionObserver& observer, Progress& progress) {
+  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
+  if (auto done = folder.find(calibration::Stage::acquisition, inputs))
+    return calibration::loadAcquisition(*done);
   Stopwatch watch;
-  ShotJournal journal(folder.shotFolder());
-  ShotTaker shots(rig, journal, std::string(nameOf(Stage::acquisition)));
-  Acquisition acquisition =
-      acquire({shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
-  storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
+  calibration::ShotJournal journal(folder.shotFolder());
+  rig::ShotTaker shots(rig, journal, std::string(nameOf(calibration::Stage::acquisition)));
+  transport::Acquisition acquisition = acquisition::acquire(
+      {shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
+  calibration::storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
   return acquisition;
 }
 
-void measureInverse(CalibrationFolder& folder, const MeasuredVenue& venue, Progress& progress) {
-  if (progressOf(folder, Stage::inverse) == StageProgress::done) return;
+void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
+                    Progress& progress) {
+  if (calibration::progressOf(folder, calibration::Stage::inverse) == calibration::StageProgress::done)
+    return;
   Stopwatch watch;
-  RidgeChoice choice = invert(venue, settingsOf(folder), progress);
+  compensation::RidgeChoice choice = invert(venue, settingsOf(folder), progress);
   // The operator itself is not stored: making it again is quicker than reading it. What is kept is how it is
   // made: the ridge, and the trials that chose it.
-  storeInverse(folder, inverseResultOf(choice, {watch.seconds()}));
+  calibration::storeInverse(folder, inverseResultOf(choice, {watch.seconds()}));
 }
 
-void setShotsAside(const CalibrationFolder& folder, Stage stage) {
+void setShotsAside(const calibration::CalibrationFolder& folder, calibration::Stage stage) {
   const std::string begin = fmt::format("{}-", nameOf(stage));
   std::vector<fs::path> shots;
   std::error_code code;
@@ -101,4 +109,4 @@ void setShotsAside(const CalibrationFolder& folder, Stage stage) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/photograph_sequence.h"
+#include "relucent/pipeline/photograph_sequence.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 /// More places than these are not named: something else is wrong then.
@@ -110,4 +110,4 @@ CountProblem countProblem(const std::vector<TakenPhotograph>& photographs, std::
   return problem;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// A photograph of a folder, and when its camera says that it was taken: whole seconds; none: it does not
 /// say.
@@ -36,4 +36,4 @@ struct CountProblem {
 };
 CountProblem countProblem(const std::vector<TakenPhotograph>& photographs, std::size_t patterns);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

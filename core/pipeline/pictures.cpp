@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/pictures.h"
+#include "relucent/pipeline/pictures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 
-float displayWhite(const Image& linear) {
+float displayWhite(const image::Image& linear) {
   std::vector<float> values = linear.data();
   if (values.empty()) return 1.0f;
   auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 995 / 1000);
@@ -40,12 +40,12 @@ PictureFormat pictureFormatOf(const fs::path& path) {
       path.string());
 }
 
-void writePicture(const fs::path& path, const Image& linear, const std::string& units, float white) {
+void writePicture(const fs::path& path, const image::Image& linear, const std::string& units, float white) {
   switch (pictureFormatOf(path)) {
     case PictureFormat::exr:
-      return writeExr(path, linear, ExrType::floatType, {{exr_attribute::units, units}});
+      return image::writeExr(path, linear, image::ExrType::floatType, {{image::exr_attribute::units, units}});
     case PictureFormat::png:
-      return writePng(path, viewed(linear, {white, white, white}), 8);
+      return image::writePng(path, image::viewed(linear, {white, white, white}), 8);
   }
 }
 
@@ -53,11 +53,11 @@ WrittenFiles writePictures(const fs::path& out, const Stack& stack, const Raster
                            const std::string& units) {
   WrittenFiles written;
   for (std::size_t device = 0; device < rasters.devices(); ++device) {
-    Image picture = imageFromStack(stack, rasters, device);
+    image::Image picture = image::imageFromStack(stack, rasters, device);
     written.files.push_back(numbered(out, device));
     writePicture(written.files.back(), picture, units, displayWhite(picture));
   }
   return written;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

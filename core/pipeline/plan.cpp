@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/plan.h"
+#include "relucent/pipeline/plan.h"
 
-#include "base/error.h"
-#include "base/file.h"
-#include "calibration/json.h"
-#include "image/picture_files.h"
-#include "importing/pattern_plan.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/importing/pattern_plan.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-std::string nameOf(std::size_t number, const PlannedPattern& pattern) {
-  return fmt::format("{:03}-{}.png", number, toString(pattern.kind));
+std::string nameOf(std::size_t number, const importing::PlannedPattern& pattern) {
+  return fmt::format("{:03}-{}.png", number, importing::toString(pattern.kind));
 }
 
-Json describe(const std::string& file, const PlannedPattern& pattern) {
-  using Kind = PlannedPattern::Kind;
-  Json json{{"file", file}, {"kind", toString(pattern.kind)}};
+calibration::Json describe(const std::string& file, const importing::PlannedPattern& pattern) {
+  using Kind = importing::PlannedPattern::Kind;
+  calibration::Json json{{"file", file}, {"kind", importing::toString(pattern.kind)}};
   if (pattern.kind == Kind::ramp) {
     json["channel"] = std::array{"red", "green", "blue"}.at(static_cast<std::size_t>(pattern.channel));
     json["level"] = pattern.level;
@@ -30,7 +30,7 @@ Json describe(const std::string& file, const PlannedPattern& pattern) {
   return json;
 }
 
-std::string instructions(const PatternPlanSettings& settings, std::size_t count) {
+std::string instructions(const importing::PatternPlanSettings& settings, std::size_t count) {
   return fmt::format(
       "How to photograph these {0} patterns with a camera that nothing connects to the projector\n"
       "\n"
@@ -65,26 +65,27 @@ void checkHoldsNoPlan(const fs::path& out) {
 
 }  // namespace
 
-WrittenFiles exportPlan(const PatternPlanSettings& settings, const fs::path& out, Progress& progress) {
+WrittenFiles exportPlan(const importing::PatternPlanSettings& settings, const fs::path& out,
+                        Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
   checkHoldsNoPlan(out);
   createFolder(out);
-  std::vector<PlannedPattern> plan = planPatterns(settings);
+  std::vector<importing::PlannedPattern> plan = importing::planPatterns(settings);
   WrittenFiles written;
-  Json list = Json::array();
+  calibration::Json list = calibration::Json::array();
   for (std::size_t k = 0; k < plan.size(); ++k) {
     std::string name = nameOf(k, plan[k]);
-    writePng(out / name, render(plan[k], settings.projector), 8);
+    image::writePng(out / name, render(plan[k], settings.projector), 8);
     list.push_back(describe(name, plan[k]));
     written.files.push_back(out / name);
     progress.report(static_cast<double>(k + 1) / static_cast<double>(plan.size()));
   }
-  Json manifest{{"projector", {settings.projector.width, settings.projector.height}},
-                {"seed", settings.seed},
-                {"patterns", std::move(list)}};
+  calibration::Json manifest{{"projector", {settings.projector.width, settings.projector.height}},
+                             {"seed", settings.seed},
+                             {"patterns", std::move(list)}};
   writeFileAtomically(out / "plan.json", manifest.dump(2) + "\n");
   writeFileAtomically(out / "instructions.txt", instructions(settings, plan.size()));
   written.files.push_back(out / "plan.json");
@@ -92,4 +93,4 @@ WrittenFiles exportPlan(const PatternPlanSettings& settings, const fs::path& out
   return written;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -3,17 +3,17 @@
 
 #include <filesystem>
 
-#include "base/progress.h"
-#include "importing/pattern_plan.h"
-#include "pipeline/written_files.h"
+#include "relucent/base/progress.h"
+#include "relucent/importing/pattern_plan.h"
+#include "relucent/pipeline/written_files.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Writes the patterns of planPatterns() as numbered PNG files for cameras that nothing connects to the
 /// projector, with plan.json (what each is) and instructions.txt (how to photograph them). The folder can be
 /// given to importPictures() as it is.
 /// Throws: Error{input} if `out` holds pictures already; Error{disk}; Cancelled.
-WrittenFiles exportPlan(const PatternPlanSettings& settings, const std::filesystem::path& out,
+WrittenFiles exportPlan(const importing::PatternPlanSettings& settings, const std::filesystem::path& out,
                         Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

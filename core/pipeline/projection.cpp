@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/projection.h"
+#include "relucent/pipeline/projection.h"
 
-#include "base/error.h"
-#include "image/resample.h"
+#include "relucent/base/error.h"
+#include "relucent/image/resample.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
-std::vector<Image> encodedDrive(const Stack& linear, const Rasters& projectors,
-                                const Linearization& linearization) {
+std::vector<image::Image> encodedDrive(const Stack& linear, const Rasters& projectors,
+                                       const linearization::Linearization& linearization) {
   require(linearization.projectors.size() == projectors.devices(), "{} responses for {} projectors",
           linearization.projectors.size(), projectors.devices());
-  std::vector<Image> drive;
+  std::vector<image::Image> drive;
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector)
     drive.push_back(
-        linearization.projectors[projector].encode(imageFromStack(linear, projectors, projector)));
+        linearization.projectors[projector].encode(image::imageFromStack(linear, projectors, projector)));
   return drive;
 }
 
-Stack patternFrom(const Image& linearContent, const Rasters& projectors) {
-  std::vector<Image> patterns;
-  for (const Size& size : projectors.sizes()) patterns.push_back(resized(linearContent, size));
-  return stackFromImages(patterns, projectors);
+Stack patternFrom(const image::Image& linearContent, const Rasters& projectors) {
+  std::vector<image::Image> patterns;
+  for (const Size& size : projectors.sizes()) patterns.push_back(image::resized(linearContent, size));
+  return image::stackFromImages(patterns, projectors);
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

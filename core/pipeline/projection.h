@@ -3,17 +3,17 @@
 
 #include <vector>
 
-#include "base/raster.h"
-#include "image/image.h"
-#include "linearization/linearization.h"
+#include "relucent/base/raster.h"
+#include "relucent/image/image.h"
+#include "relucent/linearization/linearization.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// The drive values that make the projectors emit a linear stack: per projector, through its response.
-std::vector<Image> encodedDrive(const Stack& linear, const Rasters& projectors,
-                                const Linearization& linearization);
+std::vector<image::Image> encodedDrive(const Stack& linear, const Rasters& projectors,
+                                       const linearization::Linearization& linearization);
 
 /// Content brought to every projector's size and stacked: a pattern for relighting.
-Stack patternFrom(const Image& linearContent, const Rasters& projectors);
+Stack patternFrom(const image::Image& linearContent, const Rasters& projectors);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,40 +1,40 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/proof_record.h"
+#include "relucent/pipeline/proof_record.h"
 
-#include "base/error.h"
-#include "base/file.h"
-#include "calibration/enum_json.h"
-#include "pipeline/settings_json.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/enum_json.h"
+#include "relucent/pipeline/settings_json.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* fileName = "proof.json";
 
-Json toJson(const PictureError& error) {
+calibration::Json toJson(const PictureError& error) {
   return {{"psnr", error.psnr}, {"delta_e", error.deltaE}};
 }
-PictureError errorFrom(const Json& json) {
+PictureError errorFrom(const calibration::Json& json) {
   return {json.at("psnr").get<double>(), json.at("delta_e").get<double>()};
 }
 
-Json toJson(const ProvedProjection& projection) {
+calibration::Json toJson(const ProvedProjection& projection) {
   return {{"predicted", toJson(projection.predicted)},
           {"measured", toJson(projection.measured)},
           {"surprise", projection.surprise}};
 }
-ProvedProjection projectionFrom(const Json& json) {
+ProvedProjection projectionFrom(const calibration::Json& json) {
   return {errorFrom(json.at("predicted")), errorFrom(json.at("measured")), json.at("surprise").get<double>()};
 }
 
-Json toJson(const ContentSettings& content) {
+calibration::Json toJson(const ContentSettings& content) {
   CalibrateSettings settings;
   settings.content = content;
   return {{"content", stagesToJson(settings).at("content")}};
 }
-ContentSettings contentFrom(const Json& json) {
+ContentSettings contentFrom(const calibration::Json& json) {
   CalibrateSettings settings;
   stagesFromJson(json, settings);
   return settings.content;
@@ -43,30 +43,30 @@ ContentSettings contentFrom(const Json& json) {
 }  // namespace
 
 void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
-  const Json json{{"taken", record.taken},
-                  {"measurement", record.measurement},
-                  {"settings", toJson(record.content)},
-                  {"method", record.figures.method},
-                  {"before", toJson(record.figures.before)},
-                  {"after", toJson(record.figures.after)},
-                  {"reachable", record.figures.reachable}};
+  const calibration::Json json{{"taken", record.taken},
+                               {"measurement", record.measurement},
+                               {"settings", toJson(record.content)},
+                               {"method", record.figures.method},
+                               {"before", toJson(record.figures.before)},
+                               {"after", toJson(record.figures.after)},
+                               {"reachable", record.figures.reachable}};
   writeFileAtomically(folder / fileName, json.dump(2));
 }
 
 std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
   if (!fs::exists(folder / fileName)) return std::nullopt;
   try {
-    const Json json = Json::parse(readFile(folder / fileName));
+    const calibration::Json json = calibration::Json::parse(readFile(folder / fileName));
     ProofRecord record;
     record.taken = json.at("taken").get<std::string>();
     record.measurement = json.at("measurement").get<std::string>();
     record.content = contentFrom(json.at("settings"));
-    record.figures.method = json.at("method").get<Method>();
+    record.figures.method = json.at("method").get<compensation::Method>();
     record.figures.before = projectionFrom(json.at("before"));
     record.figures.after = projectionFrom(json.at("after"));
     record.figures.reachable = json.at("reachable").get<double>();
     return record;
-  } catch (const Json::exception& cause) {
+  } catch (const calibration::Json::exception& cause) {
     throw Error(ErrorKind::format,
                 RELUCENT_ENGLISH_MESSAGE("calibration.record-verification-photograph-cannot-read",
                                          "the record of the verification photograph cannot be read ({})")
@@ -76,4 +76,4 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

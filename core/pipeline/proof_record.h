@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/content_settings.h"
-#include "pipeline/prove.h"
+#include "relucent/pipeline/content_settings.h"
+#include "relucent/pipeline/prove.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// What is kept of a verification photograph beside its pictures: figures, time, and what it was taken of.
 struct ProofRecord {
@@ -24,4 +24,4 @@ void saveProofRecord(const ProofRecord& record, const std::filesystem::path& fol
 /// None where the folder holds no proof.json. Throws: Error{disk, format} if it cannot be read.
 std::optional<ProofRecord> loadProofRecord(const std::filesystem::path& folder);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

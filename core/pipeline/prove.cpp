@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/prove.h"
+#include "relucent/pipeline/prove.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/stopwatch.h"
-#include "compensation/methods.h"
-#include "compensation/prediction.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "photography/photographer.h"
-#include "pipeline/devices.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/projection.h"
-#include "pipeline/report_pictures.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/compensation/prediction.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/photography/photographer.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/report_pictures.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
@@ -29,14 +29,14 @@ constexpr int gap = 4;                    // pixels between the pictures of the 
 struct Photographed {
   ProvedProjection error;
   Stack camera;  // radiance
-  Image deltaE;
+  image::Image deltaE;
 };
 
-PictureError errorOf(const Prediction& seen) {
+PictureError errorOf(const compensation::Prediction& seen) {
   return {seen.psnrReachable, seen.meanDeltaE};
 }
 
-double surpriseOf(const Stack& measured, const Stack& predicted, const Target& target) {
+double surpriseOf(const Stack& measured, const Stack& predicted, const compensation::Target& target) {
   double apart = 0.0, light = 0.0;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (!target.inside[i / 3]) continue;
@@ -48,7 +48,7 @@ double surpriseOf(const Stack& measured, const Stack& predicted, const Target& t
 }
 
 /// A pixel that saturates every exposure is no measurement: it counts in neither figure.
-void leaveOut(Target& target, const HdrFrame& frame) {
+void leaveOut(compensation::Target& target, const hdr::HdrFrame& frame) {
   for (std::size_t i = 0; i < target.inside.size(); ++i) {
     if (frame.valid[3 * i] && frame.valid[3 * i + 1] && frame.valid[3 * i + 2]) continue;
     target.inside[i] = target.reachable[i] = 0;
@@ -57,12 +57,12 @@ void leaveOut(Target& target, const HdrFrame& frame) {
 
 /// A projection, as the projectors are given it and as the light that this makes.
 struct Projection {
-  std::vector<Image> drive;
-  Compensation light;
+  std::vector<image::Image> drive;
+  compensation::Compensation light;
 };
 
-Projection projectionOf(Compensation light, const MeasuredCalibration& measured) {
-  std::vector<Image> drive =
+Projection projectionOf(compensation::Compensation light, const MeasuredCalibration& measured) {
+  std::vector<image::Image> drive =
       encodedDrive(light.projector, measured.venue.transport.projectors(), measured.linearization);
   return {std::move(drive), std::move(light)};
 }
@@ -77,9 +77,9 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
                 RELUCENT_ENGLISH_MESSAGE("calibration.give-one-picture-each-projector",
                                          "give one picture for each projector, in their order"));
   Projection result;
-  std::vector<Image> light;
+  std::vector<image::Image> light;
   for (std::size_t projector = 0; projector < pictures.size(); ++projector) {
-    Image drive = readPicture(pictures[projector]).encoded;
+    image::Image drive = image::readPicture(pictures[projector]).encoded;
     Size size = projectors.size(projector);
     if (!(drive.size() == size))
       throw Error(
@@ -93,34 +93,34 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
     light.push_back(measured.linearization.projectors[projector].decode(drive));
     result.drive.push_back(std::move(drive));
   }
-  result.light.projector = stackFromImages(light, projectors);
+  result.light.projector = image::stackFromImages(light, projectors);
   return result;
 }
 
-Photographed photograph(Photographer& photographer, const MeasuredCalibration& measured, Target target,
-                        const Projection& projection, const Progress& progress) {
+Photographed photograph(photography::Photographer& photographer, const MeasuredCalibration& measured,
+                        compensation::Target target, const Projection& projection, const Progress& progress) {
   const Rasters& cameras = measured.venue.transport.cameras();
   const Rasters& projectors = measured.venue.transport.projectors();
-  HdrFrame frame = photographer.takeAll(stackFromImages(projection.drive, projectors), progress);
+  hdr::HdrFrame frame = photographer.takeAll(image::stackFromImages(projection.drive, projectors), progress);
   leaveOut(target, frame);
-  Prediction predicted = predict(measured.venue, target, projection.light);
+  compensation::Prediction predicted = compensation::predict(measured.venue, target, projection.light);
   Photographed result;
   result.camera = frame.radiance;
   result.error.surprise = surpriseOf(frame.radiance, predicted.camera, target);
   result.error.predicted = errorOf(predicted);
-  Prediction seen = compared(std::move(frame.radiance), target, cameras);
+  compensation::Prediction seen = compensation::compared(std::move(frame.radiance), target, cameras);
   result.error.measured = errorOf(seen);
   result.deltaE = std::move(seen.deltaE);
   return result;
 }
 
 /// Pictures of one size side by side, row by row; an empty one leaves its place dark.
-Image sheet(const std::vector<std::vector<Image>>& rows, Size size) {
+image::Image sheet(const std::vector<std::vector<image::Image>>& rows, Size size) {
   int columns = static_cast<int>(rows.front().size()), lines = static_cast<int>(rows.size());
-  Image result({columns * (size.width + gap) - gap, lines * (size.height + gap) - gap}, 3);
+  image::Image result({columns * (size.width + gap) - gap, lines * (size.height + gap) - gap}, 3);
   for (int row = 0; row < lines; ++row)
     for (int column = 0; column < columns; ++column) {
-      const Image& picture = rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+      const image::Image& picture = rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
       if (picture.empty()) continue;
       for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
@@ -131,30 +131,32 @@ Image sheet(const std::vector<std::vector<Image>>& rows, Size size) {
   return result;
 }
 
-std::vector<fs::path> writePictures(const fs::path& out, const Target& target, const Rasters& cameras,
-                                    const Photographed& before, const Photographed& after) {
+std::vector<fs::path> writePictures(const fs::path& out, const compensation::Target& target,
+                                    const Rasters& cameras, const Photographed& before,
+                                    const Photographed& after) {
   createFolder(out);
   std::vector<fs::path> files;
   auto shown = [&](const char* name, const Stack& stack) {
-    Image picture = viewed(imageFromStack(stack, cameras, 0), target.white);
+    image::Image picture = image::viewed(image::imageFromStack(stack, cameras, 0), target.white);
     files.push_back(out / fmt::format("{}.png", name));
-    writePng(files.back(), picture, 8);
+    image::writePng(files.back(), picture, 8);
     return picture;
   };
   auto measured = [&](const char* name, const Photographed& photographed) {
     files.push_back(out / fmt::format("{}.exr", name));
-    writeExr(files.back(), imageFromStack(photographed.camera, cameras, 0), ExrType::floatType,
-             {{exr_attribute::units, std::string("camera signal per second")}});
+    image::writeExr(files.back(), image::imageFromStack(photographed.camera, cameras, 0),
+                    image::ExrType::floatType,
+                    {{image::exr_attribute::units, std::string("camera signal per second")}});
     files.push_back(out / fmt::format("{}_delta_e.exr", name));
-    writeExr(files.back(), photographed.deltaE, ExrType::floatType,
-             {{exr_attribute::units, std::string("CIEDE2000")}});
+    image::writeExr(files.back(), photographed.deltaE, image::ExrType::floatType,
+                    {{image::exr_attribute::units, std::string("CIEDE2000")}});
     return painted(photographed.deltaE, ColorMap::viridis, 0.0, brightestDeltaE);
   };
-  std::vector<Image> pictures{shown("target", target.wanted), shown("before", before.camera),
-                              shown("after", after.camera)};
-  std::vector<Image> maps{Image(), measured("before", before), measured("after", after)};
+  std::vector<image::Image> pictures{shown("target", target.wanted), shown("before", before.camera),
+                                     shown("after", after.camera)};
+  std::vector<image::Image> maps{image::Image(), measured("before", before), measured("after", after)};
   files.push_back(out / "comparison.png");
-  writePng(files.back(), sheet({pictures, maps}, cameras.size(0)), 8);
+  image::writePng(files.back(), sheet({pictures, maps}, cameras.size(0)), 8);
   return files;
 }
 
@@ -164,25 +166,26 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
-  Image content = readLinearContent(settings.image);
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  image::Image content = image::readLinearContent(settings.image);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
-  const TransportMatrix& transport = measured.venue.transport;
-  Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, path, opening);
+  const transport::TransportMatrix& transport = measured.venue.transport;
+  rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, path, opening);
 
-  Target target = fitTarget(content, measured.venue, settings.target);
-  Compensator compensator(measured.venue, measured.inverse);
+  compensation::Target target = fitTarget(content, measured.venue, settings.target);
+  compensation::Compensator compensator(measured.venue, measured.inverse);
   Progress solving = progress.part(0.2, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
-  Projection plain = projectionOf(compensator.solve(Method::none, target, solving), measured);
+  Projection plain = projectionOf(compensator.solve(compensation::Method::none, target, solving), measured);
   Projection compensated = settings.shown.empty()
                                ? projectionOf(compensator.solve(settings.method, target, solving), measured)
                                : shownProjection(settings.shown, measured);
   ProveResult result;
   result.method = settings.method;
-  result.reachable = predict(measured.venue, target, compensated.light).reachable;
+  result.reachable = compensation::predict(measured.venue, target, compensated.light).reachable;
   if (result.reachable == 0.0)
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.no-part-picture-can-shown",
@@ -194,9 +197,9 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   Progress photographing = progress.part(
       0.25, RELUCENT_MESSAGE("stage.photographing-projections", "Photographing the projections"));
   Stopwatch watch;
-  NoShotLog log;
-  ShotTaker shots(rig, log, "prove");
-  Photographer photographer(shots, measured.linearization);
+  rig::NoShotLog log;
+  rig::ShotTaker shots(rig, log, "prove");
+  photography::Photographer photographer(shots, measured.linearization);
   Photographed before = photograph(photographer, measured, target, plain, photographing);
   photographing.report(0.5);
   Photographed after = photograph(photographer, measured, target, compensated, photographing);
@@ -217,9 +220,9 @@ ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings
   return proved(path, settings, RigSource(cache), progress);
 }
 
-ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, Rig& rig,
+ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, rig::Rig& rig,
                              Progress& progress) {
   return proved(path, settings, RigSource(rig), progress);
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "compensation/method.h"
-#include "compensation/target.h"
-#include "pipeline/rig_settings.h"
-#include "rig/rig.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/method.h"
+#include "relucent/compensation/target.h"
+#include "relucent/pipeline/rig_settings.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct ProveSettings {
   std::filesystem::path image;  // content, sRGB file or linear EXR
-  Method method = Method::refined;
+  compensation::Method method = compensation::Method::refined;
   /// What stands on the projectors' displays already, one picture of drive values a projector, whatever made
   /// it: proved in place of what `method` computes. Empty: that.
   std::vector<std::filesystem::path> shown{};
-  TargetSettings target;
+  compensation::TargetSettings target;
   std::filesystem::path out;       // folder; created; files of the same names are replaced
   std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
 };
@@ -41,7 +41,7 @@ struct ProvedProjection {
 };
 
 struct ProveResult {
-  Method method = Method::refined;
+  compensation::Method method = compensation::Method::refined;
   ProvedProjection before;  // the content as it is, in its place: method none
   ProvedProjection after;   // compensated, or what was shown
   double reachable = 0.0;   // share of the content's camera pixels
@@ -62,7 +62,7 @@ struct ProveResult {
 ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings,
                              const std::filesystem::path& cache, Progress& progress);
 /// The same with devices that somebody has open already.
-ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings, Rig& rig,
-                             Progress& progress);
+ProveResult proveCalibration(const std::filesystem::path& folder, const ProveSettings& settings,
+                             rig::Rig& rig, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

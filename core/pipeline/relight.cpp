@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/relight.h"
+#include "relucent/pipeline/relight.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "image/picture_files.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/pictures.h"
-#include "pipeline/projection.h"
+#include "relucent/base/error.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/pictures.h"
+#include "relucent/pipeline/projection.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 /// What relighting starts from, whichever way the light goes.
 struct Opened {
-  std::optional<Image> content;  // none: all white
-  MeasuredVenue venue;
+  std::optional<image::Image> content;  // none: all white
+  compensation::MeasuredVenue venue;
 };
 
 Opened opened(const fs::path& path, const RelightSettings& settings, Progress& progress) {
@@ -25,8 +25,9 @@ Opened opened(const fs::path& path, const RelightSettings& settings, Progress& p
                 RELUCENT_ENGLISH_MESSAGE("calibration.name-file-write", "name the file to write"));
   pictureFormatOf(settings.out);
   Opened result;
-  if (!settings.image.empty()) result.content = readLinearContent(settings.image);
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  if (!settings.image.empty()) result.content = image::readLinearContent(settings.image);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   result.venue = loadMeasuredVenue(folder, progress);
   return result;
 }
@@ -55,4 +56,4 @@ WrittenFiles dual(const fs::path& path, const RelightSettings& settings, Progres
                        "camera signal per second and linear projector drive");
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

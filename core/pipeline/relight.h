@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "pipeline/written_files.h"
+#include "relucent/base/progress.h"
+#include "relucent/pipeline/written_files.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct RelightSettings {
   std::filesystem::path image;  // relight: linear projector pattern or sRGB file; dual: light from the camera
@@ -24,4 +24,4 @@ WrittenFiles relight(const std::filesystem::path& folder, const RelightSettings&
 /// white.
 WrittenFiles dual(const std::filesystem::path& folder, const RelightSettings& settings, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/report.h"
+#include "relucent/pipeline/report.h"
 
 #include <fmt/format.h>
 
@@ -7,21 +7,21 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "image/colour.h"
-#include "pipeline/report_charts.h"
-#include "pipeline/report_html.h"
-#include "pipeline/report_measurement.h"
-#include "pipeline/report_pictures.h"
-#include "pipeline/report_style.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/image/colour.h"
+#include "relucent/pipeline/report_charts.h"
+#include "relucent/pipeline/report_html.h"
+#include "relucent/pipeline/report_measurement.h"
+#include "relucent/pipeline/report_pictures.h"
+#include "relucent/pipeline/report_style.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 constexpr double deltaEScale = 20.0;  // right end of the error maps: far beyond what nobody could miss
 
-double meanOf(const Image& values) {
+double meanOf(const image::Image& values) {
   double sum = 0.0;
   double count = 0.0;
   for (float value : values.data())
@@ -60,16 +60,17 @@ std::string comparison(const ReportComparison& shown) {
   require(
       shown.wanted.size() == shown.uncompensated.size() && shown.wanted.size() == shown.compensated.size(),
       "the pictures of '{}' differ in size", shown.name);
-  Image before = deltaEMap(shown.uncompensated, shown.wanted, shown.white, shown.inside);
-  Image after = deltaEMap(shown.compensated, shown.wanted, shown.white, shown.inside);
+  image::Image before = deltaEMap(shown.uncompensated, shown.wanted, shown.white, shown.inside);
+  image::Image after = deltaEMap(shown.compensated, shown.wanted, shown.white, shown.inside);
   std::string bar =
       legend(ColorMap::cividis, {"0", "5", "10", "15", "20+"}, "Colour error from 0 to 20, CIEDE2000");
   std::string how = shown.truth ? "through the true light transport" : "predicted from the measurement";
 
   std::string body = "<div class=\"pictures\">";
-  body += figure(viewed(shown.wanted, shown.white), "Wanted", "the picture as it should appear.");
-  body += figure(viewed(shown.uncompensated, shown.white), "Uncompensated", "only placed, " + how + ".");
-  body += figure(viewed(shown.compensated, shown.white), "Compensated",
+  body += figure(image::viewed(shown.wanted, shown.white), "Wanted", "the picture as it should appear.");
+  body +=
+      figure(image::viewed(shown.uncompensated, shown.white), "Uncompensated", "only placed, " + how + ".");
+  body += figure(image::viewed(shown.compensated, shown.white), "Compensated",
                  fmt::format("method {}, {}.", nameOf(shown.method), how));
   body += figure(painted(before, ColorMap::cividis, 0.0, deltaEScale), "Error uncompensated",
                  fmt::format("mean colour error ΔE {:.1f}.", meanOf(before)), bar);
@@ -221,4 +222,4 @@ void writeReport(const std::filesystem::path& path, const ReportData& data) {
   writeFileAtomically(path, reportHtml(data));
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

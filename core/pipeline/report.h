@@ -8,25 +8,25 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "compensation/ridge_choice.h"
-#include "image/image.h"
-#include "linearization/linearization.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/stored_settings.h"
-#include "pipeline/versions.h"
-#include "pipeline/written_files.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/ridge_choice.h"
+#include "relucent/image/image.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/versions.h"
+#include "relucent/pipeline/written_files.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// One image before and after, as the first camera sees it. Linear, camera signal per second, one size.
 struct ReportComparison {
-  std::string name;                 // "Evening hills"
-  Method method = Method::refined;  // of `compensated`
-  Image wanted;
-  Image uncompensated;
-  Image compensated;
+  std::string name;                                             // "Evening hills"
+  compensation::Method method = compensation::Method::refined;  // of `compensated`
+  image::Image wanted;
+  image::Image uncompensated;
+  image::Image compensated;
   std::array<float, 3> white{};      // signal of the content's white
   std::vector<std::uint8_t> inside;  // per pixel: the content covers it; empty: everywhere
   double reachable = 0.0;            // share of the content's pixels
@@ -35,7 +35,7 @@ struct ReportComparison {
 
 /// The newest verification photograph: the content, projected as it is and compensated. To look at.
 struct ReportVerification {
-  Image wanted, before, after;
+  image::Image wanted, before, after;
   double deltaEBefore = 0.0;  // means over the content, CIEDE2000
   double deltaEAfter = 0.0;
   std::string taken;  // when, ISO 8601
@@ -49,15 +49,15 @@ struct ReportData {
   std::string measured;  // when, ISO 8601
   Size projector;
   Size camera;
-  CalibrateResult result;                     // its findings too
-  std::vector<ProjectorResponse> responses;   // per projector
-  std::vector<double> additivityError;        // per projector
-  std::vector<double> exposures;              // seconds
-  Image flood;                                // T 1, less e: camera signal per second
-  Image black;                                // e
-  std::vector<std::uint8_t> flagged;          // per camera pixel
-  std::vector<std::uint64_t> leavesPerLevel;  // level 0 first: single pixels, then 2x2, ...
-  std::vector<RidgeTrial> ridgeCurve;         // how the inverse's ridge was found, and which it is
+  CalibrateResult result;                                   // its findings too
+  std::vector<linearization::ProjectorResponse> responses;  // per projector
+  std::vector<double> additivityError;                      // per projector
+  std::vector<double> exposures;                            // seconds
+  image::Image flood;                                       // T 1, less e: camera signal per second
+  image::Image black;                                       // e
+  std::vector<std::uint8_t> flagged;                        // per camera pixel
+  std::vector<std::uint64_t> leavesPerLevel;                // level 0 first: single pixels, then 2x2, ...
+  std::vector<compensation::RidgeTrial> ridgeCurve;  // how the inverse's ridge was found, and which it is
   double ridge = 0.0;
   std::vector<ReportComparison> comparisons;
   std::optional<EvaluateResult> evaluation;
@@ -87,4 +87,4 @@ struct ReportSettings {
 WrittenFiles report(const std::filesystem::path& folder, const ReportSettings& settings,
                     const std::filesystem::path& cache, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/report_charts.h"
+#include "relucent/pipeline/report_charts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 std::string open(int width, int height, const std::string& title) {
@@ -66,7 +66,7 @@ std::string escaped(std::string_view raw) {
   return result;
 }
 
-std::string responseChart(const ProjectorResponse& response, const std::string& title) {
+std::string responseChart(const linearization::ProjectorResponse& response, const std::string& title) {
   constexpr double left = 44, top = 16, width = 400, height = 240;
   auto x = [&](double drive) { return left + width * drive; };
   auto y = [&](double light) { return top + height * (1.0 - light); };
@@ -82,7 +82,7 @@ std::string responseChart(const ProjectorResponse& response, const std::string& 
 
   constexpr const char* names[] = {"Red", "Green", "Blue"};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const ResponseCurve& curve = response.channels[channel];
+    const hdr::ResponseCurve& curve = response.channels[channel];
     std::string path;
     for (int i = 0; i <= 64; ++i)
       path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x(i / 64.0), y(curve(i / 64.0)));
@@ -173,4 +173,4 @@ std::string legend(ColorMap map, const std::vector<std::string>& ticks, const st
   return svg + "</svg>";
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

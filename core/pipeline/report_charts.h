@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "linearization/linearization.h"
-#include "pipeline/report_pictures.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/pipeline/report_pictures.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Charts as SVG to stand inside an HTML page whose style sheet colours them (report_style.h). Each has a
 /// title that a screen reader says.
@@ -17,7 +17,7 @@ namespace relucent {
 std::string escaped(std::string_view text);
 
 /// Light over drive of the three channels; colours and marks both differ.
-std::string responseChart(const ProjectorResponse& response, const std::string& title);
+std::string responseChart(const linearization::ProjectorResponse& response, const std::string& title);
 
 struct Bar {
   std::string label;
@@ -35,4 +35,4 @@ std::string histogram(const std::vector<float>& before, const std::vector<float>
 /// A colour bar with ticks evenly spaced from its left to its right end.
 std::string legend(ColorMap map, const std::vector<std::string>& ticks, const std::string& title);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

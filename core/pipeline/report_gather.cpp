@@ -4,32 +4,32 @@
 #include <chrono>
 #include <cmath>
 
-#include "base/error.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "pipeline/evaluation.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/report.h"
-#include "pipeline/standard_images.h"
-#include "pipeline/support_bundle.h"
+#include "relucent/base/error.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/evaluation.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/report.h"
+#include "relucent/pipeline/standard_images.h"
+#include "relucent/pipeline/support_bundle.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 std::string venueSentence(const RigSettings& rig) {
   if (const auto* imported = std::get_if<ImportedRigSettings>(&rig))
     return fmt::format("Imported from {} photographs taken elsewhere", imported->pictures);
-  const auto* simulated = std::get_if<VenueSettings>(&rig);
+  const auto* simulated = std::get_if<venue::VenueSettings>(&rig);
   if (simulated == nullptr) return "Measured with external programs";
-  for (const VenueDescription& venue : venues())
+  for (const venue::VenueDescription& venue : venue::venues())
     if (venue.name == simulated->name)
       return fmt::format("Simulated venue {}: {}", venue.name, venue.sentence);
   return fmt::format("Simulated venue {}", simulated->name);
 }
 
-std::vector<std::uint64_t> leavesPerLevel(const TransportMatrix& transport) {
-  const NodeLayout& layout = transport.layout();
+std::vector<std::uint64_t> leavesPerLevel(const transport::TransportMatrix& transport) {
+  const transport::NodeLayout& layout = transport.layout();
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(layout.levels()));
   for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry)
     ++counts[static_cast<std::size_t>(layout.node(transport.leaves().column(entry)).level)];
@@ -38,10 +38,10 @@ std::vector<std::uint64_t> leavesPerLevel(const TransportMatrix& transport) {
 
 ReportComparison comparisonOf(const EvaluatedPictures& pictures) {
   return {pictures.name,
-          Method::refined,
+          compensation::Method::refined,
           pictures.wanted,
-          pictures.seen.at(Method::none),
-          pictures.seen.at(Method::refined),
+          pictures.seen.at(compensation::Method::none),
+          pictures.seen.at(compensation::Method::refined),
           pictures.white,
           pictures.inside,
           pictures.reachable,
@@ -51,14 +51,14 @@ ReportComparison comparisonOf(const EvaluatedPictures& pictures) {
 /// What T predicts, where the truth is not known.
 ReportComparison predictedComparison(const NamedImage& image, const MeasuredCalibration& measured,
                                      Progress& progress) {
-  const MeasuredVenue& venue = measured.venue;
-  Target target = fitTarget(image.linear, venue, {});
-  Compensator compensator(venue, measured.inverse);
+  const compensation::MeasuredVenue& venue = measured.venue;
+  compensation::Target target = fitTarget(image.linear, venue, {});
+  compensation::Compensator compensator(venue, measured.inverse);
   const Rasters& cameras = venue.transport.cameras();
-  auto predicted = [&](Method method) {
+  auto predicted = [&](compensation::Method method) {
     Stack seen = venue.transport.apply(compensator.solve(method, target, progress).projector);
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += venue.black[i];
-    return imageFromStack(seen, cameras, 0);
+    return image::imageFromStack(seen, cameras, 0);
   };
   std::size_t pixels = cameras.size(0).count();
   std::vector<std::uint8_t> inside(target.inside.begin(),
@@ -70,10 +70,10 @@ ReportComparison predictedComparison(const NamedImage& image, const MeasuredCali
     reachable += target.reachable[i];
   }
   return {image.name,
-          Method::refined,
-          imageFromStack(target.wanted, cameras, 0),
-          predicted(Method::none),
-          predicted(Method::refined),
+          compensation::Method::refined,
+          image::imageFromStack(target.wanted, cameras, 0),
+          predicted(compensation::Method::none),
+          predicted(compensation::Method::refined),
           target.white,
           std::move(inside),
           covered > 0.0 ? reachable / covered : 0.0,
@@ -82,7 +82,7 @@ ReportComparison predictedComparison(const NamedImage& image, const MeasuredCali
 
 /// Mean of a map of CIEDE2000, where there is content.
 double meanDeltaE(const fs::path& map) {
-  Image values = readExr(map).pixels;
+  image::Image values = image::readExr(map).pixels;
   double sum = 0.0, count = 0.0;
   for (float value : values.data())
     if (!std::isnan(value)) {
@@ -100,7 +100,7 @@ std::optional<ReportVerification> verificationIn(const fs::path& calibration, co
   fs::file_time_type taken = fs::last_write_time(photograph, missing);
   if (missing || taken < fs::last_write_time(transport, missing)) return std::nullopt;
   try {
-    auto read = [&](const char* name) { return readPicture(folder / name).encoded; };
+    auto read = [&](const char* name) { return image::readPicture(folder / name).encoded; };
     auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(taken));
     return ReportVerification{read("target.png"),
                               read("before.png"),
@@ -117,11 +117,12 @@ std::optional<ReportVerification> verificationIn(const fs::path& calibration, co
 
 WrittenFiles report(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
                     Progress& progress) {
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
-  const TransportMatrix& transport = measured.venue.transport;
+  const transport::TransportMatrix& transport = measured.venue.transport;
 
   ReportData data;
   data.title = fs::weakly_canonical(folder.path()).filename().string();
@@ -134,8 +135,8 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.responses = measured.linearization.projectors;
   data.additivityError = measured.linearization.additivityError;
   data.exposures = measured.linearization.exposures;
-  data.flood = imageFromStack(measured.venue.flood, transport.cameras(), 0);
-  data.black = imageFromStack(measured.venue.black, transport.cameras(), 0);
+  data.flood = image::imageFromStack(measured.venue.flood, transport.cameras(), 0);
+  data.black = image::imageFromStack(measured.venue.black, transport.cameras(), 0);
   data.flagged.assign(
       measured.acquisition.flagged.begin(),
       measured.acquisition.flagged.begin() + static_cast<std::ptrdiff_t>(data.flood.pixels()));
@@ -144,11 +145,11 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.ridgeCurve = measured.ridgeCurve;
   data.settings = settingsListOf(folder);
   data.libraries = settings.libraries.empty() ? coreLibraries() : settings.libraries;
-  if (auto acquired = folder.latest(Stage::acquisition))
-    data.verification = verificationIn(folder.path(), fileOf(*acquired, "transport.npz"));
+  if (auto acquired = folder.latest(calibration::Stage::acquisition))
+    data.verification = verificationIn(folder.path(), calibration::fileOf(*acquired, "transport.npz"));
 
   Progress comparing = progress.part(0.6, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
-  if (settings.evaluate && std::holds_alternative<VenueSettings>(measured.rig)) {
+  if (settings.evaluate && std::holds_alternative<venue::VenueSettings>(measured.rig)) {
     EvaluateSettings evaluation;
     evaluation.images = settings.images;
     Evaluation judged = evaluated(measured, evaluation, cache, comparing);
@@ -158,7 +159,7 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   } else {
     std::vector<NamedImage> content;
     for (const fs::path& image : settings.images)
-      content.push_back({image.stem().string(), readLinearContent(image)});
+      content.push_back({image.stem().string(), image::readLinearContent(image)});
     if (content.empty()) content = standardImages();
     for (const NamedImage& image : content)
       data.comparisons.push_back(predictedComparison(image, measured, comparing));
@@ -175,4 +176,4 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   return {files};
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

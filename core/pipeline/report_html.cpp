@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/report_html.h"
+#include "relucent/pipeline/report_html.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "pipeline/report_charts.h"
-#include "pipeline/report_pictures.h"
+#include "relucent/pipeline/report_charts.h"
+#include "relucent/pipeline/report_pictures.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 std::string section(const std::string& heading, const std::string& lead, const std::string& body) {
   std::string introduction = lead.empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", escaped(lead));
   return fmt::format("<section><h2>{}</h2>{}{}</section>\n", escaped(heading), introduction, body);
 }
 
-std::string figure(const Image& encoded, const std::string& name, const std::string& caption,
+std::string figure(const image::Image& encoded, const std::string& name, const std::string& caption,
                    const std::string& below) {
   return fmt::format(
       R"(<figure><img src="{}" width="{}" height="{}" alt="{}: {}">{}<figcaption><b>{}</b> {}</figcaption></figure>)",
@@ -46,4 +46,4 @@ std::string decibels(double value) {
   return std::isfinite(value) ? fmt::format("{:.1f} dB", value) : "exact";
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

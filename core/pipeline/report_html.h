@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <string>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
 /// What the sections of a report are made of. Texts are escaped here, `body` and `below` are HTML already.
-namespace relucent {
+namespace relucent::pipeline {
 
 /// `lead`: one sentence below the heading, or empty.
 std::string section(const std::string& heading, const std::string& lead, const std::string& body);
 
 /// An sRGB-encoded picture with its caption; `below`: a legend between both.
-std::string figure(const Image& encoded, const std::string& name, const std::string& caption,
+std::string figure(const image::Image& encoded, const std::string& name, const std::string& caption,
                    const std::string& below = {});
 
 std::string card(const std::string& name, const std::string& value);
@@ -27,4 +27,4 @@ std::string duration(double seconds);
 /// "31.4 dB"; infinity is "exact".
 std::string decibels(double value);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

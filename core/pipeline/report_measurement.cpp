@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/report_measurement.h"
+#include "relucent/pipeline/report_measurement.h"
 
 #include <fmt/format.h>
 
@@ -7,19 +7,19 @@
 #include <array>
 #include <cmath>
 
-#include "image/colour.h"
-#include "pipeline/report_charts.h"
-#include "pipeline/report_html.h"
-#include "pipeline/report_pictures.h"
+#include "relucent/image/colour.h"
+#include "relucent/pipeline/report_charts.h"
+#include "relucent/pipeline/report_html.h"
+#include "relucent/pipeline/report_pictures.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 /// What was tried to find how strongly the inverse has to be damped.
 std::string ridge(const ReportData& data) {
   if (data.ridgeCurve.empty()) return "";
   std::vector<Bar> bars;
-  for (const RidgeTrial& trial : data.ridgeCurve)
+  for (const compensation::RidgeTrial& trial : data.ridgeCurve)
     bars.push_back({fmt::format("{:.3g}", trial.ridge), std::max(0.0, trial.psnr),
                     fmt::format("{:.2f} dB", trial.psnr), trial.ridge == data.ridge});
   return fmt::format(
@@ -35,11 +35,11 @@ std::string measuredPictures(const ReportData& data) {
   if (data.flood.empty()) return {};
   std::array<float, 3> white =
       data.comparisons.empty() ? percentileWhite(data.flood, 0.85) : data.comparisons.front().white;
-  Image reach = reachableLight(data.flood, data.black, white);
+  image::Image reach = reachableLight(data.flood, data.black, white);
   for (float& value : reach.data()) value = value > 0.0f ? std::log2(value) : -100.0f;
 
   std::string body = "<div class=\"pictures\">";
-  body += figure(viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
+  body += figure(image::viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
                  "what the camera sees when every pixel of the projector is fully lit.");
   body += figure(
       painted(reach, ColorMap::viridis, -4.0, 2.0), "Reachable light",
@@ -48,10 +48,10 @@ std::string measuredPictures(const ReportData& data) {
       legend(ColorMap::viridis, {"1/16", "1/4", "1", "4"}, "Reachable light from 1/16 to 4 times white"));
   if (!data.black.empty())
     body += figure(
-        viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
+        image::viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
         "room light and the projector's black, brightened to be seen: nothing can be darker than this.");
   if (data.flagged.size() == data.flood.pixels()) {
-    Image mask(data.flood.size(), 1);
+    image::Image mask(data.flood.size(), 1);
     for (std::size_t i = 0; i < data.flagged.size(); ++i) mask.data()[i] = data.flagged[i] != 0 ? 1.0f : 0.0f;
     body += figure(
         painted(mask, ColorMap::cividis, 0.0, 1.0), "Flagged pixels",
@@ -111,4 +111,4 @@ std::string transport(const ReportData& data) {
                   chart));
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "pipeline/report.h"
+#include "relucent/pipeline/report.h"
 
 /// The sections of a report on what was measured, as HTML; empty where the data has nothing of it.
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Floodlight image, reachable light, black level and flagged pixels.
 std::string measuredPictures(const ReportData& data);
@@ -18,4 +18,4 @@ std::string responses(const ReportData& data);
 /// known.
 std::string transport(const ReportData& data);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/report_pictures.h"
+#include "relucent/pipeline/report_pictures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
-#include "image/colour.h"
-#include "image/picture_files.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/picture_files.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 using Anchors = std::array<std::array<int, 3>, 9>;
@@ -48,9 +48,9 @@ std::array<float, 3> colorOf(ColorMap map, double value) {
   return color;
 }
 
-Image painted(const Image& values, ColorMap map, double low, double high) {
+image::Image painted(const image::Image& values, ColorMap map, double low, double high) {
   require(values.channels() == 1 && high > low, "{} channels, from {} to {}", values.channels(), low, high);
-  Image result(values.size(), 3);
+  image::Image result(values.size(), 3);
   for (std::size_t pixel = 0; pixel < values.pixels(); ++pixel) {
     double value = static_cast<double>(values.data()[pixel]);
     std::array<float, 3> color = std::isnan(value) ? noValue : colorOf(map, (value - low) / (high - low));
@@ -59,14 +59,15 @@ Image painted(const Image& values, ColorMap map, double low, double high) {
   return result;
 }
 
-Image deltaEMap(const Image& a, const Image& b, const std::array<float, 3>& white,
-                const std::vector<std::uint8_t>& inside) {
+image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,
+                       const std::vector<std::uint8_t>& inside) {
   require(a.size() == b.size() && a.channels() == 3 && b.channels() == 3, "images of one size are compared");
-  return deltaEMap(viewed(a, white), viewed(b, white), inside);
+  return deltaEMap(image::viewed(a, white), image::viewed(b, white), inside);
 }
 
-Image reachableLight(const Image& flood, const Image& black, const std::array<float, 3>& white) {
-  Image result(flood.size(), 1);
+image::Image reachableLight(const image::Image& flood, const image::Image& black,
+                            const std::array<float, 3>& white) {
+  image::Image result(flood.size(), 1);
   for (std::size_t pixel = 0; pixel < flood.pixels(); ++pixel) {
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t c = 0; c < 3; ++c) {
@@ -78,7 +79,7 @@ Image reachableLight(const Image& flood, const Image& black, const std::array<fl
   return result;
 }
 
-std::array<float, 3> percentileWhite(const Image& linear, double share) {
+std::array<float, 3> percentileWhite(const image::Image& linear, double share) {
   std::array<float, 3> white{1.0f, 1.0f, 1.0f};
   if (linear.empty()) return white;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -107,8 +108,8 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string pngDataUri(const Image& encoded) {
-  return "data:image/png;base64," + base64(encodePng(encoded, 8));
+std::string pngDataUri(const image::Image& encoded) {
+  return "data:image/png;base64," + base64(image::encodePng(encoded, 8));
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

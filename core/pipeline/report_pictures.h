@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Colour maps that people with any colour vision can read, as anchors evenly spaced from 0 to 1, sRGB.
 /// Source: viridis, van der Walt & Smith 2015; cividis, Nunez, Anderton & Renslow 2018.
@@ -16,21 +16,22 @@ std::array<float, 3> colorOf(ColorMap map, double value);
 
 /// One value a pixel, painted: `low` and below take the map's first colour, `high` and above its last;
 /// pixels that are NaN are dark. Encoded, three channels.
-Image painted(const Image& values, ColorMap map, double low, double high);
+image::Image painted(const image::Image& values, ColorMap map, double low, double high);
 
 /// CIEDE2000 of every pixel as a viewer adapted to `white` sees them; NaN where `inside` is 0.
-Image deltaEMap(const Image& a, const Image& b, const std::array<float, 3>& white,
-                const std::vector<std::uint8_t>& inside);
+image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,
+                       const std::vector<std::uint8_t>& inside);
 
 /// The brightest that each pixel can get, as a multiple of white: min over channels of (flood + black) /
 /// white.
-Image reachableLight(const Image& flood, const Image& black, const std::array<float, 3>& white);
+image::Image reachableLight(const image::Image& flood, const image::Image& black,
+                            const std::array<float, 3>& white);
 
 /// Per channel the value that `share` of the pixels lie below: a white for pictures that have none.
-std::array<float, 3> percentileWhite(const Image& linear, double share);
+std::array<float, 3> percentileWhite(const image::Image& linear, double share);
 
 /// "data:image/png;base64,..." of an encoded image.
-std::string pngDataUri(const Image& encoded);
+std::string pngDataUri(const image::Image& encoded);
 std::string base64(std::string_view bytes);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

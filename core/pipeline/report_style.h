@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// The report's style sheet: the program's own colours, dark, with light paper when it is printed.
 inline constexpr const char* reportStyle = R"css(
@@ -43,4 +43,4 @@ details summary { cursor:pointer; font-weight:600; } details table td { font-fam
   color-scheme:light; } section { break-inside:avoid; } }
 )css";
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

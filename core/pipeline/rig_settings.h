@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
-#include "base/raster.h"
-#include "venue/venue.h"
+#include "relucent/base/raster.h"
+#include "relucent/venue/venue.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// External programs as devices: anybody's camera by script.
 /// {image} in the projector's command is the file to show; {exposure} in the camera's command is the time
@@ -68,7 +68,7 @@ struct ImportedRigSettings {
 
 /// How the rig is made: a simulated venue, external programs, a screen of the desktop, a recording, or none
 /// at all.
-using RigSettings = std::variant<VenueSettings, CommandRigSettings, ImportedRigSettings, ReplayRigSettings,
-                                 ScreenRigSettings>;
+using RigSettings = std::variant<venue::VenueSettings, CommandRigSettings, ImportedRigSettings,
+                                 ReplayRigSettings, ScreenRigSettings>;
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

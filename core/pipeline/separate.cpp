@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/separate.h"
+#include "relucent/pipeline/separate.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "compensation/direct_light.h"
-#include "image/picture_files.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/pictures.h"
-#include "pipeline/projection.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/compensation/direct_light.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/pictures.h"
+#include "relucent/pipeline/projection.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* radianceUnits = "camera signal per second";
 
 /// The two pictures of one camera, EXR and PNG. Both PNG share one white, so that they can be compared.
-void writePair(const fs::path& folder, std::size_t camera, const Image& direct, const Image& indirect,
-               WrittenFiles& written) {
-  Image both = direct;
+void writePair(const fs::path& folder, std::size_t camera, const image::Image& direct,
+               const image::Image& indirect, WrittenFiles& written) {
+  image::Image both = direct;
   for (std::size_t i = 0; i < both.data().size(); ++i) both.data()[i] += indirect.data()[i];
   float white = displayWhite(both);
   for (const char* extension : {".exr", ".png"}) {
@@ -47,12 +47,13 @@ SeparateResult separate(const fs::path& path, const SeparateSettings& settings, 
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
-  std::optional<Image> content;
-  if (!settings.image.empty()) content = readLinearContent(settings.image);
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  std::optional<image::Image> content;
+  if (!settings.image.empty()) content = image::readLinearContent(settings.image);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.7, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredVenue venue = loadMeasuredVenue(folder, loading);
+  compensation::MeasuredVenue venue = loadMeasuredVenue(folder, loading);
 
   const Rasters &projectors = venue.transport.projectors(), &cameras = venue.transport.cameras();
   Stack pattern(3 * projectors.count(), 1.0f);
@@ -60,7 +61,7 @@ SeparateResult separate(const fs::path& path, const SeparateSettings& settings, 
   for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
   Progress separating = progress.part(0.2, RELUCENT_MESSAGE("stage.separating-direct-indirect-light",
                                                             "Separating direct and indirect light"));
-  Stack direct = directPart(venue.transport, settings.direct, separating).apply(pattern);
+  Stack direct = compensation::directPart(venue.transport, settings.direct, separating).apply(pattern);
   Stack indirect = venue.transport.apply(pattern);
   double whole = 0.0, directLight = 0.0;
   for (std::size_t i = 0; i < direct.size(); ++i) {
@@ -74,11 +75,11 @@ SeparateResult separate(const fs::path& path, const SeparateSettings& settings, 
   createFolder(settings.out);
   WrittenFiles written;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
-    writePair(settings.out, camera, imageFromStack(direct, cameras, camera),
-              imageFromStack(indirect, cameras, camera), written);
+    writePair(settings.out, camera, image::imageFromStack(direct, cameras, camera),
+              image::imageFromStack(indirect, cameras, camera), written);
   result.files = std::move(written.files);
   progress.report(1.0);
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

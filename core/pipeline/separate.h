@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "compensation/direct_light.h"
+#include "relucent/base/progress.h"
+#include "relucent/compensation/direct_light.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct SeparateSettings {
   std::filesystem::path image;  // the pattern whose light is separated; empty: all white
   std::filesystem::path out;    // folder; created; files of the same names are replaced
-  DirectLightSettings direct;
+  compensation::DirectLightSettings direct;
 };
 std::vector<Message> problems(const SeparateSettings& settings);
 
@@ -28,4 +28,4 @@ struct SeparateResult {
 SeparateResult separate(const std::filesystem::path& folder, const SeparateSettings& settings,
                         Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

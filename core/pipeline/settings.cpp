@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "base/message.h"
-#include "devices/camera_registry.h"
-#include "pipeline/calibrate_settings.h"
-#include "pipeline/compensate.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/export.h"
-#include "pipeline/import.h"
-#include "pipeline/prove.h"
-#include "pipeline/relight.h"
-#include "pipeline/verify.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/export.h"
+#include "relucent/pipeline/import.h"
+#include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/verify.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 using Problems = std::vector<Message>;
@@ -36,7 +36,7 @@ void checkSize(Problems& problems, DeviceKind device, Size size) {
                                  .with(as::size(size), least, most));
 }
 
-Problems problemsOf(const VenueSettings& settings) {
+Problems problemsOf(const venue::VenueSettings& settings) {
   Problems found;
   checkSize(found, DeviceKind::projector, settings.projector);
   checkSize(found, DeviceKind::camera, settings.camera);
@@ -63,9 +63,9 @@ void checkCommand(Problems& problems, DeviceKind device, const std::string& comm
 }
 
 void checkAddress(Problems& problems, const std::string& camera) {
-  if (!cameraRegistry().addressFrom(camera))
+  if (!devices::cameraRegistry().addressFrom(camera))
     problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-write", "'{}' is no camera: write {}")
-                           .with(camera, cameraRegistry().addressForms()));
+                           .with(camera, devices::cameraRegistry().addressForms()));
 }
 
 template <typename Settings>
@@ -123,8 +123,8 @@ Problems problemsOf(const ImportedRigSettings& settings) {
   return found;
 }
 
-void checkTarget(Problems& problems, const TargetSettings& target) {
-  append(problems, relucent::problems(target));
+void checkTarget(Problems& problems, const compensation::TargetSettings& target) {
+  append(problems, compensation::problems(target));
 }
 
 }  // namespace
@@ -145,8 +145,8 @@ Problems problems(const ContentSettings& settings) {
   return found;
 }
 
-TargetSettings targetOf(const ContentSettings& settings) {
-  TargetSettings target;
+compensation::TargetSettings targetOf(const ContentSettings& settings) {
+  compensation::TargetSettings target;
   target.corners = settings.corners;
   target.fit = settings.fit;
   target.reachablePercentile = settings.reachablePercentile;
@@ -212,4 +212,4 @@ Problems problems(const RelightSettings& settings) {
   return {RELUCENT_ENGLISH_MESSAGE("calibration.no-file-result-given", "no file for the result is given")};
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,30 +1,53 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/settings_json.h"
+#include "relucent/pipeline/settings_json.h"
 
-#include "base/error.h"
-#include "calibration/enum_json.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/enum_json.h"
 
+// Each in its type's namespace, as the library looks for them there.
 namespace relucent {
-
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Size, width, height)
+}  // namespace relucent
+
+namespace relucent::linearization {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(LinearizationSettings, levels, shadowPower, noisePairs,
                                                 additivityLimit, seed)
+}  // namespace relucent::linearization
+
+namespace relucent::acquisition {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(AcquisitionSettings, scheme, colours, singleExposure,
                                                 relativeThreshold, absoluteThreshold, dimShare, noiseSigmas,
                                                 references, checkInterval, mayBeMirrored,
                                                 verificationPatterns, flagRelative, flagSigmas, seed)
+}  // namespace relucent::acquisition
+
+namespace relucent::transport {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ThresholdSettings, absolute, shareOfRowMax, energyKept)
+}  // namespace relucent::transport
+
+namespace relucent::inverse {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WindowSettings, tile, rows, ridge)
+}  // namespace relucent::inverse
+
+namespace relucent::clustering {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ClusteringSettings, leastLuminance, leastShare, patchRadius,
                                                 patchCut, rescaling, cap, mostUnknowns)
+}  // namespace relucent::clustering
+
+namespace relucent::pipeline {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContentSettings, picture, method, reachablePercentile,
                                                 blackLift, fit)
+}  // namespace relucent::pipeline
+
+namespace relucent::venue {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBits, cameraBits, contrast,
                                                 gamma, vignetting, fullWell, readElectrons, ambient, drift,
                                                 whiteSegment, flicker, cameraGamma)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(VenueSettings, name, projector, camera, seed, pathsPerPixel,
                                                 devices)
+}  // namespace relucent::venue
 
+namespace relucent::pipeline {
 namespace {
 
 /// What a manifest's rig is made of.
@@ -49,10 +72,10 @@ using Sorted = nlohmann::json;
 }
 
 /// Of content whose place somebody chose: four pairs x, y.
-std::optional<Corners> cornersFromJson(const Sorted& settings) {
+std::optional<compensation::Corners> cornersFromJson(const Sorted& settings) {
   auto content = settings.find("content");
   if (content == settings.end() || !content->contains("corners")) return std::nullopt;
-  return content->at("corners").get<Corners>();
+  return content->at("corners").get<compensation::Corners>();
 }
 
 Sorted commandRigToJson(const CommandRigSettings& settings) {
@@ -145,9 +168,9 @@ ImportedRigSettings importedRigFromJson(const Sorted& json) {
 
 }  // namespace
 
-Json rigToJson(const RigSettings& settings) {
+calibration::Json rigToJson(const RigSettings& settings) {
   struct Writer {
-    Sorted operator()(const VenueSettings& venue) const {
+    Sorted operator()(const venue::VenueSettings& venue) const {
       return {{"kind", RigKind::simulated}, {"venue", venue}};
     }
     Sorted operator()(const ImportedRigSettings& imported) const {
@@ -165,15 +188,15 @@ Json rigToJson(const RigSettings& settings) {
       return {{"kind", kind}, {"commands", commandRigToJson(commands)}};
     }
   };
-  return Json(std::visit(Writer{}, settings));
+  return calibration::Json(std::visit(Writer{}, settings));
 }
 
-RigSettings rigFromJson(const Json& json) {
+RigSettings rigFromJson(const calibration::Json& json) {
   try {
     Sorted sorted(json);
     switch (sorted.at("kind").get<RigKind>()) {
       case RigKind::simulated:
-        return sorted.at("venue").get<VenueSettings>();
+        return sorted.at("venue").get<venue::VenueSettings>();
       case RigKind::replay:
         return ReplayRigSettings{sorted.at("folder")};
       case RigKind::screen:
@@ -193,11 +216,12 @@ RigSettings rigFromJson(const Json& json) {
   }
 }
 
-Json screenToJson(const ScreenRigSettings& settings) {
-  return Json(Sorted{{"display", displayToJson(settings.display)}, {"frame_rate", settings.frameRate}});
+calibration::Json screenToJson(const ScreenRigSettings& settings) {
+  return calibration::Json(
+      Sorted{{"display", displayToJson(settings.display)}, {"frame_rate", settings.frameRate}});
 }
 
-void screenFromJson(const Json& json, ScreenRigSettings& settings) {
+void screenFromJson(const calibration::Json& json, ScreenRigSettings& settings) {
   try {
     Sorted sorted(json);
     settings.display = displayFromJson(sorted.at("display"));
@@ -207,19 +231,19 @@ void screenFromJson(const Json& json, ScreenRigSettings& settings) {
   }
 }
 
-Json stagesToJson(const CalibrateSettings& settings) {
+calibration::Json stagesToJson(const CalibrateSettings& settings) {
   Sorted content = settings.content;
   if (settings.content.corners) content["corners"] = *settings.content.corners;
-  return Json(Sorted{{"linearization", settings.linearization},
-                     {"acquisition", settings.acquisition},
-                     {"threshold", settings.threshold},
-                     {"windows", settings.windows},
-                     {"choose_ridge", settings.chooseRidge},
-                     {"clustering", settings.clustering},
-                     {"content", std::move(content)}});
+  return calibration::Json(Sorted{{"linearization", settings.linearization},
+                                  {"acquisition", settings.acquisition},
+                                  {"threshold", settings.threshold},
+                                  {"windows", settings.windows},
+                                  {"choose_ridge", settings.chooseRidge},
+                                  {"clustering", settings.clustering},
+                                  {"content", std::move(content)}});
 }
 
-void stagesFromJson(const Json& json, CalibrateSettings& settings) {
+void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) {
   try {
     Sorted sorted(json);
     settings.linearization = sorted.value("linearization", settings.linearization);
@@ -235,4 +259,4 @@ void stagesFromJson(const Json& json, CalibrateSettings& settings) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

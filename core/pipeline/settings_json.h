@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "calibration/json_fwd.h"
-#include "pipeline/calibrate_settings.h"
+#include "relucent/calibration/json_fwd.h"
+#include "relucent/pipeline/calibrate_settings.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Settings as the calibration's manifest keeps them. Unknown keys are ignored and missing ones keep their
 /// defaults, so that manifests of other versions open.
-Json rigToJson(const RigSettings& settings);
+calibration::Json rigToJson(const RigSettings& settings);
 /// Throws: Error{format} if the manifest names a kind of rig that this version does not know.
-RigSettings rigFromJson(const Json& json);
+RigSettings rigFromJson(const calibration::Json& json);
 
 /// Where a screen hangs that was measured elsewhere: display and frame rate.
-Json screenToJson(const ScreenRigSettings& settings);
+calibration::Json screenToJson(const ScreenRigSettings& settings);
 /// Puts them in place of those that were measured. Throws: Error{format}.
-void screenFromJson(const Json& json, ScreenRigSettings& settings);
+void screenFromJson(const calibration::Json& json, ScreenRigSettings& settings);
 
-Json stagesToJson(const CalibrateSettings& settings);
+calibration::Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
-void stagesFromJson(const Json& json, CalibrateSettings& settings);
+void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/standard_images.h"
+#include "relucent/pipeline/standard_images.h"
 
 #include <algorithm>
 #include <array>
@@ -7,16 +7,16 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.h"
-#include "image/dead_leaves.h"
-#include "image/drawing.h"
+#include "relucent/base/error.h"
+#include "relucent/image/dead_leaves.h"
+#include "relucent/image/drawing.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
-using namespace drawing;
+using namespace image::drawing;
 
-Image lettering(Size size) {
+image::Image lettering(Size size) {
   cv::Mat picture = canvas(size, {0.92, 0.92, 0.9});
   int half = picture.rows / 2;
   cv::rectangle(picture, cv::Rect(0, half, picture.cols, picture.rows - half), cv::Scalar(0.08, 0.09, 0.12),
@@ -52,7 +52,7 @@ Image lettering(Size size) {
   return finished(picture, size);
 }
 
-Image saturatedColours(Size size) {
+image::Image saturatedColours(Size size) {
   cv::Mat picture = canvas(size, {0.5, 0.5, 0.5});
   double columns = picture.cols;
   double rows = picture.rows;
@@ -80,9 +80,9 @@ Image saturatedColours(Size size) {
 std::vector<NamedImage> standardImages(Size size) {
   require(size.width >= 8 && size.height >= 8, "no picture can be drawn in {}x{} pixels", size.width,
           size.height);
-  return {{"natural", deadLeaves(size, 20071028)},
+  return {{"natural", image::deadLeaves(size, 20071028)},
           {"text", lettering(size)},
           {"colours", saturatedColours(size)}};
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

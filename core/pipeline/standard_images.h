@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Content with a name, linear RGB in [0, 1].
 struct NamedImage {
   std::string name;
-  Image linear;
+  image::Image linear;
 };
 
 /// The three pictures that every method is judged on when no others are given, drawn and not photographed,
@@ -22,4 +22,4 @@ struct NamedImage {
 /// Source: Lee, Mumford & Huang, "Occlusion models for natural images", IJCV 2001.
 std::vector<NamedImage> standardImages(Size size = {480, 360});
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/stored_settings.h"
+#include "relucent/pipeline/stored_settings.h"
 
 #include <fmt/format.h>
 
-#include "base/error.h"
-#include "calibration/json.h"
-#include "pipeline/settings_json.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/json.h"
+#include "relucent/pipeline/settings_json.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 /// In a manifest's settings: where the projector's screen hangs now, if not where it was measured. No
 /// fingerprint knows it.
 constexpr const char* movedScreen = "screen";
 
-void flatten(const Json& json, const std::string& name, std::vector<StoredSetting>& list) {
+void flatten(const calibration::Json& json, const std::string& name, std::vector<StoredSetting>& list) {
   if (json.is_object())
     for (const auto& [key, value] : json.items()) flatten(value, name.empty() ? key : name + "." + key, list);
   else
@@ -23,11 +23,12 @@ void flatten(const Json& json, const std::string& name, std::vector<StoredSettin
 
 }  // namespace
 
-CalibrationFolder createCalibration(const std::filesystem::path& path, const CalibrateSettings& settings) {
-  return CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+calibration::CalibrationFolder createCalibration(const std::filesystem::path& path,
+                                                 const CalibrateSettings& settings) {
+  return calibration::CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
 }
 
-CalibrateSettings settingsOf(const CalibrationFolder& folder) {
+CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
   CalibrateSettings settings;
   settings.rig = measuredRigOf(folder);
   auto* screen = std::get_if<ScreenRigSettings>(&settings.rig);
@@ -37,25 +38,25 @@ CalibrateSettings settingsOf(const CalibrationFolder& folder) {
   return settings;
 }
 
-std::vector<StoredSetting> settingsListOf(const CalibrationFolder& folder) {
+std::vector<StoredSetting> settingsListOf(const calibration::CalibrationFolder& folder) {
   std::vector<StoredSetting> list;
   flatten(folder.settings(), "", list);
   return list;
 }
 
-RigSettings measuredRigOf(const CalibrationFolder& folder) {
+RigSettings measuredRigOf(const calibration::CalibrationFolder& folder) {
   return rigFromJson(folder.rig());
 }
 
-void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings) {
+void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSettings& settings) {
   // Sections of other versions stay.
-  Json changed = folder.settings();
+  calibration::Json changed = folder.settings();
   changed.update(stagesToJson(settings));
   folder.setSettings(std::move(changed));
 }
 
-void changeRig(CalibrationFolder& folder, const RigSettings& rig) {
-  if (folder.latest(Stage::linearization))
+void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
+  if (folder.latest(calibration::Stage::linearization))
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.response-devices-been-measured-already",
                                          "the response of these devices has been measured already"),
@@ -68,14 +69,14 @@ void changeRig(CalibrationFolder& folder, const RigSettings& rig) {
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-try-again",
                                          "change that setting and try again"));
-  if (Json asked = folder.settings(); asked.contains(movedScreen)) {
+  if (calibration::Json asked = folder.settings(); asked.contains(movedScreen)) {
     asked.erase(movedScreen);
     folder.setSettings(std::move(asked));
   }
   folder.setRig(rigToJson(rig));
 }
 
-void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen) {
+void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen) {
   const RigSettings measured = measuredRigOf(folder);
   const auto* before = std::get_if<ScreenRigSettings>(&measured);
   if (before == nullptr)
@@ -93,9 +94,9 @@ void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen) {
                 RELUCENT_ENGLISH_MESSAGE("calibration.choose-screen-same-resolution",
                                          "choose a screen of the same resolution"),
                 folder.path().string());
-  Json settings = folder.settings();
+  calibration::Json settings = folder.settings();
   settings[movedScreen] = screenToJson(screen);
   folder.setSettings(std::move(settings));
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -5,17 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_folder.h"
-#include "pipeline/calibrate_settings.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/calibrate_settings.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// A new calibration in which nothing has been measured, with whatever settings.
 /// Throws: as CalibrationFolder::create().
-CalibrationFolder createCalibration(const std::filesystem::path& path, const CalibrateSettings& settings);
+calibration::CalibrationFolder createCalibration(const std::filesystem::path& path,
+                                                 const CalibrateSettings& settings);
 
 /// What a calibration was asked for, with the screen that it uses now. Throws: Error{format}.
-CalibrateSettings settingsOf(const CalibrationFolder& folder);
+CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder);
 
 /// A setting as the manifest has it: "acquisition.relativeThreshold", "0.008".
 struct StoredSetting {
@@ -23,23 +24,23 @@ struct StoredSetting {
   std::string value;
 };
 /// All of them, those of other versions too, for people to read.
-std::vector<StoredSetting> settingsListOf(const CalibrationFolder& folder);
+std::vector<StoredSetting> settingsListOf(const calibration::CalibrationFolder& folder);
 
 /// The devices as they were when the calibration was begun: the screen at its place of then.
 /// Throws: Error{format}.
-RigSettings measuredRigOf(const CalibrationFolder& folder);
+RigSettings measuredRigOf(const calibration::CalibrationFolder& folder);
 
 /// Changes what later runs are asked for, and nothing else: the rig is what the calibration was begun with.
-void changeSettings(CalibrationFolder& folder, const CalibrateSettings& settings);
+void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSettings& settings);
 
 /// Exchanges the devices of a calibration with which nothing has been measured yet.
 /// Throws: Error{input} if something has, or for settings with problems(); Error{disk}.
-void changeRig(CalibrationFolder& folder, const RigSettings& rig);
+void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig);
 
 /// Uses the calibration with another screen: the projector's cable hangs elsewhere than when it was measured,
 /// or another projector stands in its place. Nothing becomes stale: the same projector shines as it did, and
 /// whether it is the same is for a verification to say. Of `screen` display and frame rate are taken.
 /// Throws: Error{input} if the projector is no screen, or one of other pixels; Error{disk}.
-void changeScreen(CalibrationFolder& folder, const ScreenRigSettings& screen);
+void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/support_bundle.h"
+#include "relucent/pipeline/support_bundle.h"
 
 #include <fmt/format.h>
 #include <zip.h>
 
 #include <map>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "calibration/calibration_folder.h"
-#include "pipeline/versions.h"
-#include "platform/system_description.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/versions.h"
+#include "relucent/platform/system_description.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
@@ -67,8 +67,8 @@ void writeZip(const fs::path& path, const Entries& entries) {
 }  // namespace
 
 ReportData withoutPhotographs(ReportData data) {
-  data.flood = Image();
-  data.black = Image();
+  data.flood = image::Image();
+  data.black = image::Image();
   data.flagged.clear();
   data.comparisons.clear();
   data.verification.reset();
@@ -77,10 +77,10 @@ ReportData withoutPhotographs(ReportData data) {
 
 void writeSupportBundle(const fs::path& calibration, const ReportData& data, const ReportSettings& settings) {
   Entries entries;
-  entries["calibration.relucent"] = readFile(calibration / CalibrationFolder::manifestName);
+  entries["calibration.relucent"] = readFile(calibration / calibration::CalibrationFolder::manifestName);
   entries["report.html"] = reportHtml(settings.photographs ? data : withoutPhotographs(data));
   entries["versions.txt"] = versionText("Relucent", data.libraries);
-  entries["computer.txt"] = systemDescription();
+  entries["computer.txt"] = platform::systemDescription();
   if (settings.photographs) {
     addFolder(entries, calibration, "verification", [](const fs::path&) { return true; });
     addFolder(entries, calibration, "results", isPictureOfTheVenue);
@@ -91,4 +91,4 @@ void writeSupportBundle(const fs::path& calibration, const ReportData& data, con
   writeZip(settings.bundle, entries);
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/verify.h"
+#include "relucent/pipeline/verify.h"
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/stopwatch.h"
-#include "calibration/results.h"
-#include "calibration/stage_progress.h"
-#include "image/stack_files.h"
-#include "pipeline/devices.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/image/stack_files.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/stored_settings.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<fs::path> writeMaps(const fs::path& folder, const Reverification& found, const Rasters& cameras) {
+std::vector<fs::path> writeMaps(const fs::path& folder, const acquisition::Reverification& found,
+                                const Rasters& cameras) {
   createFolder(folder);
   std::vector<fs::path> files;
   auto write = [&](const std::string& name, const Stack& stack, const std::string& units) {
-    for (fs::path& file : writeStack(folder, name, stack, cameras, units)) files.push_back(std::move(file));
+    for (fs::path& file : image::writeStack(folder, name, stack, cameras, units))
+      files.push_back(std::move(file));
   };
   for (std::size_t size = 0; size < found.residual.size(); ++size)
     write(fmt::format("residual-{}", 1 << size), found.residual[size], "camera signal per second");
-  write("changed", stackFromFlags(found.changed), "1 where a pixel sees something else than predicted");
+  write("changed", image::stackFromFlags(found.changed),
+        "1 where a pixel sees something else than predicted");
   return files;
 }
 
@@ -32,10 +35,11 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
                                          "change that setting and start again"));
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   CalibrateSettings calibrated = settingsOf(folder);
-  auto linearized = currentResultOf(folder, Stage::linearization);
-  auto acquired = currentResultOf(folder, Stage::acquisition);
+  auto linearized = calibration::currentResultOf(folder, calibration::Stage::linearization);
+  auto acquired = calibration::currentResultOf(folder, calibration::Stage::acquisition);
   if (!linearized || !acquired)
     throw Error(
         ErrorKind::input,
@@ -44,22 +48,23 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
                                  "finish it first: relucent-cli resume {}")
             .with(path.string()),
         path.string());
-  Linearization linearization = loadLinearization(*linearized);
-  Acquisition acquisition = loadAcquisition(*acquired);
+  linearization::Linearization linearization = calibration::loadLinearization(*linearized);
+  transport::Acquisition acquisition = calibration::loadAcquisition(*acquired);
   progress.report(0.2);
 
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
-  Rig& rig = source.open(settings.rig.value_or(calibrated.rig), acquisition.transport, path, opening);
+  rig::Rig& rig = source.open(settings.rig.value_or(calibrated.rig), acquisition.transport, path, opening);
 
   Progress verifying = progress.part(
       0.6, RELUCENT_MESSAGE("stage.photographing-test-patterns", "Photographing test patterns"));
   Stopwatch watch;
-  NoShotLog log;
-  ShotTaker shots(rig, log, "verify");
+  rig::NoShotLog log;
+  rig::ShotTaker shots(rig, log, "verify");
   VerifyResult result;
   result.errorThen = acquisition.verificationError;
-  result.found = verifyAgain({shots, linearization, calibrated.acquisition}, acquisition, verifying);
-  result.judgement = judge(result.found, result.errorThen);
+  result.found =
+      acquisition::verifyAgain({shots, linearization, calibrated.acquisition}, acquisition, verifying);
+  result.judgement = acquisition::judge(result.found, result.errorThen);
   result.seconds = watch.seconds();
   if (!settings.out.empty())
     result.files = writeMaps(settings.out, result.found, acquisition.transport.cameras());
@@ -74,9 +79,9 @@ VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& setti
   return verified(path, settings, RigSource(cache), progress);
 }
 
-VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, Rig& rig,
+VerifyResult verifyCalibration(const fs::path& path, const VerifySettings& settings, rig::Rig& rig,
                                Progress& progress) {
   return verified(path, settings, RigSource(rig), progress);
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

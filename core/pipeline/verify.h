@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/reverification.h"
-#include "base/progress.h"
-#include "pipeline/rig_settings.h"
-#include "rig/rig.h"
+#include "relucent/acquisition/reverification.h"
+#include "relucent/base/progress.h"
+#include "relucent/pipeline/rig_settings.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 struct VerifySettings {
   std::filesystem::path out;       // folder for maps as EXR; created; empty: none
@@ -20,8 +20,8 @@ struct VerifySettings {
 std::vector<Message> problems(const VerifySettings& settings);
 
 struct VerifyResult {
-  Judgement judgement;
-  Reverification found;
+  acquisition::Judgement judgement;
+  acquisition::Reverification found;
   double errorThen = 0.0;  // of the same patterns when T was measured
   double seconds = 0.0;    // reading and preparing not included
   std::vector<std::filesystem::path> files;
@@ -36,7 +36,7 @@ struct VerifyResult {
 VerifyResult verifyCalibration(const std::filesystem::path& folder, const VerifySettings& settings,
                                const std::filesystem::path& cache, Progress& progress);
 /// The same with devices that somebody has open already.
-VerifyResult verifyCalibration(const std::filesystem::path& folder, const VerifySettings& settings, Rig& rig,
-                               Progress& progress);
+VerifyResult verifyCalibration(const std::filesystem::path& folder, const VerifySettings& settings,
+                               rig::Rig& rig, Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

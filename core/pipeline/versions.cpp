@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/versions.h"
+#include "relucent/pipeline/versions.h"
 
 #include <OpenEXR/OpenEXRConfig.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
-namespace relucent {
+namespace relucent::pipeline {
 namespace {
 
 std::string dotted(unsigned major, unsigned minor, unsigned patch) {
@@ -52,4 +52,4 @@ std::string versionText(const std::string& program, const std::vector<LibraryVer
   return text;
 }
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// A library that Relucent is made with.
 struct LibraryVersion {
@@ -21,4 +21,4 @@ std::vector<LibraryVersion> coreLibraries();
 /// What `--version` prints: "PROGRAM 0.1.0", then a library a line.
 std::string versionText(const std::string& program, const std::vector<LibraryVersion>& libraries);
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::pipeline {
 
 /// Files that an operation wrote.
 struct WrittenFiles {
@@ -15,4 +15,4 @@ struct WrittenFiles {
   std::vector<Message> notes{};  // sentences that whoever reads the files should know
 };
 
-}  // namespace relucent
+}  // namespace relucent::pipeline

@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// An open file descriptor of POSIX that closes itself. Negative: there is none, and errno of who tried to
 /// open it says why. For this folder alone.
@@ -23,4 +23,4 @@ class Descriptor {
   int value_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::platform

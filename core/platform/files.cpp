@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "platform/files.h"
+#include "relucent/platform/files.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 
-#include "platform/descriptor.h"
+#include "relucent/platform/descriptor.h"
 
-namespace relucent {
+namespace relucent::platform {
 namespace fs = std::filesystem;
 namespace {
 
@@ -58,4 +58,4 @@ bool isDiskFull(const std::error_code& code) {
   return code == std::errc::no_space_on_device || code == std::error_code(EDQUOT, std::generic_category());
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

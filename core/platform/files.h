@@ -5,7 +5,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// What came of an operation on a file. `code` is that of the system; none: all went well.
 struct FileOutcome {
@@ -28,4 +28,4 @@ FileOutcome syncFolder(const std::filesystem::path& path);
 /// The disk, or the user's share of it, has no room left.
 bool isDiskFull(const std::error_code& code);
 
-}  // namespace relucent
+}  // namespace relucent::platform

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "platform/folder_lock.h"
+#include "relucent/platform/folder_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace relucent {
+namespace relucent::platform {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -38,4 +38,4 @@ FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
   return *this;
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

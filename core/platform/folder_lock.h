@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// A lock on a folder against other programs, let go when it is destroyed and, by the system, when the
 /// program dies. Several readers or one writer. File systems without locks (some network shares) grant all.
@@ -22,4 +22,4 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-}  // namespace relucent
+}  // namespace relucent::platform

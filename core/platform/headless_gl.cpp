@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "platform/headless_gl.h"
+#include "relucent/platform/headless_gl.h"
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace relucent {
+namespace relucent::platform {
 namespace {
 
 bool holds(const char* extensions, std::string_view name) {
@@ -122,4 +122,4 @@ HeadlessGl::Current::~Current() {
   if (made_ && before_ != EGL_NO_CONTEXT) eglMakeCurrent(display_, draw_, read_, before_);
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// An OpenGL context without a window and without a display. It is current only during the lifetime of a
 /// Current, on one thread at a time.
@@ -49,4 +49,4 @@ class HeadlessGl {
   Handle display_, context_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::platform

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "platform/interruption_signals.h"
+#include "relucent/platform/interruption_signals.h"
 
 #include <signal.h>
 
 #include <array>
 #include <atomic>
 
-namespace relucent {
+namespace relucent::platform {
 namespace {
 
 constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
@@ -33,4 +33,4 @@ InterruptionSignals::~InterruptionSignals() {
   called = nullptr;
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

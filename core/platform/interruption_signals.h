@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace relucent {
+namespace relucent::platform {
 
 /// Has a function called, while it lives, whenever the program is asked to end: Ctrl-C in its terminal, the
 /// terminal is closed, the system ends. What was set before comes back. One at a time.
@@ -15,4 +15,4 @@ class InterruptionSignals {
   InterruptionSignals& operator=(const InterruptionSignals&) = delete;
 };
 
-}  // namespace relucent
+}  // namespace relucent::platform

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "platform/process.h"
+#include "relucent/platform/process.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace relucent {
+namespace relucent::platform {
 
 std::uint64_t processNumber() {
   return static_cast<std::uint64_t>(::getpid());
@@ -16,4 +16,4 @@ std::uint64_t peakMemoryBytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in kilobytes
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

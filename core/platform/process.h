@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// A number that no other program on this computer has now.
 std::uint64_t processNumber();
@@ -11,4 +11,4 @@ std::uint64_t processNumber();
 /// The most memory that this program has had resident so far.
 std::uint64_t peakMemoryBytes();
 
-}  // namespace relucent
+}  // namespace relucent::platform

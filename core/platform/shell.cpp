@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "platform/shell.h"
+#include "relucent/platform/shell.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -16,11 +16,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "platform/descriptor.h"
+#include "relucent/platform/descriptor.h"
 
 extern char** environ;
 
-namespace relucent {
+namespace relucent::platform {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -131,4 +131,4 @@ ShellResult runShell(const std::string& command, milliseconds timeout, milliseco
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

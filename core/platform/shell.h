@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// How a command of the shell ended.
 struct ShellResult {
@@ -27,4 +27,4 @@ struct ShellResult {
 ShellResult runShell(const std::string& command, std::chrono::milliseconds timeout,
                      std::chrono::milliseconds grace);
 
-}  // namespace relucent
+}  // namespace relucent::platform

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "platform/system_description.h"
+#include "relucent/platform/system_description.h"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <thread>
 
-namespace relucent {
+namespace relucent::platform {
 
 std::string systemDescription() {
   utsname name{};
@@ -22,4 +22,4 @@ std::string systemDescription() {
   return text;
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

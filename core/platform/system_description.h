@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace relucent {
+namespace relucent::platform {
 
 /// Operating system, processor and memory, some lines for whoever looks into a problem from afar.
 std::string systemDescription();
 
-}  // namespace relucent
+}  // namespace relucent::platform

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "platform/terminal.h"
+#include "relucent/platform/terminal.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace relucent {
+namespace relucent::platform {
 
 int errorTerminalWidth() {
   if (::isatty(STDERR_FILENO) == 0) return 0;
@@ -13,4 +13,4 @@ int errorTerminalWidth() {
   return static_cast<int>(size.ws_col);
 }
 
-}  // namespace relucent
+}  // namespace relucent::platform

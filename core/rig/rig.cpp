@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "rig/rig.h"
+#include "relucent/rig/rig.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::rig {
 namespace {
 
 template <typename Device>
@@ -26,7 +26,7 @@ Rasters Rig::cameraRasters() const {
 }
 
 void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
-  const Image& image = frame.signal;
+  const image::Image& image = frame.signal;
   if (image.size() != size)
     throw Error(ErrorKind::input,
                 RELUCENT_MESSAGE("device.photograph-pixels-announced",
@@ -57,4 +57,4 @@ void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::rig

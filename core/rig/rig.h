@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/raster.h"
-#include "image/image.h"
+#include "relucent/base/raster.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::rig {
 
 /// Names a shot within a calibration: "acquisition" 17. Also the key of a simulated device's noise, so that a
 /// repeated shot has the same noise.
@@ -31,7 +31,7 @@ class Projector {
   /// Shows encoded drive values in [0, 1] (3 channels, this size), rounded to the projector's codes. Returns
   /// when the picture is lit: every exposure that starts afterwards sees this picture and nothing older.
   /// Throws: Error{device}.
-  virtual void show(const Image& encodedDrive) = 0;
+  virtual void show(const image::Image& encodedDrive) = 0;
 };
 
 /// Range of exposure times of a camera.
@@ -49,7 +49,7 @@ struct CaptureRequest {
 
 /// One photograph as delivered by the camera.
 struct RawFrame {
-  Image signal;          // 3 channels, full scale 1; linear unless the camera has a response curve
+  image::Image signal;   // 3 channels, full scale 1; linear unless the camera has a response curve
   int bits = 0;          // signal * (2^bits - 1) are integers; 0: floating point
   double seconds = 0.0;  // exposure time that the camera reports
 };
@@ -82,4 +82,4 @@ struct Rig {
 /// Throws: Error{input} unless `frame` has `size`, three channels and only finite values.
 void checkFrame(const RawFrame& frame, Size size, const std::string& camera);
 
-}  // namespace relucent
+}  // namespace relucent::rig

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "rig/shot.h"
+#include "relucent/rig/shot.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/fingerprint.h"
+#include "relucent/base/error.h"
+#include "relucent/base/fingerprint.h"
 
-namespace relucent {
+namespace relucent::rig {
 namespace {
 
-std::string fingerprintOf(const std::vector<Image>& patterns, const std::vector<double>& exposures) {
+std::string fingerprintOf(const std::vector<image::Image>& patterns, const std::vector<double>& exposures) {
   Fingerprint fingerprint;
-  for (const Image& pattern : patterns)
+  for (const image::Image& pattern : patterns)
     fingerprint.add(pattern.width()).add(pattern.height()).add(pattern.data());
   fingerprint.add(exposures);
   return fingerprint.hex();
@@ -38,7 +38,7 @@ ShotTaker::ShotTaker(Rig& rig, ShotLog& log, std::string stage, Clock clock)
   if (!clock_) clock_ = [] { return std::chrono::steady_clock::now().time_since_epoch(); };
 }
 
-Shot ShotTaker::take(const std::vector<Image>& encodedPatterns, const std::vector<double>& exposures,
+Shot ShotTaker::take(const std::vector<image::Image>& encodedPatterns, const std::vector<double>& exposures,
                      const Progress& progress) {
   require(encodedPatterns.size() == rig_.projectors.size(), "{} patterns for {} projectors",
           encodedPatterns.size(), rig_.projectors.size());
@@ -104,4 +104,4 @@ void ShotTaker::forgetFrom(int shot) {
     log_.forget({stage_, number}, taken_[static_cast<std::size_t>(number)].fingerprint);
 }
 
-}  // namespace relucent
+}  // namespace relucent::rig

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "rig/rig.h"
+#include "relucent/base/progress.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::rig {
 
 /// One pattern photographed by every camera at every exposure of a bracket.
 struct Shot {
@@ -74,7 +74,7 @@ class ShotTaker {
 
   /// Shows `encodedPatterns` (one per projector) and photographs them with each of `exposures` (seconds).
   /// Throws: Error{device, input, disk}; Cancelled.
-  Shot take(const std::vector<Image>& encodedPatterns, const std::vector<double>& exposures,
+  Shot take(const std::vector<image::Image>& encodedPatterns, const std::vector<double>& exposures,
             const Progress& progress);
 
   /// Continues at `shot`, an earlier one: shots that the log holds from there on are read again.
@@ -106,4 +106,4 @@ class ShotTaker {
   std::optional<double> lastEnd_;  // of the last shot, if it was taken, not read
 };
 
-}  // namespace relucent
+}  // namespace relucent::rig

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "rig/watched_rig.h"
+#include "relucent/rig/watched_rig.h"
 
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::rig {
 namespace {
 
 /// The projectors themselves, and what each of several shows: one alone is shown its pattern next anyway.
@@ -16,12 +16,12 @@ class Projectors {
       : projectors_(std::move(projectors)), shown_(projectors_.size()) {}
 
   Projector& at(std::size_t index) const { return *projectors_[index]; }
-  void show(std::size_t index, const Image& encodedDrive) {
+  void show(std::size_t index, const image::Image& encodedDrive) {
     projectors_[index]->show(encodedDrive);
     if (projectors_.size() > 1) shown_[index] = encodedDrive;
   }
   void darken() const {
-    for (const auto& projector : projectors_) projector->show(Image(projector->size(), 3, 0.0f));
+    for (const auto& projector : projectors_) projector->show(image::Image(projector->size(), 3, 0.0f));
   }
   void restoreAllExcept(std::size_t coming) const {
     for (std::size_t i = 0; i < projectors_.size(); ++i)
@@ -30,12 +30,13 @@ class Projectors {
 
  private:
   std::vector<std::unique_ptr<Projector>> projectors_;
-  std::vector<Image> shown_;
+  std::vector<image::Image> shown_;
 };
 
 class PreviousLight : public RigLight {
  public:
-  PreviousLight(const Projectors& projectors, std::size_t coming) : projectors_(projectors), coming_(coming) {}
+  PreviousLight(const Projectors& projectors, std::size_t coming)
+      : projectors_(projectors), coming_(coming) {}
   void darken() override { projectors_.darken(); }
   void restore() override { projectors_.restoreAllExcept(coming_); }
 
@@ -53,7 +54,7 @@ class WatchedProjector : public Projector {
   std::string name() const override { return projectors_->at(index_).name(); }
   Size size() const override { return projectors_->at(index_).size(); }
   int bits() const override { return projectors_->at(index_).bits(); }
-  void show(const Image& encodedDrive) override {
+  void show(const image::Image& encodedDrive) override {
     PreviousLight light(*projectors_, index_);
     watcher_->beforeShowing(index_, light);
     projectors_->show(index_, encodedDrive);
@@ -99,4 +100,4 @@ Rig watched(Rig rig, std::shared_ptr<RigWatcher> watcher) {
   return rig;
 }
 
-}  // namespace relucent
+}  // namespace relucent::rig

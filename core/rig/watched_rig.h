@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "rig/rig.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::rig {
 
 /// The pictures of all projectors of a watched rig, for a watcher that pauses them.
 class RigLight {
@@ -24,11 +24,11 @@ class RigWatcher {
   virtual ~RigWatcher() = default;
   /// A pattern is about to be shown. May block to pause a measurement, using `light` to show black meanwhile.
   virtual void beforeShowing(std::size_t /*index*/, RigLight& /*light*/) {}
-  virtual void shown(std::size_t /*index*/, const Image& /*encodedDrive*/) {}
+  virtual void shown(std::size_t /*index*/, const image::Image& /*encodedDrive*/) {}
   virtual void photographed(std::size_t /*index*/, const CaptureRequest&, const RawFrame&) {}
 };
 
 /// Wraps the devices with a watcher. Frames are passed through unchanged.
 Rig watched(Rig rig, std::shared_ptr<RigWatcher> watcher);
 
-}  // namespace relucent
+}  // namespace relucent::rig

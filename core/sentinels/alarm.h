@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 
 /// What a sentinel can find wrong while the light transport is being measured.
 enum class AlarmKind {
@@ -44,4 +44,4 @@ enum class Answer { retry, skip, keepAndStop };
 /// forgetting what is not safe, so that running it again goes on from there.
 using AlarmHandler = std::function<Answer(const Alarm&)>;
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sentinels/inspection.h"
+#include "relucent/sentinels/inspection.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/message.h"
-#include "base/random.h"
-#include "sentinels/movement.h"
+#include "relucent/base/message.h"
+#include "relucent/base/random.h"
+#include "relucent/sentinels/movement.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 namespace {
 
 constexpr std::uint64_t referenceKey = 0x7265666572ULL;
@@ -28,7 +28,7 @@ struct Sum {
   bool isSignificant() const { return std::abs(value) > sigmas * std::sqrt(variance); }
 };
 
-Sum sumOf(const Stack& values, const Stack& variance, const References& references) {
+Sum sumOf(const Stack& values, const Stack& variance, const photography::References& references) {
   Sum sum;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!references.usable[i / 3]) continue;
@@ -63,14 +63,14 @@ std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline,
 }
 
 /// In units of the typical flood.
-double roomLight(const HdrFrame& black, const References& references) {
+double roomLight(const hdr::HdrFrame& black, const photography::References& references) {
   double light = sumOf(black.radiance, black.variance, references).value;
   double whole = static_cast<double>(references.typical) * static_cast<double>(black.radiance.size());
   return whole > 0.0 ? light / whole : 0.0;
 }
 
 std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) {
-  const References& references = baseline.references;
+  const photography::References& references = baseline.references;
   Sum change;
   for (std::size_t i = 0; i < now.black.radiance.size(); ++i) {
     if (!references.usable[i / 3]) continue;
@@ -90,17 +90,17 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
 
 /// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
 struct Views {
-  Image before, after;
+  image::Image before, after;
   double apart = 0.0, whole = 0.0, noise = 0.0;  // squared
   std::size_t changed = 0;                       // pixels off by a share of their own light
 };
 
 Views viewsOf(std::size_t camera, const Check& now, const Baseline& baseline, double power) {
-  const References& references = baseline.references;
+  const photography::References& references = baseline.references;
   const Rasters& cameras = references.cameras;
-  const HdrFrame& first = baseline.first.light;
+  const hdr::HdrFrame& first = baseline.first.light;
   Size size = cameras.size(camera);
-  Views views{Image(size, 1), Image(size, 1)};
+  Views views{image::Image(size, 1), image::Image(size, 1)};
   for (std::size_t i = 0; i < size.count(); ++i) {
     std::size_t row = cameras.offset(camera) + i;
     if (!references.usable[row]) continue;
@@ -198,7 +198,7 @@ Stack referencePattern(const Rasters& projectors) {
   return all;
 }
 
-double lampPower(const Check& now, const Check& first, const References& references) {
+double lampPower(const Check& now, const Check& first, const photography::References& references) {
   double before = 0.0, after = 0.0;
   for (std::size_t i = 0; i < now.light.radiance.size(); ++i) {
     if (!references.usable[i / 3] || !now.light.valid[i] || !first.light.valid[i]) continue;
@@ -209,7 +209,7 @@ double lampPower(const Check& now, const Check& first, const References& referen
 }
 
 Reading readingOf(const Check& now, const Baseline& baseline) {
-  const References& references = baseline.references;
+  const photography::References& references = baseline.references;
   Reading reading;
   reading.roomLight = roomLight(now.black, references);
   reading.roomLightAtFirst = roomLight(baseline.first.black, references);
@@ -241,8 +241,8 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
   return std::nullopt;
 }
 
-std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t projector,
-                                        const References& references, bool mayBeMirrored) {
+std::optional<Alarm> inspectOrientation(const hdr::HdrFrame& light, std::size_t projector,
+                                        const photography::References& references, bool mayBeMirrored) {
   const Rasters& cameras = references.cameras;
   Halves leftRight, upperLower;
   double turned = 0.0, span = 0.0;
@@ -250,7 +250,7 @@ std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t proje
     Size size = cameras.size(camera);
     for (std::size_t i = 0; i < size.count(); ++i) {
       std::size_t row = cameras.offset(camera) + i;
-      const ColourBlock& flood = references.root[projector][row];
+      const transport::ColourBlock& flood = references.root[projector][row];
       double weight = static_cast<double>(flood.sum());
       if (!references.usable[row] || !(weight > static_cast<double>(references.typical))) continue;
       Eigen::Vector3f seen(light.radiance[3 * row], light.radiance[3 * row + 1], light.radiance[3 * row + 2]);
@@ -284,4 +284,4 @@ std::optional<Alarm> inspectOrientation(const HdrFrame& light, std::size_t proje
   return std::nullopt;
 }
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

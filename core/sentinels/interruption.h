@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-namespace relucent {
+namespace relucent::sentinels {
 
 /// Why a measurement does not simply go on after an alarm.
 enum class Interruption {
@@ -36,4 +36,4 @@ class [[nodiscard]] Interruptible {
   std::variant<Value, Interruption> content_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

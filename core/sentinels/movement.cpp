@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "sentinels/movement.h"
+#include "relucent/sentinels/movement.h"
 
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 namespace {
 
 constexpr int mostRounds = 4;
 
-cv::Mat matOf(const Image& image) {
+cv::Mat matOf(const image::Image& image) {
   return cv::Mat(image.height(), image.width(), CV_32F, const_cast<float*>(image.data().data())).clone();
 }
 
@@ -48,7 +48,7 @@ cv::Mat moved(const cv::Mat& first, cv::Point2d shift, double turn) {
 
 }  // namespace
 
-Movement movementBetween(const Image& first, const Image& now) {
+Movement movementBetween(const image::Image& first, const image::Image& now) {
   require(first.size() == now.size() && first.channels() == 1 && now.channels() == 1,
           "views of {}x{} and {}x{} pixels", first.width(), first.height(), now.width(), now.height());
   Movement movement;
@@ -78,4 +78,4 @@ Movement movementBetween(const Image& first, const Image& now) {
   return movement;
 }
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

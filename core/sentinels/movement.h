@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 
 /// How a view has moved.
 struct Movement {
@@ -15,6 +15,6 @@ struct Movement {
 /// The rigid movement that takes `first` to `now`: shift by phase correlation, rotation from the shifts of
 /// the four quarters against each other.  Shapes: one channel each, the same size. Source: Kuglin & Hines
 /// 1975, as cv::phaseCorrelate.
-Movement movementBetween(const Image& first, const Image& now);
+Movement movementBetween(const image::Image& first, const image::Image& now);
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

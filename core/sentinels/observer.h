@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "sentinels/alarm.h"
+#include "relucent/sentinels/alarm.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 
 /// Beyond these the sentinels raise an alarm: more than drift does between two checks.
 namespace reading_limit {
@@ -60,4 +60,4 @@ class AcquisitionObserver {
   virtual void grew(const std::vector<int>& /*levels*/, int /*through*/) {}
 };
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

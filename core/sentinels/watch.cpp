@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sentinels/watch.h"
+#include "relucent/sentinels/watch.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 namespace {
 
 // Total light of equal patterns may differ by this much from round to round, drift taken out.
@@ -23,7 +23,7 @@ Stack black(const Rasters& projectors) {
   return Stack(3 * projectors.count(), 0.0f);
 }
 
-HdrFrame lessBlack(HdrFrame frame, const HdrFrame& black) {
+hdr::HdrFrame lessBlack(hdr::HdrFrame frame, const hdr::HdrFrame& black) {
   parallelFor(0, frame.radiance.size(), 4096, [&](std::size_t i) {
     frame.radiance[i] -= black.radiance[i];
     frame.variance[i] += black.variance[i];
@@ -32,7 +32,7 @@ HdrFrame lessBlack(HdrFrame frame, const HdrFrame& black) {
   return frame;
 }
 
-HdrFrame brightenedBy(double factor, HdrFrame frame) {
+hdr::HdrFrame brightenedBy(double factor, hdr::HdrFrame frame) {
   auto scale = static_cast<float>(factor);
   parallelFor(0, frame.radiance.size(), 4096, [&](std::size_t i) {
     frame.radiance[i] *= scale;
@@ -41,7 +41,7 @@ HdrFrame brightenedBy(double factor, HdrFrame frame) {
   return frame;
 }
 
-double deviation(const HdrFrame& a, const HdrFrame& b) {
+double deviation(const hdr::HdrFrame& a, const hdr::HdrFrame& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.radiance.size(); ++i) {
     double apart = static_cast<double>(a.radiance[i] - b.radiance[i]);
@@ -67,7 +67,7 @@ constexpr auto safeBeforeCheck =
     RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the check before is safe");
 
 /// The mean of two estimates of the same, weighted by their variances.
-void join(HdrFrame& into, const HdrFrame& other) {
+void join(hdr::HdrFrame& into, const hdr::HdrFrame& other) {
   parallelFor(0, into.radiance.size(), 4096, [&](std::size_t i) {
     float sum = into.variance[i] + other.variance[i];
     if (!(sum > 0.0f) || !other.valid[i]) return;
@@ -79,8 +79,8 @@ void join(HdrFrame& into, const HdrFrame& other) {
 
 }  // namespace
 
-Watch::Watch(Photographer& photographer, const References& references, const WatchSettings& settings,
-             Supervision& supervision)
+Watch::Watch(photography::Photographer& photographer, const photography::References& references,
+             const WatchSettings& settings, Supervision& supervision)
     : photographer_(photographer),
       shots_(photographer.shots()),
       references_(references),
@@ -88,8 +88,8 @@ Watch::Watch(Photographer& photographer, const References& references, const Wat
       supervision_(supervision),
       black_(references.black) {}
 
-Interruptible<HdrFrame> Watch::photographed(const Photograph& photograph) {
-  HdrFrame frame = photograph();
+Interruptible<hdr::HdrFrame> Watch::photographed(const Photograph& photograph) {
+  hdr::HdrFrame frame = photograph();
   if (auto interrupted = inspectBracket()) return *interrupted;
   return frame;
 }
@@ -97,7 +97,7 @@ Interruptible<HdrFrame> Watch::photographed(const Photograph& photograph) {
 Interruptible<Check> Watch::photographCheck(const Progress& progress) {
   photographedBefore_ = shots_.times().shots;
   const Rasters& projectors = references_.projectors;
-  auto black = photographed([&] { return photographer_.takeAll(relucent::black(projectors), progress); });
+  auto black = photographed([&] { return photographer_.takeAll(sentinels::black(projectors), progress); });
   if (!black) return black.interruption();
   auto light = photographed([&] { return photographer_.takeAll(referencePattern(projectors), progress); });
   if (!light) return light.interruption();
@@ -107,7 +107,7 @@ Interruptible<Check> Watch::photographCheck(const Progress& progress) {
 std::optional<Interruption> Watch::inspectProjectors(const Progress& progress) {
   for (std::size_t projector = 0; projector < references_.projectors.devices(); ++projector) {
     Stack pattern = referencePattern(references_.projectors, projector);
-    HdrFrame light = lessBlack(photographer_.takeAll(pattern, progress), black_);
+    hdr::HdrFrame light = lessBlack(photographer_.takeAll(pattern, progress), black_);
     std::optional<Alarm> alarm = inspectOrientation(light, projector, references_, settings_.mayBeMirrored);
     if (!alarm) continue;
     if (auto interrupted = handle(*alarm, 0)) return interrupted;
@@ -208,20 +208,21 @@ void Watch::follow(const Check& check) {
   last_ = {shots_.shots(), lampPower(check, first_, references_)};
 }
 
-Interruptible<HdrFrame> Watch::lightOf(const Photograph& photograph, const Progress& progress) {
+Interruptible<hdr::HdrFrame> Watch::lightOf(const Photograph& photograph, const Progress& progress) {
   if (shots_.shots() - trusted_ >= settings_.checkInterval)
     if (auto interrupted = check(progress)) return *interrupted;
   photographedBefore_ = shots_.times().shots;
-  Interruptible<HdrFrame> frame = photographed(photograph);
+  Interruptible<hdr::HdrFrame> frame = photographed(photograph);
   if (!frame) return frame;
   return brightenedBy(1.0 / power(), lessBlack(*std::move(frame), black_));
 }
 
-Interruptible<HdrFrame> Watch::light(const Stack& pattern, const std::vector<Demand>& demands,
-                                     const Progress& progress, const Meanwhile& meanwhile) {
+Interruptible<hdr::HdrFrame> Watch::light(const Stack& pattern,
+                                          const std::vector<photography::Demand>& demands,
+                                          const Progress& progress, const photography::Meanwhile& meanwhile) {
   auto take = [&] {
     int shot = shots();
-    HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
+    hdr::HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
     if (int again = photographer_.overexposed(); again > 0 && isNew())
       supervision_.observer.takenAgain({shot, again, RetakeReason::overexposed});
     return frame;
@@ -229,9 +230,9 @@ Interruptible<HdrFrame> Watch::light(const Stack& pattern, const std::vector<Dem
   return lightOf(take, progress);
 }
 
-Interruptible<HdrFrame> Watch::lightOfAll(const Stack& pattern, const Progress& progress,
-                                          const Meanwhile& meanwhile) {
+Interruptible<hdr::HdrFrame> Watch::lightOfAll(const Stack& pattern, const Progress& progress,
+                                               const photography::Meanwhile& meanwhile) {
   return lightOf([&] { return photographer_.takeAll(pattern, progress, meanwhile); }, progress);
 }
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

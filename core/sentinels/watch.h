@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "base/message.h"
-#include "photography/photographer.h"
-#include "sentinels/inspection.h"
-#include "sentinels/interruption.h"
-#include "sentinels/observer.h"
+#include "relucent/base/message.h"
+#include "relucent/photography/photographer.h"
+#include "relucent/sentinels/inspection.h"
+#include "relucent/sentinels/interruption.h"
+#include "relucent/sentinels/observer.h"
 
-namespace relucent {
+namespace relucent::sentinels {
 
 /// Who is asked about alarms and told what checks find, and what was decided. Outlives a measurement that
 /// begins again.
@@ -38,13 +38,13 @@ struct WatchSettings {
 class Watch {
  public:
   /// Keeps references: all but the settings outlive it.
-  Watch(Photographer& photographer, const References& references, const WatchSettings& settings,
-        Supervision& supervision);
+  Watch(photography::Photographer& photographer, const photography::References& references,
+        const WatchSettings& settings, Supervision& supervision);
 
   /// As they were measured.
-  const References& references() const { return references_; }
+  const photography::References& references() const { return references_; }
   /// e as it is now. Changes in checks alone.
-  const HdrFrame& black() const { return black_; }
+  const hdr::HdrFrame& black() const { return black_; }
   /// Power of the lamp now, relative to the first check.
   double power() const;
 
@@ -56,10 +56,10 @@ class Watch {
 
   /// Light of a pattern, see Photographer::take. `meanwhile` goes on during that photograph, not during a
   /// check that is due before it: e does not change under its hands. Throws: as check().
-  Interruptible<HdrFrame> light(const Stack& pattern, const std::vector<Demand>& demands,
-                                const Progress& progress, const Meanwhile& meanwhile = {});
-  Interruptible<HdrFrame> lightOfAll(const Stack& pattern, const Progress& progress,
-                                     const Meanwhile& meanwhile = {});
+  Interruptible<hdr::HdrFrame> light(const Stack& pattern, const std::vector<photography::Demand>& demands,
+                                     const Progress& progress, const photography::Meanwhile& meanwhile = {});
+  Interruptible<hdr::HdrFrame> lightOfAll(const Stack& pattern, const Progress& progress,
+                                          const photography::Meanwhile& meanwhile = {});
 
   /// The next one's number.
   int shots() const { return shots_.shots(); }
@@ -71,10 +71,10 @@ class Watch {
     int shot = 0;
     double value = 1.0;
   };
-  using Photograph = std::function<HdrFrame()>;
+  using Photograph = std::function<hdr::HdrFrame()>;
   /// A photograph whose exposures agree, or are accepted though they do not.
-  Interruptible<HdrFrame> photographed(const Photograph& photograph);
-  Interruptible<HdrFrame> lightOf(const Photograph& photograph, const Progress& progress);
+  Interruptible<hdr::HdrFrame> photographed(const Photograph& photograph);
+  Interruptible<hdr::HdrFrame> lightOf(const Photograph& photograph, const Progress& progress);
   Interruptible<Check> photographCheck(const Progress& progress);
   std::optional<Interruption> inspectProjectors(const Progress& progress);
   /// Looks at a check, tells the observer, and handles what it found wrong with the shots from `doubtful` on.
@@ -87,12 +87,12 @@ class Watch {
   bool isNew() const { return shots_.times().shots > photographedBefore_; }
   void follow(const Check& check);
 
-  Photographer& photographer_;
-  ShotTaker& shots_;
-  const References& references_;
+  photography::Photographer& photographer_;
+  rig::ShotTaker& shots_;
+  const photography::References& references_;
   WatchSettings settings_;
   Supervision& supervision_;
-  HdrFrame black_;  // e as it is now
+  hdr::HdrFrame black_;  // e as it is now
   // Its light is that of a later one whose view was accepted, at the power of the first one's lamp.
   Check first_;
   Power last_, beforeLast_;
@@ -101,4 +101,4 @@ class Watch {
   double flicker_ = 0.0;        // the largest contradiction since the last check
 };
 
-}  // namespace relucent
+}  // namespace relucent::sentinels

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/message.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// The light transport of a venue, measured there or estimated from pictures of it, with what is known of its
 /// errors. Finished where it is made; nothing of it changes afterwards.
@@ -27,4 +27,4 @@ struct Acquisition {
   std::vector<Message> findings;  // sentences
 };
 
-}  // namespace relucent
+}  // namespace relucent::transport

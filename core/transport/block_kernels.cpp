@@ -3,13 +3,13 @@
 // too small for wider vectors to help. The version for newer processors is chosen when the program runs,
 // because one package must be right on all of them; by hand, because the loader would ask for the choice
 // (target_clones) before the sanitizers are ready.
-#include "transport/block_kernels.h"
+#include "relucent/transport/block_kernels.h"
 
 #include <cstring>
 
-#include "transport/code_lanes.h"
+#include "relucent/transport/code_lanes.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 using namespace detail;
@@ -127,4 +127,4 @@ std::span<const BlockKernels> blockKernels() {
 #endif
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace relucent {
+namespace relucent::transport {
 
 /// The arrays of a BlockSparse, without owning them.
 struct BlockRows {
@@ -62,4 +62,4 @@ struct BlockKernels {
 /// architecture.
 std::span<const BlockKernels> blockKernels();
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "transport/block_sparse.h"
+#include "relucent/transport/block_sparse.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "transport/block_kernels.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/transport/block_kernels.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr float largestCode = 32767.0f;
@@ -292,4 +292,4 @@ BlockSparseWriter::Code codeOf(const ColourBlock& block, float scale) {
   return code;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

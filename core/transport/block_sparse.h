@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 struct BlockRows;
 
@@ -124,4 +124,4 @@ class BlockSparseWriter {
 /// A block as codes on a row's scale (fullScale / 32767), saturating.
 BlockSparseWriter::Code codeOf(const ColourBlock& block, float scale);
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -6,7 +6,7 @@
 
 /// Four lanes of GCC's vector extensions, supported by Clang too: SSE on x86-64, NEON on arm64. Shared by the
 /// inner loops over 16-bit codes; no other file includes this.
-namespace relucent::detail {
+namespace relucent::transport::detail {
 
 using Floats [[gnu::vector_size(16)]] = float;
 using Integers [[gnu::vector_size(16)]] = std::int32_t;
@@ -29,4 +29,4 @@ RELUCENT_KERNEL Floats floatsOf(Codes halves) {
   return __builtin_convertvector(reinterpret_cast<Integers>(halves), Floats);
 }
 
-}  // namespace relucent::detail
+}  // namespace relucent::transport::detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "transport/cut_estimate.h"
+#include "relucent/transport/cut_estimate.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::transport {
 
 TransportStatistics estimatedAfterCut(const TransportStatistics& whole, double cut) {
   TransportStatistics kept = whole;
@@ -27,4 +27,4 @@ TransportStatistics estimatedAfterCut(const TransportStatistics& whole, double c
   return kept;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

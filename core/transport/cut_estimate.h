@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "transport/statistics.h"
+#include "relucent/transport/statistics.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// What a cut at one strength would leave, as the histogram of all of T has it, without looking at T: bins
 /// wholly or in the part of their width, in log10 of strength, that lies above the cut.
@@ -11,4 +11,4 @@ namespace relucent {
 /// Connections and bytes shrink as leaves do.
 TransportStatistics estimatedAfterCut(const TransportStatistics& whole, double cut);
 
-}  // namespace relucent
+}  // namespace relucent::transport

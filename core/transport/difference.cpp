@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "transport/difference.h"
+#include "relucent/transport/difference.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "transport/statistics.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/transport/statistics.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 using Densities = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -92,4 +92,4 @@ TransportDifference difference(const TransportMatrix& transport, const Transport
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

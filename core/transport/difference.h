@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// Difference between two transport matrices over all single projector pixels:
 ///   frobenius = |T - R|_F / |R|_F,   row error = |T_i - R_i|_F / |R_i|_F.
@@ -20,4 +20,4 @@ struct TransportDifference {
 /// Throws: std::logic_error unless both belong to the same devices.
 TransportDifference difference(const TransportMatrix& transport, const TransportMatrix& reference);
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "transport/expansion.h"
+#include "relucent/transport/expansion.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "base/message.h"
-#include "base/parallel.h"
-#include "base/random.h"
+#include "relucent/base/message.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr std::uint64_t bytesPerBlock = 9 * sizeof(float) + sizeof(std::int32_t);
@@ -135,4 +135,4 @@ PixelExpansion expandedToPixels(const TransportMatrix& transport, const Expansio
   return PixelExpansion(transport, limits);
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/message.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 struct ExpansionLimits {
   std::uint64_t bytes = std::uint64_t{2} << 30;  // of values and indices, 40 a block
@@ -56,4 +56,4 @@ class PixelExpansion {
 
 PixelExpansion expandedToPixels(const TransportMatrix& transport, const ExpansionLimits& limits = {});
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "transport/files.h"
+#include "relucent/transport/files.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <limits>
 #include <new>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "transport/npz.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/transport/npz.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr float largestCode = 32767.0f;
@@ -341,4 +341,4 @@ void saveExpanded(const std::filesystem::path& path, const PixelExpansion& expan
   writer.save(path);
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

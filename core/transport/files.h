@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "transport/expansion.h"
-#include "transport/transport_matrix.h"
+#include "relucent/transport/expansion.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// Block matrices are stored in SciPy's format, as scipy.sparse.save_npz writes a BSR matrix of 3x3 blocks,
 /// so that scipy.sparse.load_npz reads them:
@@ -28,4 +28,4 @@ TransportMatrix loadTransport(const std::filesystem::path& path);
 /// T with a column for every projector pixel, for other programs. Errors as above.
 void saveExpanded(const std::filesystem::path& path, const PixelExpansion& expansion);
 
-}  // namespace relucent
+}  // namespace relucent::transport

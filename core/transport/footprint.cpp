@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "transport/footprint.h"
+#include "relucent/transport/footprint.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 /// Light of the projector pixels of one device that are near one of them.
@@ -30,7 +30,8 @@ double lightNear(const std::vector<float>& luminance, const Rasters& projectors,
 PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near) {
   require(row < transport.cameras().count(), "row {} of {}", row, transport.cameras().count());
   Stack eye(3 * transport.cameras().count(), 0.0f);
-  for (std::size_t channel = 0; channel < 3; ++channel) eye[3 * row + channel] = luminanceWeights[channel];
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    eye[3 * row + channel] = image::luminanceWeights[channel];
   Stack seen = transport.applyTransposed(eye);
 
   PixelFootprint footprint;
@@ -74,8 +75,8 @@ std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pi
   Stack seen = transport.apply(white);
   std::vector<float> luminance(transport.cameras().count());
   for (std::size_t i = 0; i < luminance.size(); ++i)
-    luminance[i] = luminanceOf(seen[3 * i], seen[3 * i + 1], seen[3 * i + 2]);
+    luminance[i] = image::luminanceOf(seen[3 * i], seen[3 * i + 1], seen[3 * i + 2]);
   return luminance;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// A row of T: what one camera pixel sees of every projector pixel.
 struct PixelFootprint {
@@ -32,4 +32,4 @@ std::size_t deviceOfPixel(const Rasters& rasters, std::size_t index);
 /// Contract: pixel < transport.projectors().count().
 std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pixel);
 
-}  // namespace relucent
+}  // namespace relucent::transport

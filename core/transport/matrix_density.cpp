@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "transport/matrix_density.h"
+#include "relucent/transport/matrix_density.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/colour.h"
-#include "transport/block_kernels.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/colour.h"
+#include "relucent/transport/block_kernels.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 /// Where the k-th of `count` pieces of `length` begins.
@@ -33,7 +33,7 @@ float blockLuminance(const std::array<std::int16_t, 9>& code) {
   int red = code[0] + code[1] + code[2];
   int green = code[3] + code[4] + code[5];
   int blue = code[6] + code[7] + code[8];
-  return luminanceOf(static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue));
+  return image::luminanceOf(static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue));
 }
 
 int largestOf(const std::array<std::int16_t, 9>& code) {
@@ -262,4 +262,4 @@ MatrixDensity MatrixPictures::density(const MatrixPart& part, Size cells, Of of,
   return density;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// A rectangle of T over single pixels: rows of all cameras, columns of all projectors, [first, end).
 struct MatrixPart {
@@ -74,4 +74,4 @@ class MatrixPictures {
   std::vector<float> limits_;  // a row's least strength; empty: none
 };
 
-}  // namespace relucent
+}  // namespace relucent::transport

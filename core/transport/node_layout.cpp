@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "transport/node_layout.h"
+#include "relucent/transport/node_layout.h"
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 NodeLayout::NodeLayout(Rasters projectors) : projectors_(std::move(projectors)) {
   grids_.resize(projectors_.devices());
@@ -77,4 +77,4 @@ Node NodeLayout::nodeOver(std::size_t pixel, int level) const {
   return {static_cast<int>(projector), level, place.x >> level, place.y >> level};
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// A node of a projector's mean pyramid: level 0 is the pixels, level l has blocks of 2^l x 2^l pixels,
 /// clipped at the right and lower border if the size is not a power of two.
@@ -77,4 +77,4 @@ class NodeLayout {
   std::size_t count_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "transport/node_layout.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/transport/node_layout.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr std::size_t rowsOfATask = 16;
@@ -138,4 +138,4 @@ void NodeLayout::gatherMeansAdjoint(std::span<float> nodeValues) const {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "transport/npy.h"
+#include "relucent/transport/npy.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cstring>
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr char magic[] = "\x93NUMPY";
@@ -88,4 +88,4 @@ std::optional<NpyHeader> parseNpyDictionary(const std::string& dictionary) {
   return header;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace relucent {
+namespace relucent::transport {
 
 /// Type and shape of an array in a NumPy file: `type` as NumPy writes it ("<f4", "<i8", "|S3"), C order.
 struct NpyHeader {
@@ -29,4 +29,4 @@ std::optional<std::string> readNpyDictionary(const ReadBytes& read);
 /// The array that a dictionary describes; empty for Fortran order and for types without a size.
 std::optional<NpyHeader> parseNpyDictionary(const std::string& dictionary);
 
-}  // namespace relucent
+}  // namespace relucent::transport

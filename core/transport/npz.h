@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "transport/npy.h"
+#include "relucent/base/message.h"
+#include "relucent/transport/npy.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// Writes a NumPy .npz archive (an uncompressed zip of .npy files) whose arrays are produced in pieces while
 /// they are written, so that no array has to be in memory as a whole.
@@ -76,4 +76,4 @@ class NpzReader {
   std::unique_ptr<Archive> archive_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::transport

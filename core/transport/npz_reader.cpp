@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "transport/npz.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/transport/npz.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr std::uint64_t readBytes = 4 << 20;  // read at once: enough for several threads
@@ -183,4 +183,4 @@ std::string NpzReader::text(const std::string& name) const {
   return text;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

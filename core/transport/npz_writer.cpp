@@ -6,11 +6,11 @@
 #include <bit>
 #include <cstring>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "transport/npz.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/transport/npz.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "NumPy files are written in memory order");
@@ -163,4 +163,4 @@ void NpzWriter::save(const std::filesystem::path& path) {
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "transport/statistics.h"
+#include "relucent/transport/statistics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 // Sums are taken in this many fixed parts, so that they are the same bits for every number of threads.
@@ -178,4 +178,4 @@ double cutKeeping(const StrengthHistogram& histogram, double share) {
   return cut;
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

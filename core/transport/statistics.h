@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// Pixels of every node, and the node of the next coarser level that holds it (itself at the top): a table
 /// for loops over all leaves.
@@ -54,4 +54,4 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
 std::vector<double> squaredRowNorms(const TransportMatrix& transport, const NodeTable& nodes,
                                     std::vector<std::uint8_t>* nested = nullptr);
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -3,11 +3,11 @@
 #include <bit>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "transport/statistics.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/transport/statistics.h"
 
-namespace relucent {
+namespace relucent::transport {
 namespace {
 
 constexpr std::size_t parts = 64;
@@ -106,4 +106,4 @@ TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSet
                               flood);
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 TransportMatrix::TransportMatrix(Rasters cameras, Rasters projectors, BlockSparse leaves)
     : cameras_(std::move(cameras)), layout_(std::move(projectors)), leaves_(std::move(leaves)) {
@@ -46,4 +46,4 @@ TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Sta
                          transport.leaves().withRowsScaled(factor));
 }
 
-}  // namespace relucent
+}  // namespace relucent::transport

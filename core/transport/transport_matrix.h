@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
-#include "base/raster.h"
-#include "transport/block_sparse.h"
-#include "transport/node_layout.h"
+#include "relucent/base/message.h"
+#include "relucent/base/raster.h"
+#include "relucent/transport/block_sparse.h"
+#include "relucent/transport/node_layout.h"
 
-namespace relucent {
+namespace relucent::transport {
 
 /// The light transport between all projectors and all cameras of a rig,
 ///   camera = T * projector + e,      T = T' A,
@@ -68,4 +68,4 @@ std::vector<float> thresholdLimits(const TransportMatrix& transport, const Thres
 TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
                             const Stack& flood);
 
-}  // namespace relucent
+}  // namespace relucent::transport

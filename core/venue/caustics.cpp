@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "venue/caustics.h"
+#include "relucent/venue/caustics.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -90,4 +90,4 @@ void Caustics::sortIntoCells() {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

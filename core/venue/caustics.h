@@ -5,10 +5,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "venue/sample_pattern.h"
-#include "venue/scene_rays.h"
+#include "relucent/venue/sample_pattern.h"
+#include "relucent/venue/scene_rays.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Light that reaches opaque surfaces through glass, traced from the projectors and stored where it lands:
 /// paths that no connection from the camera's side can find.
@@ -68,4 +68,4 @@ void Caustics::gather(const Eigen::Vector3f& position, const Eigen::Vector3f& no
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "venue/device_faults.h"
+#include "relucent/venue/device_faults.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 /// The view, shifted and turned about its centre, bilinear; what comes in at the border is its last pixel.
@@ -39,7 +39,7 @@ bool isInside(const DeviceFault& fault, Size size, std::size_t i) {
 
 }  // namespace
 
-std::vector<DeviceFault> FaultSchedule::during(const ShotId& shot) const {
+std::vector<DeviceFault> FaultSchedule::during(const rig::ShotId& shot) const {
   std::vector<DeviceFault> acting;
   for (const DeviceFault& fault : faults)
     if (fault.stage == shot.stage && fault.first <= shot.number && shot.number <= fault.last)
@@ -47,11 +47,11 @@ std::vector<DeviceFault> FaultSchedule::during(const ShotId& shot) const {
   return acting;
 }
 
-Image withFaults(const Image& encodedDrive, const std::vector<DeviceFault>& faults) {
-  Image shown = encodedDrive;
+image::Image withFaults(const image::Image& encodedDrive, const std::vector<DeviceFault>& faults) {
+  image::Image shown = encodedDrive;
   for (const DeviceFault& fault : faults) {
     if (fault.kind != FaultKind::mirroredScreen) continue;
-    Image before = shown;
+    image::Image before = shown;
     for (int y = 0; y < shown.height(); ++y)
       for (int x = 0; x < shown.width(); ++x)
         for (int c = 0; c < shown.channels(); ++c) shown.at(x, y, c) = before.at(shown.width() - 1 - x, y, c);
@@ -83,4 +83,4 @@ Stack withFaults(Stack fromProjectors, const Stack& ambient, Size size, double f
   return fromProjectors;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

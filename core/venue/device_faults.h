@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
-#include "rig/rig.h"
+#include "relucent/image/image.h"
+#include "relucent/rig/rig.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Faults that can be simulated while the devices are used.
 enum class FaultKind {
@@ -39,13 +39,13 @@ struct FaultSchedule {
   std::vector<DeviceFault> faults;
 
   /// The faults that are active during a shot.
-  std::vector<DeviceFault> during(const ShotId& shot) const;
+  std::vector<DeviceFault> during(const rig::ShotId& shot) const;
 };
 
 /// The picture as it reaches the wall.
-Image withFaults(const Image& encodedDrive, const std::vector<DeviceFault>& faults);
+image::Image withFaults(const image::Image& encodedDrive, const std::vector<DeviceFault>& faults);
 /// The light that reaches the sensor. `full`: mean radiance at full light.  Shapes: three channels a pixel.
 Stack withFaults(Stack fromProjectors, const Stack& ambient, Size size, double full, int exposure,
                  const std::vector<DeviceFault>& faults);
 
-}  // namespace relucent
+}  // namespace relucent::venue

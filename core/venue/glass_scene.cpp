@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 
-#include "venue/scenes.h"
+#include "relucent/venue/scenes.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// A wine glass, filled to two thirds. Glass and wine are one solid: their refractive indices are close.
 Scene glassScene(const VenueSettings& settings) {
@@ -29,4 +29,4 @@ Scene glassScene(const VenueSettings& settings) {
   return scene;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "venue/mesh.h"
+#include "relucent/venue/mesh.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -122,4 +122,4 @@ Mesh lathe(const Vector3f& base, std::span<const Vector2f> profile, int segments
   return mesh;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Triangles, counter-clockwise seen from outside. `normals`: per vertex, for smooth shading; empty: flat.
 /// `map`: texture coordinates per vertex.
@@ -42,4 +42,4 @@ Mesh grid(int columns, int rows, bool closed, const std::function<Eigen::Vector3
 /// Both meshes as one.
 Mesh joined(const Mesh& a, const Mesh& b);
 
-}  // namespace relucent
+}  // namespace relucent::venue

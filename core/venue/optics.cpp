@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "venue/optics.h"
+#include "relucent/venue/optics.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
-namespace relucent {
+namespace relucent::venue {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
@@ -88,4 +88,4 @@ Emission ProjectorOptics::emission(const Vector2f& place, const Vector2f& lens) 
   return {{from, path / distance}, strength(tangents) * pixel * cosine * cosine / (distance * distance)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "base/raster.h"
-#include "venue/ray_caster.h"
+#include "relucent/base/raster.h"
+#include "relucent/venue/ray_caster.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Position and orientation of a device; right, up and forward are orthonormal.
 struct Pose {
@@ -77,4 +77,4 @@ struct ProjectorOptics {
 /// Source: Shirley & Chiu, "A low distortion map between disk and square", 1997.
 Eigen::Vector2f discFromSquare(const Eigen::Vector2f& square);
 
-}  // namespace relucent
+}  // namespace relucent::venue

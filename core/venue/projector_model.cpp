@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "venue/projector_model.h"
+#include "relucent/venue/projector_model.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 /// Light that a white segment adds for the colourless part of a picture, relative to the other segments.
@@ -36,7 +36,7 @@ double ProjectorModel::response(std::size_t channel, double drive) const {
   return (1.0 - bend[channel]) * power + bend[channel] * s;
 }
 
-Stack ProjectorModel::light(const Image& encodedDrive) const {
+Stack ProjectorModel::light(const image::Image& encodedDrive) const {
   require(encodedDrive.channels() == 3, "a picture of {} channels for a projector of 3",
           encodedDrive.channels());
   Stack light(encodedDrive.data().size());
@@ -58,4 +58,4 @@ Stack ProjectorModel::light(const Image& encodedDrive) const {
   return light;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

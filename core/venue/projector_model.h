@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "image/image.h"
-#include "venue/venue.h"
+#include "relucent/image/image.h"
+#include "relucent/venue/venue.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// How a projector turns encoded drive into light: codes, a response curve per channel, a white segment.
 class ProjectorModel {
@@ -16,7 +16,7 @@ class ProjectorModel {
 
   int bits() const { return bits_; }
   /// Relative linear light per channel, 0 to 1, for drive in [0, 1] rounded to codes. Three channels each.
-  Stack light(const Image& encodedDrive) const;
+  Stack light(const image::Image& encodedDrive) const;
   /// The response of one channel, strictly increasing from 0 at 0 to 1 at 1; no pure power law.
   double response(std::size_t channel, double drive) const;
   /// What every channel emits at code 0, relative to full drive.
@@ -30,4 +30,4 @@ class ProjectorModel {
   std::array<std::vector<float>, 3> lightOfCode_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "venue/ray_caster.h"
+#include "relucent/venue/ray_caster.h"
 
 #include <tbb/task_arena.h>
 
 #include <cstring>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -13,7 +13,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-namespace relucent {
+namespace relucent::venue {
 
 struct RayCaster::State {
   RTCDevice device = nullptr;
@@ -133,4 +133,4 @@ bool RayCaster::blocked(const Ray& ray, float distance) const {
   return query.tfar < 0.0f;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "venue/mesh.h"
+#include "relucent/venue/mesh.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 struct Ray {
   Eigen::Vector3f origin;
@@ -43,4 +43,4 @@ class RayCaster {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "venue/scenes.h"
+#include "relucent/venue/scenes.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -76,4 +76,4 @@ Scene reliefScene(const VenueSettings& settings) {
   return scene;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "venue/sample_pattern.h"
+#include "relucent/venue/sample_pattern.h"
 
 #include <numeric>
 #include <utility>
 
-#include "base/error.h"
-#include "base/random.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 std::uint32_t radicalInverse(std::uint32_t n) {
@@ -46,4 +46,4 @@ SamplePattern::SamplePattern(int count, std::uint64_t seed) : count_(count) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace relucent {
+namespace relucent::venue {
 
 /// `count` points that cover the unit square evenly, for each of several independent pairs of dimensions.
 /// Source: Kollig & Keller, "Efficient multidimensional sampling", 2002: Sobol's (0, 2)-sequence, randomly
@@ -30,4 +30,4 @@ class SamplePattern {
   std::vector<Eigen::Vector2f> points_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "venue/scattering.h"
+#include "relucent/venue/scattering.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "venue/optics.h"
+#include "relucent/venue/optics.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -89,4 +89,4 @@ Vector3f throughGlass(const Vector3f& direction, const Vector3f& normal, float r
   return (ratio * direction + (ratio * cosineIn - cosineOut) * facing).normalized();
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

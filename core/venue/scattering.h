@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 
-#include "venue/spectra.h"
-#include "venue/texture.h"
+#include "relucent/venue/spectra.h"
+#include "relucent/venue/texture.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// What a surface is made of: diffuse with some gloss, or clear glass.
 struct Material {
@@ -51,4 +51,4 @@ Bounce sampleBounce(const ScatteringPoint& point, const Eigen::Vector2f& sample,
 Eigen::Vector3f throughGlass(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal,
                              float refractiveIndex, float choice);
 
-}  // namespace relucent
+}  // namespace relucent::venue

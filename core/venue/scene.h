@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "venue/mesh.h"
-#include "venue/optics.h"
-#include "venue/scattering.h"
+#include "relucent/venue/mesh.h"
+#include "relucent/venue/optics.h"
+#include "relucent/venue/scattering.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 struct Surface {
   Mesh mesh;
@@ -21,4 +21,4 @@ struct Scene {
   CameraOptics camera;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

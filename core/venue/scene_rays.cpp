@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "venue/scene_rays.h"
+#include "relucent/venue/scene_rays.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -64,4 +64,4 @@ bool SceneRays::free(const SurfacePoint& point, const Vector3f& direction, float
   return !caster_.blocked(leaving(point, direction), distance - 2.0f * clearance);
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

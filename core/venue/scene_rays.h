@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "venue/ray_caster.h"
-#include "venue/scene.h"
+#include "relucent/venue/ray_caster.h"
+#include "relucent/venue/scene.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Where a ray meets a surface of a scene.
 struct SurfacePoint {
@@ -37,4 +37,4 @@ class SceneRays {
   RayCaster caster_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

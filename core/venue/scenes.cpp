@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "venue/scenes.h"
+#include "relucent/venue/scenes.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Array3f;
@@ -141,4 +141,4 @@ Scene buildScene(const VenueSettings& settings) {
   return {};
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

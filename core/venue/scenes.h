@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "venue/scene.h"
-#include "venue/venue.h"
+#include "relucent/venue/scene.h"
+#include "relucent/venue/venue.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// The scene of an available venue (see venues()), with devices of the settings' sizes.
 /// Contract: the name is one of venues().
@@ -20,4 +20,4 @@ Scene statueScene(const VenueSettings& settings);
 Scene glassScene(const VenueSettings& settings);
 Scene reliefScene(const VenueSettings& settings);
 
-}  // namespace relucent
+}  // namespace relucent::venue

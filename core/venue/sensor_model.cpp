@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "venue/sensor_model.h"
+#include "relucent/venue/sensor_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/fingerprint.h"
-#include "base/parallel.h"
-#include "base/random.h"
+#include "relucent/base/error.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 constexpr std::uint64_t flickerKey = 0xf11c;
 constexpr std::uint64_t sensorKey = 0x5e45;
 
-std::uint64_t stageKey(const CaptureRequest& request) {
+std::uint64_t stageKey(const rig::CaptureRequest& request) {
   return Fingerprint().add(request.shot.stage).low();
 }
 
@@ -54,7 +54,7 @@ double SensorModel::granted(double seconds) {
   return std::clamp(seconds, exposures().shortest, exposures().longest);
 }
 
-double SensorModel::lampPower(const CaptureRequest& request) const {
+double SensorModel::lampPower(const rig::CaptureRequest& request) const {
   double power = 1.0 + settings_.drift * request.shot.number / 1000.0;
   if (settings_.flicker > 0.0) {
     Random random({seed_, flickerKey, stageKey(request), static_cast<std::uint64_t>(request.shot.number),
@@ -64,9 +64,10 @@ double SensorModel::lampPower(const CaptureRequest& request) const {
   return std::max(0.0, power);
 }
 
-RawFrame SensorModel::expose(const Stack& radiance, Size size, const CaptureRequest& request) const {
+rig::RawFrame SensorModel::expose(const Stack& radiance, Size size,
+                                  const rig::CaptureRequest& request) const {
   require(radiance.size() == 3 * size.count(), "{} values for {} pixels", radiance.size(), size.count());
-  RawFrame frame{Image(size, 3), settings_.cameraBits, granted(request.seconds)};
+  rig::RawFrame frame{image::Image(size, 3), settings_.cameraBits, granted(request.seconds)};
   float seconds = static_cast<float>(frame.seconds);
   float shotVariance = static_cast<float>(1.0 / settings_.fullWell);
   float readVariance = static_cast<float>(std::pow(settings_.readElectrons / settings_.fullWell, 2.0));
@@ -89,4 +90,4 @@ RawFrame SensorModel::expose(const Stack& radiance, Size size, const CaptureRequ
   return frame;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "image/image.h"
-#include "rig/rig.h"
-#include "venue/venue.h"
+#include "relucent/image/image.h"
+#include "relucent/rig/rig.h"
+#include "relucent/venue/venue.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// How a camera turns light into a photograph.
 ///   z = radiance * seconds;  z' = z + N(0, z / fullWell + (read / fullWell)^2), clipped to [0, 1]
@@ -16,18 +16,18 @@ class SensorModel {
 
   /// The photograph that `request` asks for. The noise depends on the request and the seed alone.
   /// Shapes: radiance of size.count() pixels, three channels.
-  RawFrame expose(const Stack& radiance, Size size, const CaptureRequest& request) const;
+  rig::RawFrame expose(const Stack& radiance, Size size, const rig::CaptureRequest& request) const;
 
   /// Relative power of the lamp while `request` is exposed: drift and flicker.
-  double lampPower(const CaptureRequest& request) const;
+  double lampPower(const rig::CaptureRequest& request) const;
 
   /// The actual exposure time for a requested one of `seconds`.
   static double granted(double seconds);
-  static ExposureRange exposures() { return {1.0 / 8000.0, 4.0}; }
+  static rig::ExposureRange exposures() { return {1.0 / 8000.0, 4.0}; }
 
  private:
   DeviceModelSettings settings_;
   std::uint64_t seed_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

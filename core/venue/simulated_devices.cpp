@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "venue/simulated_devices.h"
+#include "relucent/venue/simulated_devices.h"
 
 #include <fmt/format.h>
 
 #include <mutex>
 
-#include "base/error.h"
-#include "venue/sensor_model.h"
+#include "relucent/base/error.h"
+#include "relucent/venue/sensor_model.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 /// What the projectors of one rig show, and what that looks like to the camera: computed for the first
@@ -30,17 +30,17 @@ class Stage {
     });
     return full_;
   }
-  std::vector<DeviceFault> faultsDuring(const ShotId& shot) const {
+  std::vector<DeviceFault> faultsDuring(const rig::ShotId& shot) const {
     return faults_ ? faults_->during(shot) : std::vector<DeviceFault>{};
   }
   /// What the camera would see of the projectors' pictures, had they these faults.
   Stack lightOfFaultyProjectors(const std::vector<DeviceFault>& faults) {
-    std::vector<Image> shown;
-    for (const Image& picture : shown_) shown.push_back(withFaults(picture, faults));
+    std::vector<image::Image> shown;
+    for (const image::Image& picture : shown_) shown.push_back(withFaults(picture, faults));
     return light_->fromProjectors(shown);
   }
 
-  void show(std::size_t projector, const Image& encodedDrive) {
+  void show(std::size_t projector, const image::Image& encodedDrive) {
     std::lock_guard lock(mutex_);
     if (shown_[projector] == encodedDrive) return;
     shown_[projector] = encodedDrive;
@@ -59,11 +59,11 @@ class Stage {
   std::once_flag fullMade_;
   double full_ = 0.0;
   std::mutex mutex_;
-  std::vector<Image> shown_;
+  std::vector<image::Image> shown_;
   std::shared_ptr<const Stack> current_;
 };
 
-class SimulatedProjector : public Projector {
+class SimulatedProjector : public rig::Projector {
  public:
   SimulatedProjector(std::shared_ptr<Stage> stage, std::size_t index)
       : stage_(std::move(stage)), index_(index) {}
@@ -71,7 +71,7 @@ class SimulatedProjector : public Projector {
   std::string name() const override { return fmt::format("simulated projector {}", index_ + 1); }
   Size size() const override { return stage_->light().layout().projectors().size(index_); }
   int bits() const override { return stage_->light().projectorModel().bits(); }
-  void show(const Image& encodedDrive) override {
+  void show(const image::Image& encodedDrive) override {
     require(encodedDrive.size() == size() && encodedDrive.channels() == 3,
             "a picture of {}x{} pixels, {} channels for a projector of {}x{}", encodedDrive.width(),
             encodedDrive.height(), encodedDrive.channels(), size().width, size().height);
@@ -83,7 +83,7 @@ class SimulatedProjector : public Projector {
   std::size_t index_;
 };
 
-class SimulatedCamera : public Camera {
+class SimulatedCamera : public rig::Camera {
  public:
   explicit SimulatedCamera(std::shared_ptr<Stage> stage)
       : stage_(std::move(stage)),
@@ -91,8 +91,8 @@ class SimulatedCamera : public Camera {
 
   std::string name() const override { return "simulated camera"; }
   Size size() const override { return stage_->light().settings().camera; }
-  ExposureRange exposures() const override { return SensorModel::exposures(); }
-  RawFrame capture(const CaptureRequest& request) override {
+  rig::ExposureRange exposures() const override { return SensorModel::exposures(); }
+  rig::RawFrame capture(const rig::CaptureRequest& request) override {
     std::shared_ptr<const Stack> fromProjectors = stage_->fromProjectors();
     const Stack& ambient = stage_->light().ambient();
     float power = static_cast<float>(sensor_.lampPower(request));
@@ -104,7 +104,8 @@ class SimulatedCamera : public Camera {
   }
 
  private:
-  RawFrame faulty(const CaptureRequest& request, float power, const std::vector<DeviceFault>& faults) {
+  rig::RawFrame faulty(const rig::CaptureRequest& request, float power,
+                       const std::vector<DeviceFault>& faults) {
     Stack light = stage_->lightOfFaultyProjectors(faults);
     for (float& value : light) value *= power;
     Stack view = withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
@@ -118,18 +119,18 @@ class SimulatedCamera : public Camera {
 
 }  // namespace
 
-Rig simulatedRig(std::shared_ptr<const VenueLight> light) {
+rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light) {
   return simulatedRig(std::move(light), nullptr);
 }
 
-Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults) {
+rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults) {
   std::size_t projectors = light->layout().projectors().devices();
   auto stage = std::make_shared<Stage>(std::move(light), std::move(faults));
-  Rig rig;
+  rig::Rig rig;
   for (std::size_t i = 0; i < projectors; ++i)
     rig.projectors.push_back(std::make_unique<SimulatedProjector>(stage, i));
   rig.cameras.push_back(std::make_unique<SimulatedCamera>(stage));
   return rig;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "rig/rig.h"
-#include "venue/device_faults.h"
-#include "venue/venue_light.h"
+#include "relucent/rig/rig.h"
+#include "relucent/venue/device_faults.h"
+#include "relucent/venue/venue_light.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Projectors and camera in front of a simulated venue. The rig's devices belong together: the camera
 /// photographs what these projectors show.
-Rig simulatedRig(std::shared_ptr<const VenueLight> light);
+rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light);
 /// The same with faults, see device_faults.h. The schedule may be changed while the rig is in use.
-Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults);
+rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults);
 
-}  // namespace relucent
+}  // namespace relucent::venue

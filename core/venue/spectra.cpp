@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "venue/spectra.h"
+#include "relucent/venue/spectra.h"
 
 #include <cmath>
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 float wavelength(int band) {
@@ -61,8 +61,8 @@ const std::array<Spectrum, 3>& cameraSensitivities() {
   return sensitivities;
 }
 
-ColourBlock colourBlock(const Spectrum& transport) {
-  ColourBlock block;
+transport::ColourBlock colourBlock(const Spectrum& transport) {
+  transport::ColourBlock block;
   for (std::size_t c = 0; c < 3; ++c) {
     Spectrum seen = cameraSensitivities()[c] * transport;
     for (std::size_t p = 0; p < 3; ++p)
@@ -81,4 +81,4 @@ Eigen::Array3f underRoomLight(const Spectrum& reflectance) {
   return seen;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "transport/block_sparse.h"
+#include "relucent/transport/block_sparse.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Light is carried in twelve bands of 25 nm, centred at 410, 435, ... 685 nm: enough for the colour mixing
 /// to depend on the surface, as in reality.
@@ -25,9 +25,9 @@ const std::array<Spectrum, 3>& cameraSensitivities();
 
 /// Transport `t` per band, converted to a block for three-channel devices: block(c, p) = sum_b S_c(b) t(b)
 /// P_p(b).
-ColourBlock colourBlock(const Spectrum& transport);
+transport::ColourBlock colourBlock(const Spectrum& transport);
 
 /// Camera signal of a surface under room light (warm; 1 in the green channel of a grey surface).
 Eigen::Array3f underRoomLight(const Spectrum& reflectance);
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "venue/scenes.h"
+#include "relucent/venue/scenes.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -34,10 +34,10 @@ Scene statueScene(const VenueSettings& settings) {
   add({0.0f, -0.32f, -0.06f}, {0.31f, 0.17f, 0.15f}, roughStone(0.020f, 3.0f));     // shoulders
   add({0.0f, -0.36f, 0.00f}, {0.22f, 0.20f, 0.15f}, roughStone(0.018f, 9.0f));      // chest
   add({0.0f, -0.09f, -0.03f}, {0.082f, 0.17f, 0.080f}, roughStone(0.006f, 5.0f));   // neck
-  add({0.0f, 0.14f, -0.01f}, {0.128f, 0.175f, 0.155f}, hair);                 // head
+  add({0.0f, 0.14f, -0.01f}, {0.128f, 0.175f, 0.155f}, hair);                       // head
   add({0.0f, 0.060f, 0.040f}, {0.090f, 0.115f, 0.100f}, roughStone(0.004f, 7.0f));  // face
-  add({0.0f, -0.020f, 0.100f}, {0.038f, 0.030f, 0.034f}, {});                 // chin
-  add({0.0f, 0.125f, 0.138f}, {0.017f, 0.052f, 0.022f}, {});                  // nose
+  add({0.0f, -0.020f, 0.100f}, {0.038f, 0.030f, 0.034f}, {});                       // chin
+  add({0.0f, 0.125f, 0.138f}, {0.017f, 0.052f, 0.022f}, {});                        // nose
   add({0.0f, 0.090f, 0.146f}, {0.025f, 0.017f, 0.028f}, {});
   add({0.0f, 0.034f, 0.132f}, {0.032f, 0.0075f, 0.016f}, {});  // lips
   add({0.0f, 0.022f, 0.128f}, {0.026f, 0.0085f, 0.016f}, {});
@@ -56,4 +56,4 @@ Scene statueScene(const VenueSettings& settings) {
   return scene;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

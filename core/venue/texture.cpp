@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "venue/texture.h"
+#include "relucent/venue/texture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Array3f;
@@ -185,4 +185,4 @@ Texture domePaint() {
   };
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

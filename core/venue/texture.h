@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Where a texture is evaluated: a position in the world (metres) and in texture coordinates (metres on flat
 /// surfaces).
@@ -37,4 +37,4 @@ Texture domePaint();
 float smoothNoise(const Eigen::Vector3f& place);
 float fractalNoise(const Eigen::Vector3f& place, int octaves);
 
-}  // namespace relucent
+}  // namespace relucent::venue

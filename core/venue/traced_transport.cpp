@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "venue/traced_transport.h"
+#include "relucent/venue/traced_transport.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 constexpr float largestCode = 32767.0f;
@@ -24,8 +24,8 @@ struct Line {
   Stack flood, roomLight;
 };
 
-void appendRow(const TransportRow& row, const NodeLayout& layout, Line& line) {
-  std::vector<ColourBlock> blocks;
+void appendRow(const TransportRow& row, const transport::NodeLayout& layout, Line& line) {
+  std::vector<transport::ColourBlock> blocks;
   blocks.reserve(row.entries().size());
   float largest = 0.0f;
   Eigen::Vector3f flood = Eigen::Vector3f::Zero();
@@ -116,12 +116,12 @@ TracedTransport traceTransport(const Scene& scene, const TracerSettings& setting
 
   TracedTransport traced;
   traced.fullScale = largestByNode(lines, tracer.layout().count(), factor);
-  BlockSparseBuilder builder(scene.camera.raster.count(), traced.fullScale);
+  transport::BlockSparseBuilder builder(scene.camera.raster.count(), traced.fullScale);
   std::size_t pixel = 0;
   for (Line& line : lines) {
     for (std::size_t i = 0; i < line.scale.size(); ++i, ++pixel) {
       for (std::size_t entry = line.rowStart[i]; entry < line.rowStart[i + 1]; ++entry) {
-        ColourBlock block;
+        transport::ColourBlock block;
         for (std::size_t k = 0; k < 9; ++k)
           block.data()[k] = factor * line.scale[i] * static_cast<float>(line.code[entry][k]);
         builder.add(line.node[entry], pixel, block.transpose());
@@ -134,4 +134,4 @@ TracedTransport traceTransport(const Scene& scene, const TracerSettings& setting
   return traced;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

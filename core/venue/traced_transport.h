@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/progress.h"
-#include "transport/block_sparse.h"
-#include "venue/tracer.h"
+#include "relucent/base/progress.h"
+#include "relucent/transport/block_sparse.h"
+#include "relucent/venue/tracer.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// The traced light transport of a scene, scaled to camera signal per second.
 struct TracedTransport {
   /// Rows: nodes of the projectors' pyramids; columns: camera pixels. Stored transposed because most patterns
   /// are mostly dark, and dark rows are skipped.
-  BlockSparse cameraByNode;
+  transport::BlockSparse cameraByNode;
   /// Full scale of the fixed-point values of each row; together with the values it determines the matrix
   /// exactly.
   std::vector<float> fullScale;
@@ -25,4 +25,4 @@ struct TracedTransport {
 TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
                                Progress& progress);
 
-}  // namespace relucent
+}  // namespace relucent::venue

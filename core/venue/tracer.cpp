@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "venue/tracer.h"
+#include "relucent/venue/tracer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
-#include "venue/caustics.h"
-#include "venue/scene_rays.h"
+#include "relucent/base/random.h"
+#include "relucent/venue/caustics.h"
+#include "relucent/venue/scene_rays.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
@@ -120,9 +120,10 @@ void Tracer::connect(const Path& path, TransportRow& row) const {
 
     float arrival = std::abs(path.scattering.geometricNormal.dot(path.scattering.outgoing));
     float area = path.sinceBounce * path.sinceBounce * path.spread / std::max(arrival, 0.1f);
-    addTransport(path, static_cast<int>(i), connection->place, area * cosine / connection->pixelArea,
-         path.throughput * path.scattering.brdf(connection->direction) * (cosine * connection->irradiance),
-         row);
+    addTransport(
+        path, static_cast<int>(i), connection->place, area * cosine / connection->pixelArea,
+        path.throughput * path.scattering.brdf(connection->direction) * (cosine * connection->irradiance),
+        row);
   }
 }
 
@@ -163,7 +164,7 @@ int Tracer::coarsestLevel(int projector) const {
 }
 
 void Tracer::addTransport(const Path& path, int projector, const Vector2f& place, float pixelsPerPath,
-                  const Spectrum& transport, TransportRow& row) const {
+                          const Spectrum& transport, TransportRow& row) const {
   if (path.bounces == 0) {
     row.add({projector, 0, static_cast<int>(place.x()), static_cast<int>(place.y())}, transport);
     return;
@@ -182,11 +183,11 @@ void Tracer::addTransport(const Path& path, int projector, const Vector2f& place
       float weight = (dx ? tx : 1.0f - tx) * (dy ? ty : 1.0f - ty);
       if (weight <= 0.0f) continue;
       // What would land beside the picture lands on its border: energy stays.
-      Node node{projector, level, std::clamp(x0 + dx, 0, grid.width - 1),
-                std::clamp(y0 + dy, 0, grid.height - 1)};
+      transport::Node node{projector, level, std::clamp(x0 + dx, 0, grid.width - 1),
+                           std::clamp(y0 + dy, 0, grid.height - 1)};
       row.add(node, weight * transport);
     }
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "transport/node_layout.h"
-#include "venue/sample_pattern.h"
-#include "venue/scene.h"
-#include "venue/transport_row.h"
+#include "relucent/transport/node_layout.h"
+#include "relucent/venue/sample_pattern.h"
+#include "relucent/venue/scene.h"
+#include "relucent/venue/transport_row.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 class Caustics;
 class SceneRays;
@@ -36,7 +36,7 @@ class Tracer {
   Tracer(const Scene& scene, const TracerSettings& settings);
   ~Tracer();
 
-  const NodeLayout& layout() const { return layout_; }
+  const transport::NodeLayout& layout() const { return layout_; }
   /// Adds the transport of one camera pixel to `row`; returns the mean reflectance that it sees.
   Spectrum trace(std::size_t cameraPixel, TransportRow& row) const;
 
@@ -47,15 +47,15 @@ class Tracer {
   void gatherCaustics(const Path& path, TransportRow& row) const;
   bool bounce(Path& path) const;
   void addTransport(const Path& path, int projector, const Eigen::Vector2f& place, float pixelsPerPath,
-            const Spectrum& transport, TransportRow& row) const;
+                    const Spectrum& transport, TransportRow& row) const;
   int coarsestLevel(int projector) const;
 
   const Scene& scene_;
   TracerSettings settings_;
-  NodeLayout layout_;
+  transport::NodeLayout layout_;
   SamplePattern samples_;
   std::unique_ptr<const SceneRays> rays_;
   std::unique_ptr<const Caustics> caustics_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

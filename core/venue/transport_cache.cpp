@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "venue/transport_cache.h"
+#include "relucent/venue/transport_cache.h"
 
 #include <cstring>
 #include <limits>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/fingerprint.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 // The file: magic, fingerprint of the settings, counts (nodes, camera pixels, blocks), full scales, blocks
@@ -79,13 +79,13 @@ std::optional<TracedTransport> readTracedTransport(const std::filesystem::path& 
     return std::nullopt;
   content = {};
 
-  BlockSparseBuilder builder(cameraPixels, traced.fullScale);
+  transport::BlockSparseBuilder builder(cameraPixels, traced.fullScale);
   std::size_t entry = 0;
   for (std::size_t node = 0; node < nodes; ++node) {
     float scale = traced.fullScale[node] / static_cast<float>(std::numeric_limits<std::int16_t>::max());
     for (std::uint32_t i = 0; i < blocksOfNode[node]; ++i, ++entry) {
       if (entry >= columns.size() || columns[entry] >= cameraPixels) return std::nullopt;
-      ColourBlock block;
+      transport::ColourBlock block;
       for (std::size_t k = 0; k < 9; ++k) block.data()[k] = scale * static_cast<float>(codes[entry][k]);
       builder.add(node, columns[entry], block);
     }
@@ -96,7 +96,7 @@ std::optional<TracedTransport> readTracedTransport(const std::filesystem::path& 
 
 void writeTracedTransport(const std::filesystem::path& file, const std::string& fingerprint,
                           const TracedTransport& traced) {
-  const BlockSparse& matrix = traced.cameraByNode;
+  const transport::BlockSparse& matrix = traced.cameraByNode;
   std::uint64_t counts[3] = {matrix.rows(), matrix.columns(), matrix.blocks()};
   std::string content(magic);
   content.reserve(magic.size() + fingerprint.size() + sizeof(counts) + 8 * matrix.rows() +
@@ -118,4 +118,4 @@ void writeTracedTransport(const std::filesystem::path& file, const std::string& 
   writeFileAtomically(file, content);
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

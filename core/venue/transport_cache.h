@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "venue/traced_transport.h"
+#include "relucent/venue/traced_transport.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// Reads what writeTracedTransport() wrote under the same fingerprint and for the same shape. Empty if there
 /// is no such file, or if it is of another version, foreign, truncated or corrupted: it is only a cache.
@@ -19,4 +19,4 @@ std::optional<TracedTransport> readTracedTransport(const std::filesystem::path& 
 void writeTracedTransport(const std::filesystem::path& file, const std::string& fingerprint,
                           const TracedTransport& traced);
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "venue/transport_row.h"
+#include "relucent/venue/transport_row.h"
 
 #include <algorithm>
 #include <tuple>
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
-bool sameParent(const Node& a, const Node& b) {
+bool sameParent(const transport::Node& a, const transport::Node& b) {
   return a.level == b.level && a.projector == b.projector && a.x / 2 == b.x / 2 && a.y / 2 == b.y / 2;
 }
 
-auto familyKey(const Node& node) {
+auto familyKey(const transport::Node& node) {
   return std::tuple(node.level, node.projector, node.y / 2, node.x / 2, node.y, node.x);
 }
 
@@ -24,7 +24,7 @@ void TransportRow::clear() {
   std::fill(slots_.begin(), slots_.end(), 0u);
 }
 
-std::size_t TransportRow::slotOf(const Node& node) const {
+std::size_t TransportRow::slotOf(const transport::Node& node) const {
   std::uint32_t h = static_cast<std::uint32_t>(node.x) * 0x9e3779b1u ^
                     static_cast<std::uint32_t>(node.y) * 0x85ebca77u ^
                     static_cast<std::uint32_t>(node.level * 16 + node.projector) * 0xc2b2ae3du;
@@ -41,7 +41,7 @@ void TransportRow::grow() {
     slots_[slotOf(entries_[i].node)] = static_cast<std::uint32_t>(i + 1);
 }
 
-void TransportRow::add(const Node& node, const Spectrum& transport) {
+void TransportRow::add(const transport::Node& node, const Spectrum& transport) {
   if (2 * entries_.size() >= slots_.size()) grow();
   std::uint32_t& slot = slots_[slotOf(node)];
   if (slot == 0) {
@@ -73,7 +73,7 @@ void TransportRow::condense(float share, int finest, int coarsest) {
       while (end < level.size() && sameParent(level[begin].node, level[end].node))
         sum += level[end++].transport;
       if (height < coarsest && sum.sum() < least) {
-        const Node& node = level[begin].node;
+        const transport::Node& node = level[begin].node;
         risen.push_back({{node.projector, node.level + 1, node.x / 2, node.y / 2}, sum});
       } else {
         kept.insert(kept.end(), level.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -87,4 +87,4 @@ void TransportRow::condense(float share, int finest, int coarsest) {
   for (const Entry& entry : kept) add(entry.node, entry.transport);
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

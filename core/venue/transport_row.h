@@ -4,23 +4,23 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/node_layout.h"
-#include "venue/spectra.h"
+#include "relucent/transport/node_layout.h"
+#include "relucent/venue/spectra.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 /// One camera pixel's light transport while it is being traced: a sum of spectra per node of the
 /// projectors' mean pyramids.
 class TransportRow {
  public:
   struct Entry {
-    Node node;
+    transport::Node node;
     Spectrum transport;
   };
 
   TransportRow();
   void clear();
-  void add(const Node& node, const Spectrum& transport);
+  void add(const transport::Node& node, const Spectrum& transport);
   const std::vector<Entry>& entries() const { return entries_; }
 
   /// Merges siblings that together are less than `share` of the row into their parent, starting from the
@@ -29,11 +29,11 @@ class TransportRow {
   void condense(float share, int finest, int coarsest);
 
  private:
-  std::size_t slotOf(const Node& node) const;
+  std::size_t slotOf(const transport::Node& node) const;
   void grow();
 
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> slots_;  // index into entries_ plus one; 0: free
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "venue/venue.h"
+#include "relucent/venue/venue.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/fingerprint.h"
-#include "venue/scenes.h"
-#include "venue/simulated_devices.h"
-#include "venue/transport_cache.h"
-#include "venue/venue_light.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/venue/scenes.h"
+#include "relucent/venue/simulated_devices.h"
+#include "relucent/venue/transport_cache.h"
+#include "relucent/venue/venue_light.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 constexpr int smallestSide = 16, largestSide = 4096;
@@ -50,8 +50,9 @@ std::string traceFingerprint(const VenueSettings& settings) {
       .hex();
 }
 
-TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene, const NodeLayout& layout,
-                               const std::filesystem::path& cache, Progress& progress) {
+TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene,
+                               const transport::NodeLayout& layout, const std::filesystem::path& cache,
+                               Progress& progress) {
   std::string fingerprint = traceFingerprint(settings);
   std::filesystem::path file = cache / fmt::format("{}-{}.venue", settings.name, fingerprint.substr(0, 12));
   if (!cache.empty()) {
@@ -80,7 +81,7 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
         "simulated venue");
   Scene scene = buildScene(settings);
   std::vector<Size> sizes(scene.projectors.size(), settings.projector);
-  NodeLayout layout{Rasters(sizes)};
+  transport::NodeLayout layout{Rasters(sizes)};
   TracedTransport traced = tracedOrCached(settings, scene, layout, cache, progress);
   return std::make_shared<VenueLight>(settings, std::move(layout), std::move(traced));
 }
@@ -125,15 +126,15 @@ const VenueSettings& SimulatedVenue::settings() const {
   return light_->settings();
 }
 
-Rig SimulatedVenue::rig() const {
+rig::Rig SimulatedVenue::rig() const {
   return simulatedRig(light_);
 }
 
-Rig SimulatedVenue::rig(std::shared_ptr<const FaultSchedule> faults) const {
+rig::Rig SimulatedVenue::rig(std::shared_ptr<const FaultSchedule> faults) const {
   return simulatedRig(light_, std::move(faults));
 }
 
-const TransportMatrix& SimulatedVenue::trueTransport() const {
+const transport::TransportMatrix& SimulatedVenue::trueTransport() const {
   return light_->transport();
 }
 
@@ -141,10 +142,10 @@ const Stack& SimulatedVenue::trueBlack() const {
   return light_->black();
 }
 
-Stack SimulatedVenue::trueRadiance(const std::vector<Image>& encodedDrive) const {
+Stack SimulatedVenue::trueRadiance(const std::vector<image::Image>& encodedDrive) const {
   Stack radiance = light_->fromProjectors(encodedDrive);
   for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] += light_->ambient()[i];
   return radiance;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

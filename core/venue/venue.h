@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "rig/rig.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/progress.h"
+#include "relucent/rig/rig.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::venue {
 
 struct FaultSchedule;
 
@@ -66,21 +66,21 @@ class SimulatedVenue {
   const VenueSettings& settings() const;
   /// Devices as the pipeline sees them. They may outlive this object. Each call gives a new set, showing
   /// black.
-  Rig rig() const;
+  rig::Rig rig() const;
   /// The same with faults (device_faults.h); the schedule may be changed while the rig is in use.
-  Rig rig(std::shared_ptr<const FaultSchedule> faults) const;
+  rig::Rig rig(std::shared_ptr<const FaultSchedule> faults) const;
 
   /// The true transport, for `evaluate` and tests only.
   /// T: camera signal per second per linear light of the projectors, free of noise. Vignetting is part of it;
   /// the response curves, the white segment and the black level are not.
-  const TransportMatrix& trueTransport() const;
+  const transport::TransportMatrix& trueTransport() const;
   /// e: the projectors' black level and the ambient light, camera signal per second.
   const Stack& trueBlack() const;
   /// Camera signal per second under encoded drive, rounded to codes as the projectors do, free of noise.
-  Stack trueRadiance(const std::vector<Image>& encodedDrive) const;
+  Stack trueRadiance(const std::vector<image::Image>& encodedDrive) const;
 
  private:
   std::shared_ptr<const VenueLight> light_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::venue

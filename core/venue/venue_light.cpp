@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "venue/venue_light.h"
+#include "relucent/venue/venue_light.h"
 
 #include <numeric>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::venue {
 namespace {
 
 double mean(const Stack& stack) {
@@ -14,7 +14,7 @@ double mean(const Stack& stack) {
 
 }  // namespace
 
-VenueLight::VenueLight(const VenueSettings& settings, NodeLayout layout, TracedTransport traced)
+VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layout, TracedTransport traced)
     : settings_(settings),
       layout_(std::move(layout)),
       projectorModel_(settings.devices),
@@ -34,7 +34,7 @@ VenueLight::VenueLight(const VenueSettings& settings, NodeLayout layout, TracedT
   }
 }
 
-Stack VenueLight::fromProjectors(const std::vector<Image>& encodedDrive) const {
+Stack VenueLight::fromProjectors(const std::vector<image::Image>& encodedDrive) const {
   const Rasters& projectors = layout_.projectors();
   require(encodedDrive.size() == projectors.devices(), "{} pictures for {} projectors", encodedDrive.size(),
           projectors.devices());
@@ -51,11 +51,12 @@ Stack VenueLight::fromProjectors(const std::vector<Image>& encodedDrive) const {
   return seen;
 }
 
-const TransportMatrix& VenueLight::transport() const {
+const transport::TransportMatrix& VenueLight::transport() const {
   std::call_once(transportMade_, [&] {
-    transport_ = TransportMatrix(settings_.camera, layout_.projectors(), cameraByNode_.transposed());
+    transport_ =
+        transport::TransportMatrix(settings_.camera, layout_.projectors(), cameraByNode_.transposed());
   });
   return transport_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::venue

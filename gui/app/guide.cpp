@@ -5,7 +5,7 @@
 #include <QFile>
 #include <QLocale>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QStringList filesOf(const QString& folder) {
@@ -40,4 +40,4 @@ QList<HelpPage> guidePages(const QString& help, const QString& language) {
   return pages;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

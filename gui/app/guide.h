@@ -6,7 +6,7 @@
 #include <QStringList>
 #include <Qt>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A page of the user's guide.
 struct HelpPage {
@@ -26,4 +26,4 @@ QStringList guideLanguages(const QString& help);
 /// language without its country ("de"), else in English.
 QList<HelpPage> guidePages(const QString& help, const QString& language);
 
-}  // namespace relucent
+}  // namespace relucent::gui

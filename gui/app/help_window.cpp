@@ -14,7 +14,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QList<HelpPage> helpPages(const QString& language) {
   QList<HelpPage> pages = guidePages(":/help", language);
@@ -152,4 +152,4 @@ void HelpWindow::keyPressEvent(QKeyEvent* event) {
   QDialog::keyPressEvent(event);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 
 #include "app/guide.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The guide in a language ("de"), missing pages in English, in the order of the steps; then pages that
 /// belong to no step, the last one about the program and the libraries that it uses.
@@ -59,4 +59,4 @@ class HelpWindow : public QDialog {
   HelpText* text_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

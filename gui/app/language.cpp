@@ -6,7 +6,7 @@
 #include <QGuiApplication>
 #include <QLibraryInfo>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Some numbers are written where no locale is asked, with the digits 0 to 9: so that all agree, of the
@@ -67,4 +67,4 @@ void Language::choose(const QString& code) {
   QGuiApplication::setLayoutDirection(QLocale(spoken_).textDirection());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

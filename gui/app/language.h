@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The language of the program: its own sentences, Qt's, number formats (by the default QLocale, with the
 /// digits 0 to 9 in every language), and the reading direction. Widgets made after choose() use it; older
@@ -38,4 +38,4 @@ class Language {
   std::vector<std::unique_ptr<QTranslator>> translators_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

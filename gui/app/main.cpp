@@ -11,15 +11,15 @@ template <typename Application>
 int runShow(int argc, char** argv) {
   Application application(argc, argv);
   Application::setApplicationName("relucent");
-  return relucent::runShowCommand(Application::arguments());
+  return relucent::gui::runShowCommand(Application::arguments());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (relucent::asksForNoScreen(argc, argv)) return runShow<QCoreApplication>(argc, argv);
-  relucent::chooseMediaBackend();
-  if (relucent::asksForWizard(argc, argv)) return relucent::runWizardCommand(argc, argv);
+  if (relucent::gui::asksForNoScreen(argc, argv)) return runShow<QCoreApplication>(argc, argv);
+  relucent::gui::chooseMediaBackend();
+  if (relucent::gui::asksForWizard(argc, argv)) return relucent::gui::runWizardCommand(argc, argv);
   QGuiApplication::setQuitOnLastWindowClosed(false);
   return runShow<QGuiApplication>(argc, argv);
 }

@@ -10,19 +10,20 @@
 
 #include "app/help_window.h"
 #include "app/settings_dialog.h"
-#include "calibration/calibration_folder.h"
+#include "relucent/calibration/calibration_folder.h"
 #include "theme/quiet_wheel.h"
 #include "theme/theme.h"
 #include "wizard/frame/failure_dialog.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// The one folder or calibration's file that is dragged; empty: neither.
 QString calibrationIn(const QMimeData& data) {
   if (data.urls().size() != 1) return {};
   QFileInfo file(data.urls().first().toLocalFile());
-  return file.isDir() || file.fileName() == CalibrationFolder::manifestName ? file.filePath() : QString();
+  return file.isDir() || file.fileName() == calibration::CalibrationFolder::manifestName ? file.filePath()
+                                                                                         : QString();
 }
 
 }  // namespace
@@ -248,4 +249,4 @@ void MainWindow::tell(const PageModel& page, const FailureReport& report) {
   dialog->open();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -14,7 +14,7 @@
 #include "wizard/frame/status_strip.h"
 #include "wizard/frame/step_rail.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class HelpWindow;
 
@@ -69,4 +69,4 @@ class MainWindow : public QMainWindow {
   QStackedWidget *stages_, *inspectors_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include "theme/theme.h"
 #include "theme/tick.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// A name above the control that it is of.
@@ -127,4 +127,4 @@ QWidget* SettingsDialog::folderPart() {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "wizard/frame/preferences.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// User settings that belong to no venue. A change takes effect at once.
 class SettingsDialog : public QDialog {
@@ -23,4 +23,4 @@ class SettingsDialog : public QDialog {
   QStringList languages_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,7 +9,7 @@
 #include "app/versions.h"
 #include "content/content_address.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Of "1920x1080"; none if it is no size that content can have.
@@ -79,7 +79,8 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
     if (!settings.hours)
       throw WrongArguments("the schedule must be HH:MM-HH:MM with two different times, as 09:30-18:00");
   }
-  std::optional<BackendChoice> chosen = valueNamed<BackendChoice>(parser.value(backend).toStdString());
+  std::optional<engine::BackendChoice> chosen =
+      valueNamed<engine::BackendChoice>(parser.value(backend).toStdString());
   if (!chosen) throw WrongArguments("the backend must be cpu, opengl or automatic");
   settings.backend = *chosen;
   settings.calibration = parser.positionalArguments()[1].toStdString();
@@ -109,7 +110,7 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return PrintText{parser.helpText()};
   if (parser.isSet(version))
-    return PrintText{QString::fromStdString(versionText("relucent", allLibraries()))};
+    return PrintText{QString::fromStdString(pipeline::versionText("relucent", allLibraries()))};
 
   QStringList words = parser.positionalArguments();
   if (words.value(0) == "show" && words.size() == 1) {
@@ -126,4 +127,4 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   return PlayShow{settings};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,7 +9,7 @@
 #include "output/installation.h"
 #include "output/show_settings.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Invalid arguments.
 struct WrongArguments : std::runtime_error {
@@ -39,4 +39,4 @@ using ShowArguments = std::variant<PrintText, PlayShow, InstallShow, UninstallSh
 /// Throws: WrongArguments; as contentOf().
 ShowArguments parseShowArguments(const QStringList& arguments);
 
-}  // namespace relucent
+}  // namespace relucent::gui

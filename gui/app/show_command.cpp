@@ -11,13 +11,13 @@
 
 #include "app/language.h"
 #include "app/show_arguments.h"
-#include "base/error.h"
-#include "calibration/calibration_folder.h"
 #include "desktop/termination.h"
 #include "output/engine_renderer.h"
 #include "output/show.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/calibration_folder.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int done = 0, failed = 1, wrongUsage = 2;
@@ -62,7 +62,8 @@ int run(const PlayShow& play) {
 
 int run(const InstallShow& wanted) {
   // Now is when somebody is there to mend it.
-  CalibrationFolder::open(wanted.settings.calibration, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder::open(wanted.settings.calibration,
+                                       calibration::CalibrationFolder::Access::read);
   QString file = install(wanted.start, config(), QCoreApplication::applicationFilePath(), wanted.arguments);
   return say(QString("Wrote %1: the show starts at the next log-in.\n").arg(file) +
              (wanted.start == Start::service
@@ -95,4 +96,4 @@ int runShowCommand(const QStringList& arguments) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

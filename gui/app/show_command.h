@@ -3,7 +3,7 @@
 
 #include <QStringList>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Whether the arguments request only a text or the start at log-in, which need no screen.
 bool asksForNoScreen(int argc, char** argv);
@@ -12,4 +12,4 @@ bool asksForNoScreen(int argc, char** argv);
 /// status: 0 ended on request, 1 failed with one sentence, 2 wrong usage.
 int runShowCommand(const QStringList& arguments);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include <QCoreApplication>
 #include <QFile>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct About {
@@ -21,8 +21,8 @@ QString read(const QString& resource) {
 
 }  // namespace
 
-std::vector<LibraryVersion> allLibraries() {
-  std::vector<LibraryVersion> libraries = coreLibraries();
+std::vector<pipeline::LibraryVersion> allLibraries() {
+  std::vector<pipeline::LibraryVersion> libraries = pipeline::coreLibraries();
   libraries.push_back({"Qt", qVersion()});
   libraries.push_back({"VTK", vtkVersion::GetVTKVersion()});
   libraries.push_back({"spdlog", std::to_string(SPDLOG_VER_MAJOR) + '.' + std::to_string(SPDLOG_VER_MINOR) +
@@ -32,13 +32,13 @@ std::vector<LibraryVersion> allLibraries() {
 
 QString aboutText() {
   QStringList versions;
-  for (const LibraryVersion& library : allLibraries())
+  for (const pipeline::LibraryVersion& library : allLibraries())
     versions << QString::fromStdString(library.name + ' ' + library.version);
   return "# " + About::tr("About Relucent") + "\n\n" +
          About::tr("Version %1, with these libraries: %2.")
-             .arg(QString::fromStdString(relucentVersion()), versions.join(", ")) +
+             .arg(QString::fromStdString(pipeline::relucentVersion()), versions.join(", ")) +
          "\n\n" + read(":/LICENSE").replace("MIT License", "## MIT License") + '\n' +
          read(":/licences.md").replace("# Licences", "## Licences");
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

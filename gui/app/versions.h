@@ -3,14 +3,14 @@
 
 #include <QString>
 
-#include "pipeline/versions.h"
+#include "relucent/pipeline/versions.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Core's libraries and those of the desktop program.
-std::vector<LibraryVersion> allLibraries();
+std::vector<pipeline::LibraryVersion> allLibraries();
 
 /// The guide's last page: version, licence, the libraries with theirs. Markdown.
 QString aboutText();
 
-}  // namespace relucent
+}  // namespace relucent::gui

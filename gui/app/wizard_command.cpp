@@ -9,11 +9,11 @@
 #include <QStandardPaths>
 #include <cstring>
 
-#include "desktop/termination.h"
 #include "app/wizard_window.h"
-#include "pipeline/versions.h"
+#include "desktop/termination.h"
+#include "relucent/pipeline/versions.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Where everything was packed into one folder, the type lies there too.
@@ -41,7 +41,7 @@ int runWizardCommand(int argc, char** argv) {
   QApplication::setApplicationName("relucent");
   QApplication::setOrganizationName("relucent");
   QApplication::setApplicationDisplayName("Relucent");
-  QApplication::setApplicationVersion(QString::fromStdString(relucentVersion()));
+  QApplication::setApplicationVersion(QString::fromStdString(pipeline::relucentVersion()));
   // The menu entry's: desktops find icon and name by it.
   QApplication::setDesktopFileName("org.relucent.relucent");
   addPackedFonts();
@@ -64,4 +64,4 @@ int runWizardCommand(int argc, char** argv) {
   return status;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QSize>
 #include <QStringList>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Whether the arguments request the wizard: none at all, or the folder of one calibration.
 bool asksForWizard(int argc, char** argv);
@@ -15,4 +15,4 @@ bool hasRoom(QSize window, QSize screen);
 /// `relucent [CALIBRATION]`. Exit status: 0.
 int runWizardCommand(int argc, char** argv);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 #include "theme/theme.h"
 #include "wizard/venue/venue_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 std::vector<std::unique_ptr<PageModel>> pagesOf(const std::vector<WizardStep>& steps,
@@ -80,4 +80,4 @@ void WizardWindow::follow() {
   if (std::exchange(languageCode_, preferences_.language()) != preferences_.language()) rebuildForLanguage();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,10 +7,10 @@
 
 #include "app/language.h"
 #include "app/main_window.h"
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "wizard/steps.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The wizard with all its pages, and the window around them.
 class WizardWindow {
@@ -53,4 +53,4 @@ class WizardWindow {
   std::unique_ptr<MainWindow> window_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,18 +10,18 @@
 #include <array>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "image/colour.h"
-#include "image/picture_files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/picture_files.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr QImage::Format encodedFormat = QImage::Format_RGBX8888;
 constexpr QImage::Format linearFormat = QImage::Format_RGBX32FPx4;
 
-QImage linearFrom(const Image& image) {
+QImage linearFrom(const image::Image& image) {
   QImage picture(image.width(), image.height(), linearFormat);
   parallelFor(0, static_cast<std::size_t>(image.height()), 16, [&](std::size_t y) {
     auto* line = reinterpret_cast<float*>(picture.scanLine(static_cast<int>(y)));
@@ -59,12 +59,12 @@ class Tables {
  public:
   Tables() {
     for (std::size_t i = 0; i < light_.size(); ++i) {
-      light_[i] = static_cast<float>(srgbDecode(static_cast<double>(i) / 255.0));
-      halfWay_[i] = static_cast<float>(srgbDecode((static_cast<double>(i) + 0.5) / 255.0));
+      light_[i] = static_cast<float>(image::srgbDecode(static_cast<double>(i) / 255.0));
+      halfWay_[i] = static_cast<float>(image::srgbDecode((static_cast<double>(i) + 0.5) / 255.0));
     }
     for (std::size_t i = 0; i < code_.size(); ++i) {
       double root = static_cast<double>(i) / steps;
-      code_[i] = static_cast<std::uint8_t>(std::lround(255.0 * srgbEncode(root * root)));
+      code_[i] = static_cast<std::uint8_t>(std::lround(255.0 * image::srgbEncode(root * root)));
     }
   }
   float light(std::uint8_t code) const { return light_[code]; }
@@ -97,7 +97,7 @@ void readLine(const QImage& picture, int y, std::vector<float>& line) {
 }  // namespace
 
 QImage readContent(const QString& file) {
-  if (isForCore(file)) return linearFrom(readLinearContent(file.toStdString()));
+  if (isForCore(file)) return linearFrom(image::readLinearContent(file.toStdString()));
   if (QFile probe(file); !probe.open(QIODevice::ReadOnly))
     throw Error(
         ErrorKind::disk,
@@ -120,9 +120,9 @@ QImage readContent(const QString& file) {
 
 QImage onCanvas(const QImage& picture, const Canvas& canvas) {
   require(!picture.isNull() && !canvas.size.isEmpty(), "an empty picture or canvas");
-  Qt::AspectRatioMode mode = canvas.fit == Fit::fill  ? Qt::IgnoreAspectRatio
-                             : canvas.fit == Fit::fit ? Qt::KeepAspectRatio
-                                                      : Qt::KeepAspectRatioByExpanding;
+  Qt::AspectRatioMode mode = canvas.fit == compensation::Fit::fill  ? Qt::IgnoreAspectRatio
+                             : canvas.fit == compensation::Fit::fit ? Qt::KeepAspectRatio
+                                                                    : Qt::KeepAspectRatioByExpanding;
   QSize scaledSize = picture.size().scaled(canvas.size, mode).expandedTo({1, 1});
   QImage scaled = picture.size() == scaledSize
                       ? picture
@@ -159,4 +159,4 @@ QImage crossFaded(const QImage& from, const QImage& to, double share) {
   return mixed;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,14 +4,14 @@
 #include <QImage>
 #include <QString>
 
-#include "compensation/placement.h"
+#include "relucent/compensation/placement.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The format to which all content is converted before it is compensated.
 struct Canvas {
   QSize size{1920, 1080};
-  Fit fit = Fit::fit;
+  compensation::Fit fit = compensation::Fit::fit;
 };
 
 /// Reads a picture file: upright; sRGB in Format_RGBX8888, transparent parts on black, converted by the
@@ -28,4 +28,4 @@ QImage onCanvas(const QImage& picture, const Canvas& canvas);
 /// Contract: both of one size.  Format_RGBX8888.
 QImage crossFaded(const QImage& from, const QImage& to, double share);
 
-}  // namespace relucent
+}  // namespace relucent::gui

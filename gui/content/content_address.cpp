@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace relucent {
+namespace relucent::gui {
 
 ContentAddress addressOf(const QString& path) {
   using Kind = ContentAddress::Kind;
@@ -15,4 +15,4 @@ ContentAddress addressOf(const QString& path) {
   return {Kind::file, path};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

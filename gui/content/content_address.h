@@ -3,7 +3,7 @@
 
 #include <QString>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Parses the path of a playlist item: a file or folder, or another source, written as "kind:which".
 struct ContentAddress {
@@ -20,4 +20,4 @@ struct ContentAddress {
 
 ContentAddress addressOf(const QString& path);
 
-}  // namespace relucent
+}  // namespace relucent::gui

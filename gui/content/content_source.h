@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Content time: shared by all projectors, stops while the show is paused.
 using ContentTime = std::chrono::microseconds;
@@ -29,4 +29,4 @@ class ContentSource {
   virtual std::optional<ContentTime> length() const = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 
 #include "content/still_image.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 void FrameSlot::put(const QVideoFrame& frame) {
   // The end of a film is an empty frame; its last picture stays.
@@ -45,4 +45,4 @@ FrameSlot::Newest FrameSlot::newest() const {
   return newest_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Passes the newest frame from a decoder or camera to its consumer, on any threads, without waiting for each
 /// other. Frames that are not taken are not converted.
@@ -36,4 +36,4 @@ class FrameSlot {
   QString failure_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

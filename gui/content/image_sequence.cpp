@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "content/still_image.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// A quarter of a second at usual rates: longer than a disk takes to wake up between two of its caches.
@@ -77,4 +77,4 @@ QStringList picturesIn(const QString& folder) {
   return files;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

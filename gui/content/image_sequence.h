@@ -4,7 +4,7 @@
 #include "content/content_source.h"
 #include "content/read_ahead.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Numbered pictures of a film, at a fixed rate. In place of an unreadable picture the previous one stays.
 class ImageSequence : public ContentSource {
@@ -26,4 +26,4 @@ class ImageSequence : public ContentSource {
 /// Throws: Error{input} if it holds none.
 QStringList picturesIn(const QString& folder);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,12 +8,12 @@
 #include <QStringList>
 #include <QVideoSink>
 
-#include "base/error.h"
 #include "content/frame_slot.h"
 #include "content/media_thread.h"
 #include "content/video_frame.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int patience = 15'000;  // milliseconds for a first picture
@@ -85,4 +85,4 @@ ContentPicture LiveCamera::at(ContentTime) {
   return picture_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 #include "content/canvas.h"
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The live picture of a capture device: a camera, or a frame grabber. While it delivers nothing its last
 /// picture stays.
@@ -28,4 +28,4 @@ class LiveCamera : public ContentSource {
   ContentPicture picture_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

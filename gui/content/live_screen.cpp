@@ -5,11 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.h"
 #include "content/still_image.h"
 #include "desktop/screen_capture.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// One screen or window, found.
 class LiveScreen::Grabber {
@@ -85,4 +85,4 @@ ContentPicture LiveScreen::at(ContentTime) {
   return picture_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

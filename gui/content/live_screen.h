@@ -6,7 +6,7 @@
 #include "content/canvas.h"
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The live picture of one of the desktop's screens, or of a window, through the X server: its present
 /// contents, without the pointer. Covered parts of a window are missing. While the screen or window does not
@@ -33,4 +33,4 @@ class LiveScreen : public ContentSource {
   ContentPicture picture_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 #include <memory>
 #include <type_traits>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Selects Qt's FFmpeg media back end, unless the user chose another: it needs no further packages and is the
 /// same on all releases. Call before any other use of Qt Multimedia.
@@ -50,4 +50,4 @@ class OnMediaThread {
   std::unique_ptr<Media> media_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

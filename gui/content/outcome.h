@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The result of work on another thread: a value or a failure. A QFuture would wrap any exception in its own
 /// type and throw it in whatever waits, including destructors.
@@ -43,4 +43,4 @@ Value resultOf(const QFuture<Outcome<Value>>& future) {
   return std::get<Value>(std::move(outcome));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

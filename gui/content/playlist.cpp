@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
 #include "content/content_address.h"
 #include "content/image_sequence.h"
 #include "content/live_camera.h"
@@ -14,8 +13,9 @@
 #include "content/still_image.h"
 #include "content/test_chart.h"
 #include "content/video.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr std::size_t mostSentences = 100;
@@ -25,7 +25,7 @@ std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canv
   if (std::optional<TestChart> chart = testChartFromName(name))
     return std::make_unique<TestChartContent>(*chart, canvas);
   QStringList known;
-  for (TestChart chart : allTestCharts) known.append(nameOf(chart));
+  for (TestChart chart : allTestCharts) known.append(testChartName(chart));
   throw Error(ErrorKind::input,
               RELUCENT_ENGLISH_MESSAGE("content.there-no-test-chart", "there is no test chart '{}'")
                   .with(name.toStdString()),
@@ -170,4 +170,4 @@ ContentPicture Playlist::pictureAt(ContentTime time) {
   return frameOf(current_, time);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

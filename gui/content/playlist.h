@@ -9,12 +9,12 @@
 #include <memory>
 #include <vector>
 
-#include "base/message.h"
 #include "content/canvas.h"
 #include "content/content_source.h"
 #include "content/outcome.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// One item of a playlist.
 struct PlaylistItem {
@@ -93,4 +93,4 @@ class Playlist : public ContentSource {
   Status status_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,12 +6,12 @@
 #include <QJsonObject>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
 #include "content/content_address.h"
 #include "content/playlist.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int version = 1;
@@ -98,4 +98,4 @@ void savePlaylist(const QString& file, const PlaylistSettings& settings) {
   writeFileAtomically(file.toStdString(), QJsonDocument(object).toJson().toStdString());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 ReadAhead::ReadAhead(QStringList files, Canvas canvas, qsizetype ahead, bool loop)
     : files_(std::move(files)), canvas_(canvas), ahead_(ahead), loop_(loop) {
@@ -52,4 +52,4 @@ QImage ReadAhead::picture(qsizetype index) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

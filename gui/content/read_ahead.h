@@ -9,7 +9,7 @@
 #include "content/canvas.h"
 #include "content/outcome.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Picture files on the canvas, read on other threads before they are needed. Bounded: the present one and
 /// the next few.
@@ -38,4 +38,4 @@ class ReadAhead {
   std::map<qsizetype, QFuture<Outcome<QImage>>> reading_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

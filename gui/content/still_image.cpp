@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace relucent {
+namespace relucent::gui {
 
 std::uint64_t nextFrameNumber() {
   static std::atomic<std::uint64_t> last{0};
@@ -15,4 +15,4 @@ StillImage::StillImage(const QString& file, const Canvas& canvas) : StillImage(r
 StillImage::StillImage(const QImage& picture, const Canvas& canvas)
     : frame_{onCanvas(picture, canvas), nextFrameNumber()} {}
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include "content/canvas.h"
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A still picture.
 class StillImage : public ContentSource {
@@ -24,4 +24,4 @@ class StillImage : public ContentSource {
 /// A number that is unique within this process.
 std::uint64_t nextFrameNumber();
 
-}  // namespace relucent
+}  // namespace relucent::gui

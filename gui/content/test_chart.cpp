@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
-#include "base/parallel.h"
 #include "content/still_image.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr std::array names{std::pair{TestChart::grid, "grid"},
@@ -102,7 +102,7 @@ QRgb colourOf(TestChart chart, QPoint p, QSize size) {
 
 }  // namespace
 
-QString nameOf(TestChart chart) {
+QString testChartName(TestChart chart) {
   return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.first == chart; })->second;
 }
 
@@ -136,4 +136,4 @@ ContentPicture TestChartContent::at(ContentTime) {
   return frame_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

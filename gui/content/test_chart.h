@@ -7,7 +7,7 @@
 #include "content/canvas.h"
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Test charts, drawn for the canvas pixel by pixel, never scaled.
 enum class TestChart {
@@ -22,7 +22,7 @@ inline constexpr std::array allTestCharts{TestChart::grid,    TestChart::ramps, 
                                           TestChart::patches, TestChart::checker, TestChart::white};
 
 /// As in a playlist: "grid" in "chart:grid".
-QString nameOf(TestChart chart);
+QString testChartName(TestChart chart);
 std::optional<TestChart> testChartFromName(const QString& name);
 
 /// Contract: the size is not empty.  Format_RGBX8888.
@@ -42,4 +42,4 @@ class TestChartContent : public ContentSource {
   ContentPicture frame_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

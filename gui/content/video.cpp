@@ -4,12 +4,12 @@
 #include <QFile>
 #include <QFileInfo>
 
-#include "base/error.h"
 #include "content/media_thread.h"
 #include "content/video_follower.h"
 #include "content/video_frame.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int patience = 15'000;  // milliseconds for a first picture, of a disk that wakes up
@@ -62,4 +62,4 @@ bool isVideo(const QString& file) {
   return endings.contains(QFileInfo(file).suffix().toLower());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

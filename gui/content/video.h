@@ -7,7 +7,7 @@
 #include "content/content_source.h"
 #include "content/frame_slot.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A film with its sound. It follows the requested time: picture and sound pause while that stands still,
 /// seek when it jumps, and stop when there are no requests. While it plays, both run with the sound's clock,
@@ -36,4 +36,4 @@ class Video : public ContentSource {
 /// Whether a file's name has the extension of a film.
 bool isVideo(const QString& file);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include <QUrl>
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 using namespace std::chrono_literals;
@@ -116,4 +116,4 @@ void VideoFollower::follow() {
   if (!step.play && plays) player_.pause();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

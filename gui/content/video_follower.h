@@ -14,7 +14,7 @@
 #include "content/content_source.h"
 #include "content/frame_slot.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// State shared by a film's source and its player across threads.
 class VideoTime {
@@ -81,4 +81,4 @@ class VideoFollower : public QObject {
   QTimer tick_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,9 +5,9 @@
 #include <QVideoFrameFormat>
 #include <optional>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 using Format = QVideoFrameFormat;
@@ -27,7 +27,7 @@ class Mapped {
   Mapped(const Mapped&) = delete;
   Mapped& operator=(const Mapped&) = delete;
 
-  VideoSamples::Plane plane(int number, int step = 1, int first = 0) const {
+  image::VideoSamples::Plane plane(int number, int step = 1, int first = 0) const {
     return {frame_.bits(number) + first, static_cast<std::size_t>(frame_.bytesPerLine(number)), step};
   }
 
@@ -36,31 +36,31 @@ class Mapped {
 };
 
 /// None for formats that are not luma and chroma.
-std::optional<VideoSamples> samplesOf(const Mapped& frame, Format::PixelFormat format) {
+std::optional<image::VideoSamples> samplesOf(const Mapped& frame, Format::PixelFormat format) {
   switch (format) {
     case Format::Format_YUV420P:
-      return VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 8, 2, 2};
+      return image::VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 8, 2, 2};
     case Format::Format_YV12:
-      return VideoSamples{frame.plane(0), frame.plane(2), frame.plane(1), 8, 2, 2};
+      return image::VideoSamples{frame.plane(0), frame.plane(2), frame.plane(1), 8, 2, 2};
     case Format::Format_YUV422P:
-      return VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 8, 2, 1};
+      return image::VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 8, 2, 1};
     case Format::Format_YUV420P10:
-      return VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 10, 2, 2};
+      return image::VideoSamples{frame.plane(0), frame.plane(1), frame.plane(2), 10, 2, 2};
     case Format::Format_NV12:
-      return VideoSamples{frame.plane(0), frame.plane(1, 2), frame.plane(1, 2, 1), 8, 2, 2};
+      return image::VideoSamples{frame.plane(0), frame.plane(1, 2), frame.plane(1, 2, 1), 8, 2, 2};
     case Format::Format_NV21:
-      return VideoSamples{frame.plane(0), frame.plane(1, 2, 1), frame.plane(1, 2), 8, 2, 2};
+      return image::VideoSamples{frame.plane(0), frame.plane(1, 2, 1), frame.plane(1, 2), 8, 2, 2};
     case Format::Format_P010:
     case Format::Format_P016:  // ten bits in the upper part of sixteen
-      return VideoSamples{frame.plane(0), frame.plane(1, 2), frame.plane(1, 2, 2), 16, 2, 2};
+      return image::VideoSamples{frame.plane(0), frame.plane(1, 2), frame.plane(1, 2, 2), 16, 2, 2};
     case Format::Format_YUYV:
-      return VideoSamples{frame.plane(0, 2), frame.plane(0, 4, 1), frame.plane(0, 4, 3), 8, 2, 1};
+      return image::VideoSamples{frame.plane(0, 2), frame.plane(0, 4, 1), frame.plane(0, 4, 3), 8, 2, 1};
     case Format::Format_UYVY:
-      return VideoSamples{frame.plane(0, 2, 1), frame.plane(0, 4), frame.plane(0, 4, 2), 8, 2, 1};
+      return image::VideoSamples{frame.plane(0, 2, 1), frame.plane(0, 4), frame.plane(0, 4, 2), 8, 2, 1};
     case Format::Format_Y8:
-      return VideoSamples{frame.plane(0), {}, {}, 8};
+      return image::VideoSamples{frame.plane(0), {}, {}, 8};
     case Format::Format_Y16:
-      return VideoSamples{frame.plane(0), {}, {}, 16};
+      return image::VideoSamples{frame.plane(0), {}, {}, 16};
     default:
       return std::nullopt;
   }
@@ -88,31 +88,32 @@ QImage upright(const QImage& picture, const QVideoFrame& frame) {
 
 }  // namespace
 
-VideoEncoding encodingOf(const QVideoFrameFormat& format, bool jpeg) {
-  VideoEncoding encoding;
+image::VideoEncoding encodingOf(const QVideoFrameFormat& format, bool jpeg) {
+  image::VideoEncoding encoding;
   constexpr int linesOfHighDefinition = 720;
   if (format.colorSpace() == Format::ColorSpace_BT2020) refuseRange("made for BT.2020's colours");
   bool bt601 =
       format.colorSpace() == Format::ColorSpace_BT601 ||
       (format.colorSpace() == Format::ColorSpace_Undefined && format.frameHeight() < linesOfHighDefinition);
-  encoding.matrix = bt601 ? VideoEncoding::Matrix::bt601 : VideoEncoding::Matrix::bt709;
+  encoding.matrix = bt601 ? image::VideoEncoding::Matrix::bt601 : image::VideoEncoding::Matrix::bt709;
   bool full = format.colorRange() == Format::ColorRange_Full;
-  encoding.range = full ? VideoEncoding::Range::full : VideoEncoding::Range::video;
+  encoding.range = full ? image::VideoEncoding::Range::full : image::VideoEncoding::Range::video;
   switch (format.colorTransfer()) {
     case Format::ColorTransfer_ST2084:
     case Format::ColorTransfer_STD_B67:
       refuseRange("of high dynamic range");
     case Format::ColorTransfer_Linear:
-      encoding.transfer = VideoEncoding::Transfer::linear;
+      encoding.transfer = image::VideoEncoding::Transfer::linear;
       break;
     case Format::ColorTransfer_Gamma22:
-      encoding.transfer = VideoEncoding::Transfer::gamma22;
+      encoding.transfer = image::VideoEncoding::Transfer::gamma22;
       break;
     case Format::ColorTransfer_Gamma28:
-      encoding.transfer = VideoEncoding::Transfer::gamma28;
+      encoding.transfer = image::VideoEncoding::Transfer::gamma28;
       break;
     default:
-      encoding.transfer = full || jpeg ? VideoEncoding::Transfer::srgb : VideoEncoding::Transfer::bt1886;
+      encoding.transfer =
+          full || jpeg ? image::VideoEncoding::Transfer::srgb : image::VideoEncoding::Transfer::bt1886;
   }
   return encoding;
 }
@@ -121,7 +122,7 @@ QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
   Mapped mapped(frame);
   QVideoFrameFormat format = frame.surfaceFormat();
   QSize size = format.frameSize();
-  std::optional<VideoSamples> samples = samplesOf(mapped, format.pixelFormat());
+  std::optional<image::VideoSamples> samples = samplesOf(mapped, format.pixelFormat());
   if (!samples) {
     QImage::Format known = Format::imageFormatFromPixelFormat(format.pixelFormat());
     if (known == QImage::Format_Invalid)
@@ -131,16 +132,16 @@ QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
                                    "the video's samples are of an unknown kind ({})")
               .with(Format::pixelFormatToString(format.pixelFormat()).toStdString()),
           RELUCENT_ENGLISH_MESSAGE("content.convert-h-264-4-2", "convert it to H.264 with 4:2:0 chroma"));
-    VideoSamples::Plane plane = mapped.plane(0);
+    image::VideoSamples::Plane plane = mapped.plane(0);
     QImage there(static_cast<const uchar*>(plane.data), size.width(), size.height(),
                  static_cast<qsizetype>(plane.bytesPerLine), known);
     // A copy: the frame's memory goes with it.
     return upright(there.convertToFormat(QImage::Format_RGBX8888).copy(), frame);
   }
   QImage picture(size, QImage::Format_RGBX8888);
-  srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format, jpeg), picture.bits(),
-                static_cast<std::size_t>(picture.bytesPerLine()));
+  image::srgbFromVideo(*samples, {size.width(), size.height()}, encodingOf(format, jpeg), picture.bits(),
+                       static_cast<std::size_t>(picture.bytesPerLine()));
   return upright(picture, frame);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

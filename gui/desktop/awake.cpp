@@ -5,7 +5,7 @@
 #include <QDBusMessage>
 #include <QDBusReply>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int patience = 2000;  // milliseconds for an answer
@@ -55,4 +55,4 @@ Awake::~Awake() {
   QDBusConnection::sessionBus().send(release);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

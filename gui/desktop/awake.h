@@ -7,7 +7,7 @@
 
 #include "desktop/display_power.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// During its lifetime the computer does not suspend, and neither desktop nor X server put a display to sleep
 /// or start a screen saver by themselves.
@@ -33,4 +33,4 @@ class Awake {
   QStringList problems_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,7 +9,7 @@
 
 #include "desktop/xcb_answer.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr std::uint8_t fromServer = 0x7f;  // of an event's kind: without the mark of those that clients send
@@ -102,4 +102,4 @@ void DisplayPower::keepAwake() {
   xcb_flush(server_->x);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

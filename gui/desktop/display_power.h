@@ -4,7 +4,7 @@
 #include <QString>
 #include <memory>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Whether the desktop's displays are awake. A sleeping display is still a screen of the desktop, and showing
 /// pictures on it appears to succeed. The X server puts all displays to sleep together: by DPMS, which
@@ -36,4 +36,4 @@ class DisplayPower {
   std::unique_ptr<Server> server_;  // nullptr: no X server
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 
 #include "desktop/xcb_answer.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 using Screen = ScreenCapture::Screen;
@@ -127,4 +127,4 @@ QImage ScreenCapture::ofWindow(quint32 number) const {
   return geometry ? picked(server_->x, number, {0, 0, geometry->width, geometry->height}) : QImage();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Pictures of the desktop's screens and windows, as the X server has them at that moment, without the
 /// pointer. Of a window, what others cover is missing.
@@ -40,4 +40,4 @@ class ScreenCapture {
   std::unique_ptr<Server> server_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

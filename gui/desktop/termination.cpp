@@ -7,9 +7,9 @@
 #include <array>
 #include <csignal>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr std::array endings{SIGTERM, SIGINT, SIGHUP};
@@ -51,4 +51,4 @@ Termination::~Termination() {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

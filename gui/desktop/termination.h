@@ -4,7 +4,7 @@
 #include <QObject>
 #include <QSocketNotifier>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Turns the signals that ask a program to end (SIGTERM, SIGINT, SIGHUP) into a Qt signal. One at a time.
 class Termination : public QObject {
@@ -21,4 +21,4 @@ class Termination : public QObject {
   QSocketNotifier notifier_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

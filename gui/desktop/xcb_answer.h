@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <memory>
 
-namespace relucent {
+namespace relucent::gui {
 
 struct FreeAnswer {
   void operator()(void* answer) const { std::free(answer); }
@@ -17,4 +17,4 @@ Answer<Reply> owned(Reply* reply) {
   return Answer<Reply>(reply);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 #include <QPainterPath>
 #include <QRegularExpression>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Look {
@@ -117,4 +117,4 @@ QImage chartOf(QXmlStreamReader& xml, double dots) {
   return image;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

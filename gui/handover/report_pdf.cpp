@@ -9,11 +9,11 @@
 #include <QXmlStreamReader>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
 #include "handover/report_chart.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Qt's text documents know tables and no grids, pictures by name and no drawings: the report said so.
@@ -190,4 +190,4 @@ void writeReportPdf(const QString& html, const QString& file) {
                 RELUCENT_MESSAGE("report.free-some-space", "free some space"), file.toStdString());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <QString>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Writes the report of core/pipeline/report.h as PDF on A4 pages: the same texts, pictures, charts and
 /// tables in the same order, black on white. May be called on any thread. `html`: the result of reportHtml();
@@ -11,4 +11,4 @@ namespace relucent {
 /// Throws: Error{format} if it is not; Error{disk}.
 void writeReportPdf(const QString& html, const QString& file);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,10 +4,10 @@
 #include <QCoreApplication>
 #include <new>
 
-#include "devices/screen_proof.h"
+#include "relucent/devices/screen_proof.h"
 #include "text/message_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Translated {
@@ -24,7 +24,7 @@ Failure failureOf(const Error& error) {
 Failure failureOf(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
-  } catch (const ScreenNotSeen& error) {
+  } catch (const devices::ScreenNotSeen& error) {
     Failure failure = failureOf(static_cast<const Error&>(error));
     failure.heading = Translated::tr("The camera does not see this projector");
     return failure;
@@ -47,4 +47,4 @@ Failure failureOf(std::exception_ptr thrown) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,9 +4,9 @@
 #include <QString>
 #include <exception>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A failure as shown to the user: what happened and what to do. `details` are for support.
 struct Failure {
@@ -21,4 +21,4 @@ struct Failure {
 /// The failure that an exception describes.
 Failure failureOf(std::exception_ptr thrown);
 
-}  // namespace relucent
+}  // namespace relucent::gui

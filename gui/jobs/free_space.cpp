@@ -6,7 +6,7 @@
 #include <QStorageInfo>
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 
 std::uint64_t freeBytesAt(const QString& folder) {
   QString existing = folder;
@@ -15,4 +15,4 @@ std::uint64_t freeBytesAt(const QString& folder) {
   return static_cast<std::uint64_t>(std::max<qint64>(0, QStorageInfo(existing).bytesAvailable()));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

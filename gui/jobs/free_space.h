@@ -4,9 +4,9 @@
 #include <QString>
 #include <cstdint>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Free space for the user in a folder, or in its nearest existing ancestor.
 std::uint64_t freeBytesAt(const QString& folder);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "text/message_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Called on the worker's thread: keeps the latest report and wakes the job once.
 class Job::Sink : public ProgressSink {
@@ -105,4 +105,4 @@ void Job::finish(State state, Failure failure) {
   Q_EMIT ended();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,10 +8,10 @@
 #include <memory>
 #include <optional>
 
-#include "base/progress.h"
 #include "jobs/failure.h"
+#include "relucent/base/progress.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Runs long work of core on its own thread, and turns core's Progress into Qt signals. Signals arrive on
 /// this object's thread, only as often as it can handle them: of several reports the last one counts.
@@ -71,6 +71,6 @@ class Job : public QObject {
   Failure failure_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui
 
 Q_DECLARE_METATYPE(relucent::WorkLeft)

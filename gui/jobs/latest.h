@@ -9,7 +9,7 @@
 
 #include "jobs/failure.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Work for sliders: while one request is computed on another thread, only the newest of further requests is
 /// kept. `Result` is copied or moved to the thread of this object.
@@ -70,4 +70,4 @@ class Latest {
   QFutureWatcher<std::shared_ptr<Answer>> watcher_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 template <typename Device>
@@ -16,7 +16,7 @@ Device& at(std::vector<Device>& devices, std::size_t index) {
 constexpr float clipped = 0.98f;
 constexpr double mostClipped = 0.02;
 
-bool isOverexposed(const Image& signal) {
+bool isOverexposed(const image::Image& signal) {
   const std::vector<float>& samples = signal.data();
   auto count = std::count_if(samples.begin(), samples.end(), [](float value) { return value > clipped; });
   return static_cast<double>(count) > mostClipped * static_cast<double>(samples.size());
@@ -26,7 +26,7 @@ bool isOverexposed(const Image& signal) {
 
 LiveRig::LiveRig(int interval) : interval_(interval) {}
 
-void LiveRig::beforeShowing(std::size_t, RigLight& light) {
+void LiveRig::beforeShowing(std::size_t, rig::RigLight& light) {
   QMutexLocker lock(&guard_);
   if (paused_) {
     light.darken();
@@ -45,7 +45,7 @@ void LiveRig::setLeastInterval(int milliseconds) {
   leastBetween_ = milliseconds;
 }
 
-void LiveRig::shown(std::size_t index, const Image& encodedDrive) {
+void LiveRig::shown(std::size_t index, const image::Image& encodedDrive) {
   QMutexLocker lock(&guard_);
   Shown& shown = at(projectors_, index);
   shown.pattern = encodedDrive;
@@ -55,7 +55,8 @@ void LiveRig::shown(std::size_t index, const Image& encodedDrive) {
       !drive.empty() && std::all_of(drive.begin(), drive.end(), [](float value) { return value >= 1.0f; });
 }
 
-void LiveRig::photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) {
+void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request,
+                           const rig::RawFrame& frame) {
   {
     QMutexLocker lock(&guard_);
     ++photographs_;
@@ -127,4 +128,4 @@ bool LiveRig::isPaused() const {
   return paused_;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

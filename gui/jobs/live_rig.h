@@ -8,31 +8,32 @@
 #include <memory>
 #include <vector>
 
-#include "linearization/ramp_preview.h"
-#include "rig/watched_rig.h"
+#include "relucent/linearization/ramp_preview.h"
+#include "relucent/rig/watched_rig.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The last pattern of one projector and the last photograph of one camera while they are at work.
 struct LivePictures {
-  Image pattern;  // encoded drive
-  RawFrame frame;
-  CaptureRequest request;
+  image::Image pattern;  // encoded drive
+  rig::RawFrame frame;
+  rig::CaptureRequest request;
   int photographs = 0;  // by all cameras, since the start
 };
 
 /// Observes devices while they measure, and blocks them while paused. The measuring thread writes, the
 /// interface reads; seen() is emitted at most twice a second, so that the laptop's light stays constant.
-class LiveRig : public QObject, public RigWatcher {
+class LiveRig : public QObject, public rig::RigWatcher {
   Q_OBJECT
 
  public:
   /// `interval`: least time between two signals, milliseconds.
   explicit LiveRig(int interval = 500);
 
-  void beforeShowing(std::size_t index, RigLight& light) override;
-  void shown(std::size_t index, const Image& encodedDrive) override;
-  void photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) override;
+  void beforeShowing(std::size_t index, rig::RigLight& light) override;
+  void shown(std::size_t index, const image::Image& encodedDrive) override;
+  void photographed(std::size_t index, const rig::CaptureRequest& request,
+                    const rig::RawFrame& frame) override;
 
   /// Least time between two patterns, milliseconds, while people may be looking. 0: none.
   void setLeastInterval(int milliseconds);
@@ -42,7 +43,7 @@ class LiveRig : public QObject, public RigWatcher {
   /// The last photograph of a camera, not overexposed, of fully white projectors, some of which may be dark;
   /// and its number, 0: none.
   struct Floodlight {
-    Image signal;
+    image::Image signal;
     int number = 0;
   };
   Floodlight floodlight(std::size_t camera = 0) const;
@@ -66,13 +67,13 @@ class LiveRig : public QObject, public RigWatcher {
   QWaitCondition resumed_;
   bool paused_ = false;
   struct Shown {
-    Image pattern;
+    image::Image pattern;
     bool dark = true, white = false;
-    RampPreview ramps;
+    linearization::RampPreview ramps;
   };
   struct Photographed {
-    RawFrame frame;
-    CaptureRequest request;
+    rig::RawFrame frame;
+    rig::CaptureRequest request;
     Floodlight floodlight;
   };
   bool isFloodlit() const;
@@ -82,4 +83,4 @@ class LiveRig : public QObject, public RigWatcher {
   QElapsedTimer since_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 
-#include "base/progress.h"
 #include "jobs/failure.h"
+#include "relucent/base/progress.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Work for sliders that answers twice or more: soon, then exactly. Only the newest request is answered
 /// exactly; it cancels the current one, but never two in a row without any answer: otherwise a slider that
@@ -105,4 +105,4 @@ class Refining {
   QFutureWatcher<void> watcher_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

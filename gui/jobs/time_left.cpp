@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Translated {
@@ -43,4 +43,4 @@ QString durationText(double seconds) {
   return Translated::tr("%1 h %2 min").arg(minutes / 60).arg(minutes % 60);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

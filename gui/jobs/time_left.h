@@ -5,9 +5,9 @@
 #include <chrono>
 #include <optional>
 
-#include "base/progress.h"
+#include "relucent/base/progress.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Remaining time of a measurement: core's latest forecast, counted down by the clock until the next one.
 class TimeLeft {
@@ -29,4 +29,4 @@ class TimeLeft {
 /// "40 s", "11 min", "2 h 5 min": rounded up, to 10 s below a minute and to a minute below an hour.
 QString durationText(double seconds);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace relucent {
+namespace relucent::gui {
 
 ContentClock::ContentClock(Now now) : now_(std::move(now)), since_(now_()) {}
 
@@ -23,4 +23,4 @@ void ContentClock::resume() {
   paused_ = false;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Content time, one for all projectors: runs with the steady clock and stops while paused.
 class ContentClock {
@@ -26,4 +26,4 @@ class ContentClock {
   bool paused_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

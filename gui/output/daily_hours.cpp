@@ -3,7 +3,7 @@
 
 #include <QStringList>
 
-namespace relucent {
+namespace relucent::gui {
 
 bool DailyHours::contain(QTime time) const {
   return from < to ? time >= from && time < to : time >= from || time < to;
@@ -18,4 +18,4 @@ std::optional<DailyHours> dailyHoursFrom(const QString& text) {
   return hours;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

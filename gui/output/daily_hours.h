@@ -4,7 +4,7 @@
 #include <QTime>
 #include <optional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The daily hours of a show, in local time. They may extend past midnight.
 struct DailyHours {
@@ -17,4 +17,4 @@ struct DailyHours {
 /// Of "HH:MM-HH:MM"; none if invalid, or if both ends are equal.
 std::optional<DailyHours> dailyHoursFrom(const QString& text);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,13 +3,13 @@
 
 #include <QString>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The product's own picture, a resource, where the user has chosen none.
 QString defaultPicture();
 /// A picture as linear content; a resource too. Throws: as readLinearContent().
-Image linearContentOf(const QString& file);
+image::Image linearContentOf(const QString& file);
 
-}  // namespace relucent
+}  // namespace relucent::gui

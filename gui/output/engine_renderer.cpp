@@ -5,12 +5,12 @@
 #include <cstring>
 #include <utility>
 
-#include "base/error.h"
-#include "base/stopwatch.h"
-#include "calibration/calibration_folder.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/base/error.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/stored_settings.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Of a frame's time, what computing may take: the rest is for upload, swap and whatever else runs.
@@ -19,23 +19,24 @@ constexpr double shareOfBudget = 0.7;
 }  // namespace
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
-                               bool adaptiveRange, Progress& progress, const FallbackBackend::Notify& notify,
-                               BackendChoice choice)
+                               bool adaptiveRange, Progress& progress,
+                               const engine::FallbackBackend::Notify& notify, engine::BackendChoice choice)
     : canvas_(canvas) {
-  CalibrationFolder folder = CalibrationFolder::open(calibration, CalibrationFolder::Access::read);
-  calibration_ = loadCalibration(folder, progress);
-  EngineSettings settings;
-  CalibrateSettings chosen = settingsOf(folder);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(calibration, calibration::CalibrationFolder::Access::read);
+  calibration_ = pipeline::loadCalibration(folder, progress);
+  engine::EngineSettings settings;
+  pipeline::CalibrateSettings chosen = pipeline::settingsOf(folder);
   settings.target = targetOf(chosen.content);
-  venue_.emplace(prepareVenue(calibration_.venue, calibration_.inverse, calibration_.linearization.projectors,
-                              settings));
-  content_ = prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
-  backend_ = makeBackend(*venue_, choice, notify);
+  venue_.emplace(engine::prepareVenue(calibration_.venue, calibration_.inverse,
+                                      calibration_.linearization.projectors, settings));
+  content_ = engine::prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
+  backend_ = engine::makeBackend(*venue_, choice, notify);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
-  const Method method = chosen.content.method;
+  const compensation::Method method = chosen.content.method;
   // Brightness that follows the content is the engine's.
-  if (!adaptiveRange || method != Method::refined)
+  if (!adaptiveRange || method != compensation::Method::refined)
     still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
   words_.resize(calibration_.venue.transport.projectors().count());
 }
@@ -66,7 +67,8 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
                                      const Outdated& outdated) {
   if (!still_ || !request.thorough || !request.compensated) return framed(content, request);
   Stopwatch watch;
-  if (const Compensation* solved = still_->solve(content, outdated)) return encoded(*solved, watch.seconds());
+  if (const compensation::Compensation* solved = still_->solve(content, outdated))
+    return encoded(*solved, watch.seconds());
   RenderRequest inHaste = request;
   inHaste.thorough = false;
   return framed(content, inHaste);
@@ -81,8 +83,9 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   require(size == content_->warp.content(), "content of {}x{} on a canvas of {}x{}", size.width, size.height,
           content_->warp.content().width, content_->warp.content().height);
   std::vector<float> linear;
-  ContentFrame frame{content.image.constBits(), size, static_cast<std::size_t>(content.image.bytesPerLine()),
-                     ContentFrame::Format::rgba8};
+  engine::ContentFrame frame{content.image.constBits(), size,
+                             static_cast<std::size_t>(content.image.bytesPerLine()),
+                             engine::ContentFrame::Format::rgba8};
   if (content.image.format() == QImage::Format_RGBX32FPx4) {
     linear.resize(3 * size.count());
     for (int y = 0; y < size.height; ++y) {
@@ -90,21 +93,21 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
       for (int x = 0; x < size.width; ++x) std::copy_n(line + 4 * x, 3, &linear[3 * indexOf(size, {x, y})]);
     }
     frame = {linear.data(), size, 12 * static_cast<std::size_t>(size.width),
-             ContentFrame::Format::linearFloat};
+             engine::ContentFrame::Format::linearFloat};
   }
 
-  FrameRequest wanted;
+  engine::FrameRequest wanted;
   wanted.compensated = request.compensated;
   wanted.steps = stepsFor(request);
   bool settled = true;
   if (range_ && request.compensated) {
     auto now = std::chrono::steady_clock::now();
-    DisplayRange range = range_->follow(frame, now - std::exchange(rangeAsked_, now));
+    engine::DisplayRange range = range_->follow(frame, now - std::exchange(rangeAsked_, now));
     wanted.brightness = range.brightness;
     wanted.blackLift = range.blackLift;
     settled = range_->settled();
   }
-  FrameReport report;
+  engine::FrameReport report;
   if (!backend_->render(frame, wanted, words_, report))
     throw Error(ErrorKind::device, RELUCENT_MESSAGE("show.engine-lost-device", "the engine lost its device"),
                 RELUCENT_MESSAGE("show.start-show-again", "start the show again"),
@@ -120,7 +123,7 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   return rendered;
 }
 
-RenderedFrame EngineRenderer::encoded(const Compensation& solved, double seconds) {
+RenderedFrame EngineRenderer::encoded(const compensation::Compensation& solved, double seconds) {
   const Rasters& projectors = calibration_.venue.transport.projectors();
   for (std::size_t i = 0; i < projectors.devices(); ++i) {
     Size drive = projectors.size(i);
@@ -146,4 +149,4 @@ std::vector<QImage> EngineRenderer::drives() const {
   return images;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

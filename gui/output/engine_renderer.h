@@ -6,29 +6,29 @@
 #include <memory>
 #include <optional>
 
-#include "base/progress.h"
 #include "content/canvas.h"
-#include "engine/adaptive_range.h"
-#include "engine/engine_plan.h"
-#include "engine/fallback_backend.h"
-#include "engine/step_budget.h"
 #include "output/frame_renderer.h"
 #include "output/still_solver.h"
-#include "pipeline/measured_venue.h"
+#include "relucent/base/progress.h"
+#include "relucent/engine/adaptive_range.h"
+#include "relucent/engine/engine_plan.h"
+#include "relucent/engine/fallback_backend.h"
+#include "relucent/engine/step_budget.h"
+#include "relucent/pipeline/measured_venue.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The real-time engine over a calibration.
 class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
   /// offset follow the content, see AdaptiveRange. Placement, brightness and black level are those stored for
-  /// the calibration's content; its method applies to still pictures, see StillSolver. `notify` is called once,
-  /// on the rendering thread, when a graphics card is lost or unusable and the processor takes over. Throws:
-  /// as loadCalibration(), prepareVenue() and prepareContent().
+  /// the calibration's content; its method applies to still pictures, see StillSolver. `notify` is called
+  /// once, on the rendering thread, when a graphics card is lost or unusable and the processor takes over.
+  /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
-                 Progress& progress, const FallbackBackend::Notify& notify = {},
-                 BackendChoice choice = BackendChoice::automatic);
+                 Progress& progress, const engine::FallbackBackend::Notify& notify = {},
+                 engine::BackendChoice choice = engine::BackendChoice::automatic);
 
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }
@@ -39,22 +39,22 @@ class EngineRenderer : public FrameRenderer {
 
  private:
   RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
-  RenderedFrame encoded(const Compensation& solved, double seconds);
+  RenderedFrame encoded(const compensation::Compensation& solved, double seconds);
   /// Views of `words_`, one per projector.
   std::vector<QImage> drives() const;
   int stepsFor(const RenderRequest& request);
 
   Canvas canvas_;
-  MeasuredCalibration calibration_;
-  std::optional<EngineVenue> venue_;
-  std::optional<EngineContent> content_;
-  std::unique_ptr<EngineBackend> backend_;
-  std::optional<AdaptiveRange> range_;
+  pipeline::MeasuredCalibration calibration_;
+  std::optional<engine::EngineVenue> venue_;
+  std::optional<engine::EngineContent> content_;
+  std::unique_ptr<engine::EngineBackend> backend_;
+  std::optional<engine::AdaptiveRange> range_;
   std::chrono::steady_clock::time_point rangeAsked_{};
   std::unique_ptr<StillSolver> still_;  // none: still pictures use the engine's steps
   std::vector<std::uint32_t> words_;
-  std::optional<StepBudget> budget_;
+  std::optional<engine::StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // refresh time of the budget
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include "content/canvas.h"
 #include "content/content_source.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Options of a frame besides its content.
 struct RenderRequest {
@@ -51,4 +51,4 @@ class FrameRenderer {
   virtual void interrupt() {}
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

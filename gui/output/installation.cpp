@@ -6,10 +6,10 @@
 #include <QFileInfo>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/file.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ QString uninstall(Start start, const QString& config) {
   return removed(fileOf(start, config)) ? fileOf(start, config) : QString();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

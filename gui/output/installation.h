@@ -4,7 +4,7 @@
 #include <QString>
 #include <QStringList>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// How a show starts automatically at log-in.
 enum class Start {
@@ -33,4 +33,4 @@ bool isInstalled(Start start, const QString& config, const QString& argument);
 /// Removes it. Returns the file, or nothing if there was none. Throws: Error{disk}.
 QString uninstall(Start start, const QString& config);
 
-}  // namespace relucent
+}  // namespace relucent::gui

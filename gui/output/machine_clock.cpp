@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 std::chrono::nanoseconds timeOn(clockid_t clock) {
@@ -19,4 +19,4 @@ std::chrono::nanoseconds MachineClock::sleptSinceBoot() {
   return timeOn(CLOCK_BOOTTIME) - timeOn(CLOCK_MONOTONIC);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

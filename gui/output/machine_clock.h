@@ -5,7 +5,7 @@
 #include <chrono>
 #include <functional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The system's clocks as a show uses them, replaceable in tests.
 struct MachineClock {
@@ -17,4 +17,4 @@ struct MachineClock {
   static std::chrono::nanoseconds sleptSinceBoot();
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QOpenGLFunctions>
 #include <utility>
 
-namespace relucent {
+namespace relucent::gui {
 
 OpenGlSurface::OpenGlSurface(QWindow& window) : window_(window) {
   window_.setSurfaceType(QSurface::OpenGLSurface);
@@ -72,4 +72,4 @@ void OpenGlSurface::draw(const QImage& picture) {
   context_->swapBuffers(&window_);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 
 #include "output/window_surface.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Draws pictures as textures, swapped at the display's refresh.
 class OpenGlSurface : public WindowSurface {
@@ -32,4 +32,4 @@ class OpenGlSurface : public WindowSurface {
   QOpenGLTextureBlitter blitter_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

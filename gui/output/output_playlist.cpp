@@ -4,13 +4,13 @@
 #include <QFile>
 #include <QFileInfo>
 
-#include "base/error.h"
-#include "base/file.h"
 #include "content/content_address.h"
 #include "content/video.h"
 #include "output/default_picture.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QString picturePath(const QString& picture) {
@@ -98,4 +98,4 @@ bool OutputPlaylist::isStill(const PlaylistItem& item) {
          !QFileInfo(item.path).isDir();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,10 +3,10 @@
 
 #include <QObject>
 
-#include "base/message.h"
 #include "content/playlist.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What the output plays, kept in the calibration's folder. Until somebody edits it, it is the picture that
 /// Preview was left with.
@@ -24,7 +24,7 @@ class OutputPlaylist : public QObject {
 
   const PlaylistSettings& settings() const { return settings_; }
   /// Sentences of what stands against playing; empty: nothing.
-  std::vector<Message> problems() const { return relucent::problems(settings_); }
+  std::vector<Message> problems() const { return gui::problems(settings_); }
   bool isEmpty() const { return settings_.items.isEmpty(); }
   /// Where it is kept.
   QString file() const { return folder_ + "/show.playlist"; }
@@ -56,4 +56,4 @@ class OutputPlaylist : public QObject {
   bool edited_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

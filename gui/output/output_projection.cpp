@@ -6,12 +6,12 @@
 #include <QScreen>
 #include <algorithm>
 
-#include "base/error.h"
 #include "output/output_playlist.h"
 #include "output/output_tap.h"
+#include "relucent/base/error.h"
 #include "text/message_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Larger than this a canvas would only be slower.
@@ -61,7 +61,7 @@ OutputProjection::~OutputProjection() {
   close();
 }
 
-Canvas OutputProjection::canvasFor(const PlaylistSettings& list, Fit fit) {
+Canvas OutputProjection::canvasFor(const PlaylistSettings& list, compensation::Fit fit) {
   QSize size = OutputPlaylist::isStill(list.items.front()) ? QImageReader(list.items.front().path).size()
                                                            : largestCanvas;
   if (!size.isValid()) size = largestCanvas;  // core's own formats
@@ -234,4 +234,4 @@ void OutputProjection::reflect() {
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

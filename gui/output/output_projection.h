@@ -5,15 +5,15 @@
 #include <QTimer>
 #include <deque>
 
-#include "base/message.h"
 #include "content/playlist.h"
 #include "desktop/awake.h"
 #include "jobs/job.h"
 #include "jobs/latest.h"
 #include "output/engine_renderer.h"
 #include "output/player.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class OutputTap;
 
@@ -26,7 +26,7 @@ class OutputProjection : public QObject {
   struct Wanted {
     std::filesystem::path calibration;
     PlaylistSettings list;
-    Fit fit = Fit::fit;
+    compensation::Fit fit = compensation::Fit::fit;
     std::vector<ScreenIdentity> screens;  // one a projector
   };
 
@@ -35,7 +35,7 @@ class OutputProjection : public QObject {
 
   /// A canvas of the first picture's shape, so that it lies where Preview has put it; films have the usual
   /// one.
-  static Canvas canvasFor(const PlaylistSettings& list, Fit fit);
+  static Canvas canvasFor(const PlaylistSettings& list, compensation::Fit fit);
 
   /// Prepares the engine on another thread, then shines. Contract: not open, not opening; the list has items.
   void open(const Wanted& wanted);
@@ -83,7 +83,7 @@ class OutputProjection : public QObject {
   void progressed();
   /// A new mirror().
   void mirrored();
-  void failed(const relucent::Failure& failure);
+  void failed(const gui::Failure& failure);
 
  private:
   struct Made;
@@ -112,4 +112,4 @@ class OutputProjection : public QObject {
   Latest<QImage> scaling_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

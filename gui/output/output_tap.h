@@ -8,7 +8,7 @@
 
 #include "output/frame_renderer.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A copy of what went to the projectors, for the operator to see.
 class OutputTap {
@@ -49,4 +49,4 @@ class TappedRenderer : public FrameRenderer {
   std::shared_ptr<OutputTap> tap_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 #include <QPainter>
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// The context of its texts for translators.
@@ -29,7 +29,7 @@ QStringList overlayLines(const OverlayState& state) {
                               .arg(number(100.0 * now.clipped))
                         : Overlay::tr("not compensated")};
   if (state.frozen) lines.append(Overlay::tr("frozen"));
-  if (state.chart) lines.append(Overlay::tr("test chart: %1").arg(nameOf(*state.chart)));
+  if (state.chart) lines.append(Overlay::tr("test chart: %1").arg(testChartName(*state.chart)));
   return lines;
 }
 
@@ -48,4 +48,4 @@ void drawOverlay(QImage& picture, const QStringList& lines) {
   painter.drawText(place, side, text);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 #include "content/test_chart.h"
 #include "output/player_statistics.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Contents of the overlay.
 struct OverlayState {
@@ -25,4 +25,4 @@ QStringList overlayLines(const OverlayState& state);
 /// Writes lines into the upper left corner, grey on black, in a legible size.
 void drawOverlay(QImage& picture, const QStringList& lines);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr ContentTime standsStill{500'000};
@@ -89,7 +89,7 @@ void Player::beginFrame() {
   ContentTime time = clock_.time();
   request_.seconds = refreshSeconds(windows_);
   working_.setFuture(startedInBackground([renderer = renderer_, content = chart_ ? chartContent_ : content_,
-                                       request = request_, clock = clock_, time, last = last_]() -> Frame {
+                                          request = request_, clock = clock_, time, last = last_]() -> Frame {
     ContentPicture picture = content->at(time);
     if (picture.image.isNull()) return {};
     bool same = picture.number == last.content && request.compensated == last.request.compensated &&
@@ -221,4 +221,4 @@ bool Player::handleKey(int key) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

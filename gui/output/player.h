@@ -9,15 +9,15 @@
 #include <memory>
 #include <vector>
 
-#include "base/message.h"
 #include "content/outcome.h"
 #include "output/content_clock.h"
 #include "output/frame_renderer.h"
 #include "output/overlay.h"
 #include "output/player_statistics.h"
 #include "output/projector_window.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Plays content on all projectors under one clock. A frame is computed on another thread while the previous
 /// one is shown. A still picture is computed once in time, once more as well as possible, and then not again.
@@ -105,4 +105,4 @@ class Player : public QObject {
   std::uint64_t frames_ = 0, late_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Statistics of the last seconds of playing.
 struct PlayerStatistics {
@@ -15,4 +15,4 @@ struct PlayerStatistics {
   std::uint64_t late = 0;        // of these, finished more than one refresh of the display after their start
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

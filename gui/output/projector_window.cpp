@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Between two pictures of a display.
@@ -128,4 +128,4 @@ void ProjectorWindow::keyPressEvent(QKeyEvent* event) {
   Q_EMIT keyPressed(event->key(), event->modifiers());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

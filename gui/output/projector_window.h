@@ -9,7 +9,7 @@
 #include "output/screen_identity.h"
 #include "output/window_surface.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The window of one projector: full screen on its display, pixel for pixel, black until it gets a picture.
 /// When its display disappears the window hides, since the desktop would otherwise move it to the operator's
@@ -76,4 +76,4 @@ class ProjectorWindow : public QWindow {
   QTimer refreshing_;  // refresh time, where drawing does not wait for the display
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <QPainter>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QImage centred(const QImage& picture, QSize native) {
@@ -36,4 +36,4 @@ void RasterSurface::draw(const QImage& picture) {
   store_.flush(place);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "output/window_surface.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Draws pictures in memory for the display server: for computers without OpenGL.
 class RasterSurface : public WindowSurface {
@@ -21,4 +21,4 @@ class RasterSurface : public WindowSurface {
   QBackingStore store_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QGuiApplication>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::gui {
 
 ScreenIdentity identityOf(const QScreen& screen) {
   return {screen.name(), screen.manufacturer(), screen.model(), screen.serialNumber()};
@@ -67,4 +67,4 @@ ScreenIdentity screenIdentityFrom(const QJsonObject& json) {
           json["serial_number"].toString()};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 #include <QString>
 #include <optional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Identifies a display after it was unplugged or the computer was restarted: never by its place in a list,
 /// which changes.
@@ -45,4 +45,4 @@ QSize nativeSize(const QScreen& screen);
 QJsonObject toJson(const ScreenIdentity& identity);
 ScreenIdentity screenIdentityFrom(const QJsonObject& json);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/stopwatch.h"
-#include "platform/process.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/stopwatch.h"
+#include "relucent/platform/process.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr std::chrono::seconds noticed{1};  // of sleep
@@ -157,7 +157,7 @@ void Show::writeHealth(ShowState state) {
                                 {"shining", window->isShining()},
                                 {"drawn_by", window->surface().name()}});
   PlayerStatistics statistics = player_ ? player_->statistics() : PlayerStatistics{};
-  QJsonObject health{{"state", QString::fromStdString(std::string(nameOf(state)))},
+  QJsonObject health{{"state", QString::fromStdString(std::string(relucent::nameOf(state)))},
                      {"updated", QDateTime::currentDateTime().toString(Qt::ISODate)},
                      {"renderer", renderer_},
                      {"frames", static_cast<qint64>(statistics.frames)},
@@ -169,7 +169,7 @@ void Show::writeHealth(ShowState state) {
                      {"item", static_cast<qint64>(content.playing)},
                      {"skipped", static_cast<qint64>(skipped.size())},
                      {"failures", failures_},
-                     {"peak_memory_bytes", static_cast<qint64>(peakMemoryBytes())},
+                     {"peak_memory_bytes", static_cast<qint64>(platform::peakMemoryBytes())},
                      {"displays", displays}};
   try {
     writeFileAtomically(QDir(settings_.folder).filePath("health.json").toStdString(),
@@ -179,4 +179,4 @@ void Show::writeHealth(ShowState state) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

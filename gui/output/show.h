@@ -7,14 +7,14 @@
 #include <memory>
 #include <vector>
 
-#include "base/message.h"
 #include "desktop/awake.h"
 #include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"
 #include "output/show_settings.h"
+#include "relucent/base/message.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// As health.json names it.
 enum class ShowState { starting, playing, resting, failed, stopped };
@@ -72,4 +72,4 @@ class Show : public QObject {
   ShowState state_ = ShowState::starting;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

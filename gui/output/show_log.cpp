@@ -8,9 +8,9 @@
 #include <QDir>
 #include <vector>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr std::size_t largest = std::size_t{1} << 20;
@@ -47,4 +47,4 @@ void ShowLog::warn(const QString& sentence) {
   logger_->warn(sentence.toStdString());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@ namespace spdlog {
 class logger;
 }
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The log of a show: `show.log` in a folder, at most five files of a megabyte, the oldest dropped; and the
 /// same on standard error.
@@ -25,4 +25,4 @@ class ShowLog {
   std::shared_ptr<spdlog::logger> logger_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

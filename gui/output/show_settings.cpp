@@ -5,10 +5,10 @@
 #include <QGuiApplication>
 #include <algorithm>
 
-#include "base/error.h"
 #include "content/content_address.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QString described(const QScreen& screen) {
@@ -89,4 +89,4 @@ PlaylistSettings contentOf(const QString& path) {
   return settings;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "content/playlist.h"
-#include "engine/fallback_backend.h"
 #include "output/daily_hours.h"
 #include "output/screen_identity.h"
+#include "relucent/engine/fallback_backend.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Settings of an unattended show.
 struct ShowSettings {
@@ -20,7 +20,7 @@ struct ShowSettings {
   QStringList displays;  // connectors, one a projector; empty: chosen by size, see displaysFor()
   Canvas canvas;
   bool adaptiveRange = false;  // brightness and offset follow the content
-  BackendChoice backend = BackendChoice::automatic;
+  engine::BackendChoice backend = engine::BackendChoice::automatic;
   std::optional<DailyHours> hours;  // daily hours of play; none: always
   QString folder;                   // folder of the log and the health file
 };
@@ -34,4 +34,4 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
 /// Throws: as readPlaylist().
 PlaylistSettings contentOf(const QString& path);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "output/still_solver.h"
 
-#include "base/message.h"
-#include "image/colour.h"
+#include "relucent/base/message.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
-CompensatorSettings with(const ClusteringSettings& clustering) {
-  CompensatorSettings settings;
+compensation::CompensatorSettings with(const clustering::ClusteringSettings& clustering) {
+  compensation::CompensatorSettings settings;
   settings.clustering = clustering;
   return settings;
 }
 
-Image linearOf(const QImage& picture) {
-  Image linear(Size{picture.width(), picture.height()}, 3);
+image::Image linearOf(const QImage& picture) {
+  image::Image linear(Size{picture.width(), picture.height()}, 3);
   if (picture.format() == QImage::Format_RGBX32FPx4) {
     for (int y = 0; y < picture.height(); ++y) {
       auto* line = reinterpret_cast<const float*>(picture.constScanLine(y));
@@ -28,7 +28,7 @@ Image linearOf(const QImage& picture) {
     for (int x = 0; x < picture.width(); ++x)
       for (int c = 0; c < 3; ++c) linear.at(x, y, c) = static_cast<float>(line[4 * x + c]) / 255.0f;
   }
-  return srgbDecoded(linear);
+  return image::srgbDecoded(linear);
 }
 
 /// Stops what is outdated. As progress is reported, so that work is looked at between its steps.
@@ -46,14 +46,16 @@ class Watch : public ProgressSink {
 
 }  // namespace
 
-StillSolver::StillSolver(const MeasuredCalibration& calibration, const TargetSettings& target,
-                         const ClusteringSettings& clustering, Method method)
+StillSolver::StillSolver(const pipeline::MeasuredCalibration& calibration,
+                         const compensation::TargetSettings& target,
+                         const clustering::ClusteringSettings& clustering, compensation::Method method)
     : calibration_(calibration),
       target_(target),
       method_(method),
       compensator_(calibration.venue, calibration.inverse, with(clustering)) {}
 
-const Compensation* StillSolver::solve(const ContentPicture& content, const Outdated& outdated) {
+const compensation::Compensation* StillSolver::solve(const ContentPicture& content,
+                                                     const Outdated& outdated) {
   if (content.number == number_ && !last_.projector.empty()) return &last_;
   auto stop = std::make_shared<StopRequest>();
   {
@@ -63,7 +65,7 @@ const Compensation* StillSolver::solve(const ContentPicture& content, const Outd
   try {
     Watch watch(outdated, *stop);
     Progress progress(watch, *stop);
-    Target target = fitTarget(linearOf(content.image), calibration_.venue, target_);
+    compensation::Target target = fitTarget(linearOf(content.image), calibration_.venue, target_);
     last_ = compensator_.solve(method_, target, progress);
     number_ = content.number;
     return &last_;
@@ -77,4 +79,4 @@ void StillSolver::interrupt() {
   if (stop_) stop_->ask(StopRequest::Kind::cancel);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

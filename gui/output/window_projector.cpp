@@ -10,11 +10,11 @@
 #include <QWaitCondition>
 #include <cmath>
 
-#include "base/error.h"
 #include "desktop/awake.h"
 #include "output/projector_window.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Translated {
@@ -30,7 +30,7 @@ constexpr int longestSleep = 4;
 /// Swaps after the window came up until it is believed to stand where it should: desktops move it about.
 constexpr int swapsUntilSettled = 3;
 
-QImage driveOf(const Image& encodedDrive) {
+QImage driveOf(const image::Image& encodedDrive) {
   QImage drive(encodedDrive.width(), encodedDrive.height(), QImage::Format_RGB32);
   auto code = [&](int x, int y, int c) {
     return static_cast<int>(std::lround(255.0f * std::clamp(encodedDrive.at(x, y, c), 0.0f, 1.0f)));
@@ -50,12 +50,12 @@ void syncWithDisplayServer(QScreen* screen) {
 
 }  // namespace
 
-ScreenIdentity identityOf(const ScreenRigSettings::Display& display) {
+ScreenIdentity identityOf(const pipeline::ScreenRigSettings::Display& display) {
   return {QString::fromStdString(display.connector), QString::fromStdString(display.manufacturer),
           QString::fromStdString(display.model), QString::fromStdString(display.serialNumber)};
 }
 
-ScreenRigSettings::Display displayOf(const QScreen& screen) {
+pipeline::ScreenRigSettings::Display displayOf(const QScreen& screen) {
   const ScreenIdentity identity = identityOf(screen);
   return {identity.connector.toStdString(), identity.manufacturer.toStdString(), identity.model.toStdString(),
           identity.serialNumber.toStdString()};
@@ -64,7 +64,8 @@ ScreenRigSettings::Display displayOf(const QScreen& screen) {
 QString unusableReason(const QScreen& screen) {
   const double scale = screen.devicePixelRatio();
   if (QGuiApplication::platformName().startsWith("wayland") && scale != std::round(scale))
-    return Translated::tr("The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
+    return Translated::tr(
+               "The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
         .arg(scale);
   return {};
 }
@@ -259,7 +260,7 @@ void WindowProjector::waitFor(Done done) {
   }
 }
 
-void WindowProjector::show(const Image& encodedDrive) {
+void WindowProjector::show(const image::Image& encodedDrive) {
   require(encodedDrive.size() == size_ && encodedDrive.channels() == 3,
           "a picture of {}x{} pixels for a projector of {}x{}", encodedDrive.width(), encodedDrive.height(),
           size_.width, size_.height);
@@ -297,4 +298,4 @@ void WindowProjector::rest() {
       stage_, [stage = stage_] { stage->rest(); }, Qt::QueuedConnection);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,14 +7,14 @@
 #include <functional>
 #include <memory>
 
-#include "devices/screen_rig.h"
 #include "output/screen_identity.h"
-#include "pipeline/rig_settings.h"
+#include "relucent/devices/screen_rig.h"
+#include "relucent/pipeline/rig_settings.h"
 
-namespace relucent {
+namespace relucent::gui {
 
-ScreenIdentity identityOf(const ScreenRigSettings::Display& display);
-ScreenRigSettings::Display displayOf(const QScreen& screen);
+ScreenIdentity identityOf(const pipeline::ScreenRigSettings::Display& display);
+pipeline::ScreenRigSettings::Display displayOf(const QScreen& screen);
 
 /// Why a screen cannot show pictures pixel for pixel; empty: it can.
 QString unusableReason(const QScreen& screen);
@@ -24,7 +24,7 @@ QString unusableReason(const QScreen& screen);
 /// server has it, waits while the screen is unplugged, wakes sleeping displays and waits until they are lit,
 /// and throws Cancelled when the thread is asked to end (QThread::requestInterruption), which avoids a
 /// deadlock. Black before the first picture, hidden after rest().
-class WindowProjector : public ScreenProjector {
+class WindowProjector : public devices::ScreenProjector {
  public:
   /// Time from the return of the signal until a projector shows it.
   static constexpr std::chrono::milliseconds usualWaking{8000};
@@ -41,13 +41,12 @@ class WindowProjector : public ScreenProjector {
   Size size() const override { return size_; }
   int bits() const override { return 8; }
   /// Throws: Error{device} if the screen's size differs from the projector's, or it does not wake; Cancelled.
-  void show(const Image& encodedDrive) override;
+  void show(const image::Image& encodedDrive) override;
   bool stayedVisible() override;
   void rest() override;
 
  private:
   struct Shared;
-  class Stage;
   template <typename Done>
   void waitFor(Done done);
 
@@ -55,7 +54,8 @@ class WindowProjector : public ScreenProjector {
   Size size_;
   std::chrono::milliseconds waking_;
   std::shared_ptr<Shared> shared_;
+  class Stage;
   Stage* stage_;  // on the interface's thread; deletes itself there
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 #include "output/raster_surface.h"
 #include "output/screen_identity.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 bool foundOpenGl() {
@@ -36,4 +36,4 @@ QRect middleOf(QSize window, QSize picture) {
   return {QPoint((window.width() - picture.width()) / 2, (window.height() - picture.height()) / 2), picture};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

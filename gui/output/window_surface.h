@@ -6,7 +6,7 @@
 #include <QWindow>
 #include <memory>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Draws a projector's window. Created before the window is shown and destroyed before the window.
 class WindowSurface {
@@ -30,4 +30,4 @@ QSize nativeSize(const QWindow& window);
 /// bottom.
 QRect middleOf(QSize window, QSize picture);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QString raised(int exponent) {
@@ -63,4 +63,4 @@ std::optional<QString> localDigits(const QString& written) {
   return digitsOf(value, std::min(decimals, decimalsFor(value)));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QString>
 #include <optional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Separates thousands, and a number from its unit.
 constexpr QChar narrowSpace(0x202F);
@@ -22,4 +22,4 @@ QString powerOfTen(int exponent);
 /// three significant digits. None: not a number.
 std::optional<QString> localDigits(const QString& written);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 
 #include "text/local_digits.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// The English pattern of a message whose translation is not known.
@@ -68,4 +68,4 @@ QString fullSentence(const Message& message) {
                               : text(RELUCENT_MESSAGE("sentence.ended", "{}.").with(line.toStdString()));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

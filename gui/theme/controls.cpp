@@ -8,7 +8,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 const QColor& textColour() {
   return colours().text;
@@ -290,4 +290,4 @@ QPushButton* buttonOf(const QString& text, const char* role, QWidget* parent) {
   return button;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

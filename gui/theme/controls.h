@@ -11,7 +11,7 @@
 
 #include "theme/icons.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// An icon that follows the theme. Decoration only: text beside it says the same.
 class IconLabel : public QWidget {
@@ -160,4 +160,4 @@ QToolButton* toolOf(Icon icon, const QString& name, QWidget* parent = nullptr);
 /// A button with a role of the style sheet.
 QPushButton* buttonOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include <QTemporaryDir>
 #include <array>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Of the icons' files in resources/icons/controls, in the order of the enumeration.
@@ -70,4 +70,4 @@ QIcon iconOf(Icon icon, const QColor& colour) {
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QIcon>
 #include <QPainter>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Files of resources/icons/controls: line drawings in a box of 24, stroke 1.6 with round ends, never filled,
 /// without letters.
@@ -59,4 +59,4 @@ QIcon iconOf(Icon icon, const QColor& colour);
 QString iconFile(Icon icon, const QColor& colour, int side);
 QPixmap pixmapOf(Icon icon, const QColor& colour, int side, double devicePixelRatio);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include <QEvent>
 #include <QSlider>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 bool isTurned(const QObject* object) {
@@ -34,4 +34,4 @@ bool QuietWheel::eventFilter(QObject* watched, QEvent* event) {
   return true;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

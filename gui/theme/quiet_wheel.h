@@ -3,7 +3,7 @@
 
 #include <QObject>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Keeps the wheel from changing sliders, lists and numbers while a page is scrolled: they react to it only
 /// while they have the focus, and it does not give it to them. Installed for all widgets of the program.
@@ -15,4 +15,4 @@ class QuietWheel : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QFont figures() {
@@ -73,4 +73,4 @@ void Readout::paintEvent(QPaintEvent*) {
                    small.elidedText(what_, Qt::ElideRight, width()));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

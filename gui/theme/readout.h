@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A large figure with its caption below. Digits have a fixed width, so that nothing moves while they change.
 class Readout : public QWidget {
@@ -24,4 +24,4 @@ class Readout : public QWidget {
   bool warning_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -2,7 +2,7 @@
 #include "theme/icons.h"
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 // Names in braces are colours by role; what follows a role's name in a selector is set by setRole().
@@ -137,4 +137,4 @@ QString styleSheetOf(const Colours& colours) {
   return sheet;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include <QStyle>
 #include <QStyleFactory>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QStringList families() {
@@ -76,4 +76,4 @@ void setRole(QWidget* widget, const char* role) {
   widget->style()->polish(widget);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

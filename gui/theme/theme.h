@@ -7,7 +7,7 @@
 
 #include "theme/tokens.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The look of the program, one for all windows.
 class Theme : public QObject {
@@ -17,7 +17,7 @@ class Theme : public QObject {
   static Theme& instance();
 
   Look look() const { return look_; }
-  const Colours& colours() const { return relucent::colours(look_); }
+  const Colours& colours() const { return gui::colours(look_); }
   /// Style sheet, palette and font of the application. Contract: there is a QApplication.
   void apply(Look look);
   bool isDimmed() const { return dimmed_; }
@@ -48,4 +48,4 @@ QString styleSheetOf(const Colours& colours);
 /// Sets the role of a widget in the style sheet: "title", "section", "note", "card", "primary", ...
 void setRole(QWidget* widget, const char* role);
 
-}  // namespace relucent
+}  // namespace relucent::gui

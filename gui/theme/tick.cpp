@@ -6,7 +6,7 @@
 #include <QTextLayout>
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 
 Tick::Tick(const QString& text, QWidget* parent) : QCheckBox(text, parent), whole_(text) {
   setAccessibleName(text);
@@ -62,4 +62,4 @@ void Tick::changeEvent(QEvent* event) {
   if (event->type() == QEvent::FontChange) fit();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <QCheckBox>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A check box whose text wraps.
 class Tick : public QCheckBox {
@@ -27,4 +27,4 @@ class Tick : public QCheckBox {
   QString whole_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

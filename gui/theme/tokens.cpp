@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "theme/tokens.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 const Colours& colours(Look look) {
   static const Colours dark{
@@ -59,4 +59,4 @@ const Colours& colours(Look look) {
   return look == Look::dark ? dark : light;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QColor>
 #include <array>
 
-namespace relucent {
+namespace relucent::gui {
 
 enum class Look { dark, light };
 
@@ -48,4 +48,4 @@ inline constexpr int axis = 11, note = 12, body = 13, section = 15, title = 20, 
 /// it.
 inline constexpr double brightestPicture = 0.86, dimmedPicture = 0.43;
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include "text/local_digits.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 double roundStep(double least) {
@@ -47,4 +47,4 @@ std::vector<Axis::Tick> Axis::ticks(int count) const {
   return found;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

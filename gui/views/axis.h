@@ -4,7 +4,7 @@
 #include <QString>
 #include <vector>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// One axis of a chart: maps values to positions.
 struct Axis {
@@ -24,4 +24,4 @@ struct Axis {
   std::vector<Tick> ticks(int count) const;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

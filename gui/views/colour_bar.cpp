@@ -5,7 +5,7 @@
 #include "views/axis.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QRectF colourBarIn(const QRectF& area) {
   QRectF bar(area.left() + 10.0, area.top() + 30.0, 12.0, area.height() - 42.0);
@@ -42,4 +42,4 @@ void drawColourBarWords(QPainter& painter, const QRectF& area, const ColourScale
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

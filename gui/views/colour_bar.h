@@ -5,7 +5,7 @@
 
 #include "views/colour_map.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The rectangle of a vertical colour bar within an area at the side of a view; empty if that is too low.
 QRectF colourBarIn(const QRectF& area);
@@ -14,4 +14,4 @@ void drawColourBar(QPainter& painter, const QRectF& area, const ColourScale& sca
 void drawColourBarWords(QPainter& painter, const QRectF& area, const ColourScale& scale, const QString& unit,
                         bool percent);
 
-}  // namespace relucent
+}  // namespace relucent::gui

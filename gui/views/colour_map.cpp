@@ -7,11 +7,11 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
 #include "theme/tokens.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 std::array<QRgb, 256> tableOf(int map) {
@@ -70,7 +70,7 @@ QImage mapped(std::span<const float> values, Size size, const ColourScale& scale
   return image;
 }
 
-QImage encodedPictureOf(const Image& encoded) {
+QImage encodedPictureOf(const image::Image& encoded) {
   if (encoded.empty()) return {};
   QImage image(encoded.width(), encoded.height(), QImage::Format_RGB32);
   auto code = [](float value) {
@@ -84,9 +84,9 @@ QImage encodedPictureOf(const Image& encoded) {
   return image;
 }
 
-QImage pictureOf(const Image& linear, float white) {
+QImage pictureOf(const image::Image& linear, float white) {
   if (linear.empty()) return {};
-  return encodedPictureOf(viewed(linear, {white, white, white}));
+  return encodedPictureOf(image::viewed(linear, {white, white, white}));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,9 +4,9 @@
 #include <QImage>
 #include <span>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Errors and differences: cividis. Transport and reachable light: viridis.
 enum class ColourMap { cividis, viridis };
@@ -28,8 +28,8 @@ QColor colourAt(ColourMap map, double place);
 QImage mapped(std::span<const float> values, Size size, const ColourScale& scale);
 
 /// Linear light as seen by a viewer adapted to `white`.  Shape: three channels.
-QImage pictureOf(const Image& linear, float white);
+QImage pictureOf(const image::Image& linear, float white);
 /// Encoded values, such as projector drive.
-QImage encodedPictureOf(const Image& encoded);
+QImage encodedPictureOf(const image::Image& encoded);
 
-}  // namespace relucent
+}  // namespace relucent::gui

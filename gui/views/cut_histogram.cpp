@@ -10,7 +10,7 @@
 #include "theme/theme.h"
 #include "views/line_chart.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 CutHistogram::CutHistogram(Axis x, QString countTitle, QWidget* parent)
     : QWidget(parent), x_(std::move(x)), cut_(std::numeric_limits<double>::quiet_NaN()) {
@@ -123,4 +123,4 @@ void CutHistogram::paintCut(QPainter& painter) const {
   painter.drawText(box, Qt::AlignCenter, cutText_);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

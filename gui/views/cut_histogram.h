@@ -6,7 +6,7 @@
 
 #include "views/axis.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Bars over a logarithmic axis with a cut between values that are dropped and values that are kept. The cut
 /// is dragged, or moved by the arrow keys: 1 % of it a step, with Shift 10 %. Without a cut it is a plain bar
@@ -53,4 +53,4 @@ class CutHistogram : public QWidget {
   bool movable_ = true;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -12,7 +12,7 @@
 #include "views/view_tag.h"
 #include "views/vtk_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double barWidth = 76.0;
@@ -125,4 +125,4 @@ QRectF ImageView::dividerTag(bool right) const {
   return tagBox(size, places, keptFree());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 #include "views/colour_map.h"
 #include "views/plane_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A view of a picture or map. Pixels are never smoothed beyond 100 %.
 class ImageView : public PlaneView {
@@ -53,4 +53,4 @@ class ImageView : public PlaneView {
   double divider_ = 0.5;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

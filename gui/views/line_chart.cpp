@@ -9,7 +9,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 void drawMarker(QPainter& painter, Marker marker, QPointF at) {
@@ -146,4 +146,4 @@ void LineChart::paintLegend(QPainter& painter, const QRectF& plot) const {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

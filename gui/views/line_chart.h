@@ -6,7 +6,7 @@
 
 #include "views/axis.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Markers of a curve's points, so that curves differ not only in colour.
 enum class Marker { none, circle, square, triangle };
@@ -47,4 +47,4 @@ class LineChart : public QWidget {
   std::vector<Curve> curves_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

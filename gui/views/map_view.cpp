@@ -3,14 +3,14 @@
 
 #include <QKeyEvent>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "theme/theme.h"
 #include "views/colour_bar.h"
 #include "views/plane_scene.h"
 #include "views/relief.h"
 #include "views/vtk_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 enum Layer { picture, overlay };
@@ -33,7 +33,7 @@ MapView::MapView(QWidget* parent) : ImageView(parent) {
 
 MapView::~MapView() = default;
 
-void MapView::setValues(Image values) {
+void MapView::setValues(image::Image values) {
   require(values.empty() || values.channels() == 1, "{} channels", values.channels());
   values_ = std::move(values);
   risen_ = false;
@@ -98,4 +98,4 @@ bool MapView::eventFilter(QObject* watched, QEvent* event) {
   return ImageView::eventFilter(watched, event);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

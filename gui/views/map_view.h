@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 #include "views/image_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class PlaneScene;
 class Relief;
@@ -23,8 +23,8 @@ class MapView : public ImageView {
 
   /// The values of the map, used as heights of the relief. None: an empty image.
   /// Contract: one channel, of the picture's size.
-  void setValues(Image values);
-  const Image& values() const { return values_; }
+  void setValues(image::Image values);
+  const image::Image& values() const { return values_; }
 
   bool canRise() const { return vtk() != nullptr && !values_.empty() && scale().has_value(); }
   bool isRelief() const { return relief_; }
@@ -39,8 +39,8 @@ class MapView : public ImageView {
  private:
   std::unique_ptr<PlaneScene> plane_;
   std::unique_ptr<Relief> landscape_;
-  Image values_;
+  image::Image values_;
   bool relief_ = false, risen_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

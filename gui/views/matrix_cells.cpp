@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int mostCells = 640;  // a side of what is seen: software draws it while it is moved
@@ -33,4 +33,4 @@ void fitCells(double first, double last, std::size_t all, std::size_t length, st
   cells = static_cast<int>(count);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace relucent {
+namespace relucent::gui {
 
 // The division of one side of T into cells, for a picture of a part of it.
 
@@ -15,4 +15,4 @@ std::size_t entriesOfACell(double entries, double pixels, int width);
 void fitCells(double first, double last, std::size_t all, std::size_t length, std::size_t& begin,
               std::size_t& end, int& cells);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "views/colour_bar.h"
 #include "views/matrix_cells.h"
 #include "views/number_text.h"
@@ -12,7 +12,7 @@
 #include "views/raster_axis.h"
 #include "views/vtk_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double rowsWidth = 52.0, columnsHeight = 34.0, barWidth = 64.0, margin = 8.0;
@@ -61,7 +61,7 @@ MatrixView::MatrixView(QWidget* parent)
 
 MatrixView::~MatrixView() = default;
 
-void MatrixView::setMatrix(std::shared_ptr<const MatrixPictures> matrix) {
+void MatrixView::setMatrix(std::shared_ptr<const transport::MatrixPictures> matrix) {
   bool other = !matrix || !matrix_ || &matrix->transport() != &matrix_->transport();
   matrix_ = std::move(matrix);
   if (other) {
@@ -81,7 +81,7 @@ void MatrixView::setMatrix(std::shared_ptr<const MatrixPictures> matrix) {
 
 QSize MatrixView::planeSize() const {
   if (!matrix_) return {};
-  MatrixPart all = matrix_->whole();
+  transport::MatrixPart all = matrix_->whole();
   return {static_cast<int>(all.columns()), static_cast<int>(all.rows())};
 }
 
@@ -99,7 +99,7 @@ QRectF MatrixView::looked() const {
   return QRectF(from, to) & QRectF(QPointF(), QSizeF(planeSize()));
 }
 
-MatrixPart MatrixView::seen() const {
+transport::MatrixPart MatrixView::seen() const {
   QRectF part = looked();
   return {
       static_cast<std::size_t>(std::floor(part.top())), static_cast<std::size_t>(std::ceil(part.bottom())),
@@ -107,13 +107,13 @@ MatrixPart MatrixView::seen() const {
 }
 
 /// What to make a picture of, so that `looked` and what is round it are sharp.
-MatrixPart MatrixView::partFor(const QRectF& part, Size& cells) const {
+transport::MatrixPart MatrixView::partFor(const QRectF& part, Size& cells) const {
   double ratio = devicePixelRatioF();
   QRectF wide = part.adjusted(-around * part.width(), -around * part.height(), around * part.width(),
                               around * part.height()) &
                 QRectF(QPointF(), QSizeF(planeSize()));
-  MatrixPart found;
-  MatrixPart all = matrix_->whole();
+  transport::MatrixPart found;
+  transport::MatrixPart all = matrix_->whole();
   const Rasters &projectors = matrix_->transport().projectors(), &cameras = matrix_->transport().cameras();
   fitCells(wide.left(), wide.right(), all.columns(),
            entriesOfACell(part.width(), ratio * frame().width(), projectors.size(0).width), found.firstColumn,
@@ -127,10 +127,10 @@ MatrixPart MatrixView::partFor(const QRectF& part, Size& cells) const {
 /// The picture that is there is as sharp as the screen and reaches as far as one sees.
 bool MatrixView::isSharp() const {
   if (shown_.of != matrix_ || !shown_.detail.density) return false;
-  const MatrixDensity& have = *shown_.detail.density;
+  const transport::MatrixDensity& have = *shown_.detail.density;
   QRectF part = looked();
   Size cells;
-  MatrixPart wanted = partFor(part, cells);
+  transport::MatrixPart wanted = partFor(part, cells);
   auto length = [](std::size_t entries, int count) { return static_cast<double>(entries) / count; };
   bool fine = length(have.part.columns(), have.cells.width) <= 1.01 * length(wanted.columns(), cells.width) &&
               length(have.part.rows(), have.cells.height) <= 1.01 * length(wanted.rows(), cells.height);
@@ -156,7 +156,7 @@ std::vector<QRectF> MatrixView::keptFree() const {
   return hasLens() ? std::vector{lensFrame()} : std::vector<QRectF>();
 }
 
-std::optional<MatrixPart> MatrixView::lensPart() const {
+std::optional<transport::MatrixPart> MatrixView::lensPart() const {
   std::optional<QPoint> pick = link().pick();
   if (!pick || !matrix_ || !looked().contains(QPointF(*pick) + QPointF(0.5, 0.5))) return std::nullopt;
   QRectF lens = lensFrame();
@@ -169,32 +169,32 @@ std::optional<MatrixPart> MatrixView::lensPart() const {
   part.moveLeft(std::clamp(part.left(), 0.0, std::max(0.0, plane.width() - part.width())));
   part.moveTop(std::clamp(part.top(), 0.0, std::max(0.0, plane.height() - part.height())));
   part &= QRectF(QPointF(), QSizeF(plane));
-  return MatrixPart{static_cast<std::size_t>(part.top()), static_cast<std::size_t>(part.bottom()),
-                    static_cast<std::size_t>(part.left()), static_cast<std::size_t>(part.right())};
+  return transport::MatrixPart{static_cast<std::size_t>(part.top()), static_cast<std::size_t>(part.bottom()),
+                               static_cast<std::size_t>(part.left()), static_cast<std::size_t>(part.right())};
 }
 
 bool MatrixView::hasLens() const {
   return shown_.lens.density && lensPart() == shown_.lens.density->part;
 }
 
-MatrixView::Picture MatrixView::pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells,
-                                          std::size_t step) {
+MatrixView::Picture MatrixView::pictureOf(const transport::MatrixPictures& matrix,
+                                          const transport::MatrixPart& part, Size cells, std::size_t step) {
   Picture picture;
-  picture.density =
-      std::make_shared<MatrixDensity>(matrix.density(part, cells, MatrixPictures::Of::light, step));
+  picture.density = std::make_shared<transport::MatrixDensity>(
+      matrix.density(part, cells, transport::MatrixPictures::Of::light, step));
   picture.means = picture.density->means();
   return picture;
 }
 
 void MatrixView::want() {
   if (!matrix_ || !vtk()->works() || frame().isEmpty() || !isVisible()) return;
-  std::optional<MatrixPart> lens = lensPart();
+  std::optional<transport::MatrixPart> lens = lensPart();
   bool lensDone = shown_.of == matrix_ && (!lens || hasLens());
   bool sharp = isSharp();
   wanted_ = !sharp || !lensDone || !shown_.exact;
   if (!wanted_ || (sharp && lensDone && still_.isActive())) return;
   Size cells;
-  MatrixPart part = partFor(looked(), cells);
+  transport::MatrixPart part = partFor(looked(), cells);
   // What is there already only lacks the other rows.
   std::size_t rows = part.rows() / static_cast<std::size_t>(cells.height);
   std::size_t step = sharp && !still_.isActive() ? 1 : std::max<std::size_t>(1, rows / sampledRows);
@@ -211,7 +211,7 @@ void MatrixView::want() {
       answer.lens = pictureOf(*matrix, *lens,
                               {std::clamp(side, 1, static_cast<int>(lens->columns())),
                                std::clamp(side, 1, static_cast<int>(lens->rows()))});
-    MatrixPart all = matrix->whole();
+    transport::MatrixPart all = matrix->whole();
     if (!answer.whole.density) {
       Size coarse{matrix->transport().projectors().size(0).height,
                   static_cast<int>(std::min<std::size_t>(all.rows(), 256))};
@@ -234,7 +234,7 @@ void MatrixView::take(Answer answer) {
   refresh();
 }
 
-QRectF MatrixView::targetOf(const MatrixPart& part) const {
+QRectF MatrixView::targetOf(const transport::MatrixPart& part) const {
   return QRectF(widgetFromPicture(QPointF(part.firstColumn, part.firstRow)),
                 widgetFromPicture(QPointF(part.endColumn, part.endRow)));
 }
@@ -264,7 +264,7 @@ const MatrixView::Picture* MatrixView::finestAt(QPoint entry) const {
   auto row = static_cast<std::size_t>(entry.y()), column = static_cast<std::size_t>(entry.x());
   for (const Picture* picture : {&shown_.detail, &shown_.whole}) {
     if (!picture->density) continue;
-    const MatrixPart& part = picture->density->part;
+    const transport::MatrixPart& part = picture->density->part;
     if (row >= part.firstRow && row < part.endRow && column >= part.firstColumn && column < part.endColumn)
       return picture;
   }
@@ -279,21 +279,21 @@ std::optional<float> MatrixView::valueAt(QPoint entry) const {
   return picture->means[indexOf(picture->density->cells, cell)];
 }
 
-Image MatrixView::values() const {
+image::Image MatrixView::values() const {
   if (!shown_.detail.density || !shown_.exact) return {};
-  const MatrixDensity& density = *shown_.detail.density;
-  MatrixPart wanted = seen();
+  const transport::MatrixDensity& density = *shown_.detail.density;
+  transport::MatrixPart wanted = seen();
   std::size_t firstRow = std::max(wanted.firstRow, density.part.firstRow);
   std::size_t firstColumn = std::max(wanted.firstColumn, density.part.firstColumn);
   std::size_t endRow = std::min(wanted.endRow, density.part.endRow);
   std::size_t endColumn = std::min(wanted.endColumn, density.part.endColumn);
   if (firstRow >= endRow || firstColumn >= endColumn) return {};
   Pixel first = density.cellOf(firstRow, firstColumn), last = density.cellOf(endRow - 1, endColumn - 1);
-  Image image({last.x - first.x + 1, last.y - first.y + 1}, 1);
+  image::Image image({last.x - first.x + 1, last.y - first.y + 1}, 1);
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x)
       image.at(x, y, 0) = shown_.detail.means[indexOf(density.cells, {first.x + x, first.y + y})];
   return image;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,13 +4,13 @@
 #include <QTimer>
 #include <memory>
 
-#include "image/image.h"
 #include "jobs/latest.h"
-#include "transport/matrix_density.h"
+#include "relucent/image/image.h"
+#include "relucent/transport/matrix_density.h"
 #include "views/colour_map.h"
 #include "views/plane_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class PlaneScene;
 
@@ -27,17 +27,17 @@ class MatrixView : public PlaneView {
   ~MatrixView() override;
 
   /// None: nullptr.
-  void setMatrix(std::shared_ptr<const MatrixPictures> matrix);
+  void setMatrix(std::shared_ptr<const transport::MatrixPictures> matrix);
   /// No sharper or exact picture is pending.
   bool isSettled() const { return !asking_.isBusy() && !wanted_; }
 
   /// The visible entries.
-  MatrixPart seen() const;
+  transport::MatrixPart seen() const;
   /// Mean light of the entries in the finest picture's cell over a column and row; none where it is not known
   /// yet.
   std::optional<float> valueAt(QPoint entry) const;
   /// The values of the visible part of that picture. One channel; empty until they are exact.
-  Image values() const;
+  image::Image values() const;
   const ColourScale& scale() const { return scale_; }
 
  protected:
@@ -51,12 +51,12 @@ class MatrixView : public PlaneView {
  private:
   /// A picture of a part of T.
   struct Picture {
-    std::shared_ptr<const MatrixDensity> density;
+    std::shared_ptr<const transport::MatrixDensity> density;
     std::vector<float> means;
     QImage image;
   };
   struct Answer {
-    std::shared_ptr<const MatrixPictures> of;
+    std::shared_ptr<const transport::MatrixPictures> of;
     Picture whole, detail, lens;
     ColourScale scale;
     bool exact = false, exactWhole = false;
@@ -64,24 +64,24 @@ class MatrixView : public PlaneView {
   /// The visible part of the plane in entries, with fractions.
   QRectF looked() const;
   QRectF barArea() const;
-  MatrixPart partFor(const QRectF& looked, Size& cells) const;
+  transport::MatrixPart partFor(const QRectF& looked, Size& cells) const;
   bool isSharp() const;
   /// Contents and position of the lens; none without a visible pick, or when single entries are visible.
-  std::optional<MatrixPart> lensPart() const;
+  std::optional<transport::MatrixPart> lensPart() const;
   QRectF lensFrame() const;
   bool hasLens() const;
   void want();
   void take(Answer answer);
-  static Picture pictureOf(const MatrixPictures& matrix, const MatrixPart& part, Size cells,
-                           std::size_t step = 1);
-  QRectF targetOf(const MatrixPart& part) const;
+  static Picture pictureOf(const transport::MatrixPictures& matrix, const transport::MatrixPart& part,
+                           Size cells, std::size_t step = 1);
+  QRectF targetOf(const transport::MatrixPart& part) const;
   const Picture* finestAt(QPoint entry) const;
   void paintAxes(QPainter& painter) const;
   void paintCross(QPainter& painter) const;
   void paintLens(QPainter& painter) const;
 
   std::unique_ptr<PlaneScene> plane_;
-  std::shared_ptr<const MatrixPictures> matrix_;
+  std::shared_ptr<const transport::MatrixPictures> matrix_;
   Answer shown_;
   ColourScale scale_{ColourMap::viridis, 1e-5, 1e-1, true};
   bool wanted_ = false;
@@ -90,4 +90,4 @@ class MatrixView : public PlaneView {
   Latest<Answer> asking_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 #include "views/matrix_view.h"
 #include "views/raster_axis.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 const Colours& dark() {
@@ -91,4 +91,4 @@ void MatrixView::paintCross(QPainter& painter) const {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

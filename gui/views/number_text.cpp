@@ -7,7 +7,7 @@
 
 #include "text/local_digits.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr QChar isolate(0x2068), endOfIsolate(0x2069);
@@ -68,4 +68,4 @@ QString groupedText(QString sentence, int count) {
              : sentence.replace(QString::number(count), countText(static_cast<std::uint64_t>(count)));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QString>
 #include <cstdint>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Isolates left-to-right text, such as numbers with units and pairs, for use in a right-to-left sentence;
 /// adds nothing in left-to-right languages.
@@ -28,4 +28,4 @@ QString placeText(int x, int y);
 /// A sentence of tr(..., count), with its count grouped as by countText().
 QString groupedText(QString sentence, int count);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -19,12 +19,12 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "theme/tokens.h"
 #include "views/vtk_image.h"
 #include "views/vtk_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A rectangle with a picture on it.
 struct PlaneScene::Layer {
@@ -174,4 +174,4 @@ void PlaneScene::fill(QSize size) {
   camera->SetClippingRange(1.0, 200.0);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -8,7 +8,7 @@
 
 #include "views/colour_map.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class VtkView;
 
@@ -39,4 +39,4 @@ class PlaneScene {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -12,7 +12,7 @@
 #include "views/vtk_view.h"
 #include "views/whole_screen.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 const Colours& dark() {
@@ -214,4 +214,4 @@ void PlaneView::paintEvent(QPaintEvent*) {
   paintWords(painter);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,7 +9,7 @@
 
 #include "views/view_link.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class VtkView;
 
@@ -116,4 +116,4 @@ class PlaneView : public QWidget {
   std::optional<QPoint> hovered_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

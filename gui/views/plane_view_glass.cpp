@@ -10,7 +10,7 @@
 #include "views/plane_view.h"
 #include "views/view_tag.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 const Colours& dark() {
@@ -105,4 +105,4 @@ void PlaneView::paintMarks(QPainter& painter) {
   painter.restore();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 
 #include "views/plane_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double clickSlop = 4.0;
@@ -114,4 +114,4 @@ void PlaneView::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

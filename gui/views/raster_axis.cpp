@@ -7,7 +7,7 @@
 #include "views/axis.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Place {
@@ -67,4 +67,4 @@ std::vector<RasterTick> rasterTicks(const Rasters& rasters, double first, double
   return ticks;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

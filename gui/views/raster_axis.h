@@ -4,9 +4,9 @@
 #include <QString>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A side of T: pixels, numbered line by line and device by device.
 struct RasterTick {
@@ -21,4 +21,4 @@ std::vector<RasterTick> rasterTicks(const Rasters& rasters, double first, double
 /// "312, 240", for a second device "2: 312, 240".
 QString pixelText(const Rasters& rasters, std::size_t index);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -21,11 +21,11 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "views/vtk_image.h"
 #include "views/vtk_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int mostPoints = 200;  // along the longer side: software rendering turns it smoothly
@@ -43,7 +43,7 @@ class TurningStyle : public vtkInteractorStyleTrackballCamera {
 };
 
 /// The mean of those values of a cell that are numbers; NaN where none is.
-float meanOf(const Image& map, int x0, int y0, int step) {
+float meanOf(const image::Image& map, int x0, int y0, int step) {
   double sum = 0.0;
   int count = 0;
   for (int y = y0; y < std::min(y0 + step, map.height()); ++y)
@@ -57,11 +57,11 @@ float meanOf(const Image& map, int x0, int y0, int step) {
 
 /// Neighbours weigh in, once and again: single pixels would stand as spikes and hide what lies behind them.
 /// Where there is no value there is none afterwards.
-void smooth(Image& heights) {
+void smooth(image::Image& heights) {
   constexpr int passes = 2;
   constexpr float weights[] = {1.0f, 2.0f, 1.0f};
   for (int pass = 0; pass < passes; ++pass) {
-    Image before = heights;
+    image::Image before = heights;
     for (int y = 0; y < heights.height(); ++y)
       for (int x = 0; x < heights.width(); ++x) {
         if (std::isnan(before.at(x, y, 0))) continue;
@@ -78,14 +78,14 @@ void smooth(Image& heights) {
   }
 }
 
-vtkSmartPointer<vtkPolyData> groundOf(const Image& map, const ColourScale& scale) {
+vtkSmartPointer<vtkPolyData> groundOf(const image::Image& map, const ColourScale& scale) {
   int step = std::max(1, (std::max(map.width(), map.height()) + mostPoints - 1) / mostPoints);
   int columns = (map.width() + step - 1) / step, rows = (map.height() + step - 1) / step;
   double up = height * std::max(map.width(), map.height());
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> places;
   places->SetNumberOfComponents(2);
-  Image heights({columns, rows}, 1);
+  image::Image heights({columns, rows}, 1);
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
       heights.at(i, j, 0) =
@@ -144,7 +144,7 @@ Relief::Relief(VtkView& view) : view_(view), parts_(std::make_unique<Parts>()) {
 
 Relief::~Relief() = default;
 
-void Relief::set(const Image& map, const ColourScale& scale, const QImage& picture) {
+void Relief::set(const image::Image& map, const ColourScale& scale, const QImage& picture) {
   require(map.channels() == 1 && !picture.isNull(), "a map of {} channels", map.channels());
   parts_->normals->SetInputData(groundOf(map, scale));
   parts_->texture->SetInputData(vtkImageOf(picture));
@@ -183,4 +183,4 @@ void Relief::reset() {
   view_.redraw();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

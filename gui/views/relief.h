@@ -4,10 +4,10 @@
 #include <QImage>
 #include <memory>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 #include "views/colour_map.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class VtkView;
 
@@ -19,7 +19,7 @@ class Relief {
   ~Relief();
 
   /// Contract: the map has one channel, and the picture covers it.
-  void set(const Image& map, const ColourScale& scale, const QImage& picture);
+  void set(const image::Image& map, const ColourScale& scale, const QImage& picture);
   /// `beside`: share of the view's width that is occupied at its right.
   void setShown(bool shown, double beside = 0.0);
   /// Rotates by degrees.
@@ -34,4 +34,4 @@ class Relief {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,13 +6,13 @@
 #include <QMenu>
 #include <QToolButton>
 
-#include "base/error.h"
-#include "image/exr.h"
+#include "relucent/base/error.h"
+#include "relucent/image/exr.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/plane_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Translated {
@@ -24,15 +24,15 @@ struct Translated {
 void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
   std::filesystem::path file(path.toStdString());
   if (path.endsWith(".exr", Qt::CaseInsensitive)) {
-    Image numbers = values.values ? values.values() : Image();
+    image::Image numbers = values.values ? values.values() : image::Image();
     if (numbers.empty())
       throw Error(
           ErrorKind::input,
           RELUCENT_ENGLISH_MESSAGE("view.there-no-numbers-save-yet", "there are no numbers to save yet"),
           RELUCENT_ENGLISH_MESSAGE("view.wait-until-view-complete", "wait until the view is complete"),
           file.string());
-    std::map<std::string, ExrAttribute> attributes{{exr_attribute::units, values.units}};
-    return writeExr(file, numbers, ExrType::floatType, std::move(attributes));
+    std::map<std::string, image::ExrAttribute> attributes{{image::exr_attribute::units, values.units}};
+    return image::writeExr(file, numbers, image::ExrType::floatType, std::move(attributes));
   }
   if (!path.endsWith(".png", Qt::CaseInsensitive))
     throw Error(ErrorKind::input,
@@ -71,12 +71,14 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
       }
     });
   };
-  add(Translated::tr("Picture as seen"), Translated::tr("Save the picture"), Translated::tr("Pictures (*.png)"), ".png");
+  add(Translated::tr("Picture as seen"), Translated::tr("Save the picture"),
+      Translated::tr("Pictures (*.png)"), ".png");
   if (values.values)
-    add(Translated::tr("Values"), Translated::tr("Save the values"), Translated::tr("OpenEXR (*.exr)"), ".exr");
+    add(Translated::tr("Values"), Translated::tr("Save the values"), Translated::tr("OpenEXR (*.exr)"),
+        ".exr");
   save->setMenu(menu);
   save->setPopupMode(QToolButton::InstantPopup);
   card.addAction(save);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,17 +3,17 @@
 
 #include <functional>
 
-#include "image/image.h"
 #include "jobs/failure.h"
+#include "relucent/image/image.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class Card;
 class PlaneView;
 
 /// What a view can save besides its picture.
 struct ViewValues {
-  std::function<Image()> values;  // empty: there are none now
+  std::function<image::Image()> values;  // empty: there are none now
   std::string units;
 };
 
@@ -26,4 +26,4 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
 /// Throws: Error{input} for another ending or without numbers, Error{disk}.
 void saveView(PlaneView& view, const ViewValues& values, const QString& path);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 
 void ViewLink::look(double zoom, QPointF centre) {
   zoom_ = std::clamp(zoom, 1.0, mostZoom_);
@@ -17,4 +17,4 @@ void ViewLink::setPick(std::optional<QPoint> pick) {
   Q_EMIT picked();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

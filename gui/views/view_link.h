@@ -5,7 +5,7 @@
 #include <QPointF>
 #include <optional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// State shared by linked views: centre, magnification, and pick in pixels of the plane.
 class ViewLink : public QObject {
@@ -32,4 +32,4 @@ class ViewLink : public QObject {
   std::optional<QPoint> pick_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QSizeF tagSize(const QString& text) {
   return QFontMetricsF(typeOf(type::note, QFont::DemiBold)).size(0, text) + QSizeF(20.0, 10.0);
@@ -40,4 +40,4 @@ void drawTag(QPainter& painter, QPointF place, const QString& text, const QColor
   painter.drawText(box, Qt::AlignCenter, text);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 
 class QPainter;
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Size of a tag with a text of one or more lines, see drawTag().
 QSizeF tagSize(const QString& text);
@@ -21,4 +21,4 @@ QRectF tagBox(QSizeF size, const std::vector<QPointF>& places, const std::vector
 void drawTag(QPainter& painter, QPointF topLeft, const QString& text, const QColor& colour,
              bool rightAligned = false);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,7 +9,7 @@
 #include <QOpenGLContext>
 #include <utility>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// The least that VTK draws with.
@@ -138,4 +138,4 @@ void VtkCanvas::answer(unsigned long what, void* answer) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The scene, with its mouse and key handlers. Outlives every context in which it is drawn.
 struct VtkScene {
@@ -53,4 +53,4 @@ class VtkCanvas : public QOpenGLWidget {
   int frames_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

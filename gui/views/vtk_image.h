@@ -6,7 +6,7 @@
 
 #include <QImage>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A picture in VTK's format, with opacity, last line first.
 inline vtkSmartPointer<vtkImageData> vtkImageOf(const QImage& picture) {
@@ -21,4 +21,4 @@ inline vtkSmartPointer<vtkImageData> vtkImageOf(const QImage& picture) {
   return image;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -12,7 +12,7 @@
 #include "theme/theme.h"
 #include "views/vtk_canvas.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// VTK's name of a key: what its styles compare with.
@@ -181,4 +181,4 @@ void VtkView::keyReleaseEvent(QKeyEvent* event) {
   QWidget::keyReleaseEvent(event);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

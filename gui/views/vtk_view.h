@@ -9,7 +9,7 @@ class vtkRenderWindow;
 class vtkRenderWindowInteractor;
 class vtkRenderer;
 
-namespace relucent {
+namespace relucent::gui {
 
 class VtkCanvas;
 struct VtkScene;
@@ -65,4 +65,4 @@ class VtkView : public QWidget {
   QLabel* sentence_ = nullptr;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

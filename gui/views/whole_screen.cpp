@@ -8,7 +8,7 @@
 #include <QVBoxLayout>
 #include <memory>
 
-namespace relucent {
+namespace relucent::gui {
 
 WholeScreen::WholeScreen(QWidget& view)
     : QWidget(view.window(), Qt::Window | Qt::FramelessWindowHint), view_(&view), place_(new QWidget) {
@@ -54,4 +54,4 @@ void WholeScreen::closeEvent(QCloseEvent* event) {
   event->accept();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include <QPointer>
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Shows a view full screen, in a window of its own, until that is closed by the view, Esc or F11. Then the
 /// view returns to its place in the page.
@@ -26,4 +26,4 @@ class WholeScreen : public QWidget {
   QPointer<QWidget> view_, place_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

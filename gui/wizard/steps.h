@@ -5,9 +5,9 @@
 
 #include "wizard/frame/wizard_step.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// All steps in the order of the rail. Their list is `pages` in gui/wizard/CMakeLists.txt.
 std::vector<WizardStep> wizardSteps();
 
-}  // namespace relucent
+}  // namespace relucent::gui

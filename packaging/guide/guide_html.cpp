@@ -10,7 +10,7 @@
 
 #include "app/guide.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 const char* const style =
@@ -86,4 +86,4 @@ void writeGuide(const QString& help, const QString& folder) {
       throw std::runtime_error("cannot copy " + name.toStdString());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    relucent::writeGuide(QString::fromLocal8Bit(argv[1]), QString::fromLocal8Bit(argv[2]));
+    relucent::gui::writeGuide(QString::fromLocal8Bit(argv[1]), QString::fromLocal8Bit(argv[2]));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write-guide: %s\n", error.what());
     return 1;

@@ -9,7 +9,7 @@
 #include <map>
 #include <vector>
 
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
 namespace relucent::benchmarks {
 

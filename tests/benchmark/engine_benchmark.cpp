@@ -7,10 +7,16 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/error.h"
-#include "engine/bench/engine_bench.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/bench/engine_bench.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::inverse;
+using namespace relucent::linearization;
+using namespace relucent::transport;
 
 namespace {
 

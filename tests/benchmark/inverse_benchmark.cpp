@@ -4,9 +4,9 @@
 #include <fstream>
 #include <string>
 
-#include "clustering/grouping.h"
-#include "inverse/cluster_inverse.h"
-#include "inverse/windows.h"
+#include "relucent/clustering/grouping.h"
+#include "relucent/inverse/cluster_inverse.h"
+#include "relucent/inverse/windows.h"
 #include "synthetic_transport.h"
 
 namespace relucent::benchmarks {
@@ -14,12 +14,12 @@ namespace {
 
 Progress quiet;
 
-const TransportMatrix& venue() {
-  static const TransportMatrix venue = [] {
+const transport::TransportMatrix& venue() {
+  static const transport::TransportMatrix venue = [] {
     SyntheticSettings settings;
-    NodeLayout layout{Rasters(settings.projector)};
-    return TransportMatrix(settings.camera, settings.projector,
-                           defocusedLeaves(settings, DefocusSettings{}, layout));
+    transport::NodeLayout layout{Rasters(settings.projector)};
+    return transport::TransportMatrix(settings.camera, settings.projector,
+                                      defocusedLeaves(settings, DefocusSettings{}, layout));
   }();
   return venue;
 }
@@ -29,16 +29,16 @@ const std::vector<std::uint8_t>& usable() {
   return usable;
 }
 
-const ConnectionGraph& graph() {
-  static const ConnectionGraph graph(venue(), usable(), {}, quiet);
+const clustering::ConnectionGraph& graph() {
+  static const clustering::ConnectionGraph graph(venue(), usable(), {}, quiet);
   return graph;
 }
 
 /// The whole capped chain keeps what Algorithm 1 would cut inside clusters, as the inverse is better for it.
-ClusteringSettings capped(int most) {
-  ClusteringSettings settings;
+clustering::ClusteringSettings capped(int most) {
+  clustering::ClusteringSettings settings;
   settings.patchCut = 0.1;
-  settings.cap = SizeCap::always;
+  settings.cap = clustering::SizeCap::always;
   settings.mostUnknowns = most;
   return settings;
 }
@@ -57,7 +57,7 @@ double forgetPeak() {
   return mebibytes("VmRSS");
 }
 
-void describe(benchmark::State& state, const ClusteringStatistics& s, std::size_t clusters) {
+void describe(benchmark::State& state, const clustering::ClusteringStatistics& s, std::size_t clusters) {
   state.counters["clusters"] = static_cast<double>(clusters);
   state.counters["largest"] = s.largest;
   state.counters["kept"] = static_cast<double>(s.kept);
@@ -67,20 +67,20 @@ void describe(benchmark::State& state, const ClusteringStatistics& s, std::size_
 
 void announceThreshold(benchmark::State& state) {
   venue();
-  for (auto _ : state) benchmark::DoNotOptimize(statisticsOf(venue(), {0.001f, 0.01f, 0.95}));
+  for (auto _ : state) benchmark::DoNotOptimize(transport::statisticsOf(venue(), {0.001f, 0.01f, 0.95}));
   state.counters["leaves"] = static_cast<double>(venue().leaves().blocks());
 }
 
 void applyThreshold(benchmark::State& state) {
   Stack flood = venue().floodlight();
-  for (auto _ : state) benchmark::DoNotOptimize(thresholded(venue(), {0.0f, 0.01f, 1.0}, flood));
+  for (auto _ : state) benchmark::DoNotOptimize(transport::thresholded(venue(), {0.0f, 0.01f, 1.0}, flood));
 }
 
 void prepareGraph(benchmark::State& state) {
   usable();
   double before = forgetPeak();
   for (auto _ : state) {
-    ConnectionGraph prepared(venue(), usable(), {}, quiet);
+    clustering::ConnectionGraph prepared(venue(), usable(), {}, quiet);
     state.counters["connections"] = static_cast<double>(prepared.connections());
   }
   state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
@@ -91,10 +91,10 @@ void algorithmOne(benchmark::State& state) {
   usable();
   double before = forgetPeak();
   for (auto _ : state) {
-    ConnectionGraph prepared(venue(), usable(), {}, quiet);
-    ClusteringSettings settings;
-    settings.cap = SizeCap::never;
-    Clustering result = clustered(prepared, settings, quiet);
+    clustering::ConnectionGraph prepared(venue(), usable(), {}, quiet);
+    clustering::ClusteringSettings settings;
+    settings.cap = clustering::SizeCap::never;
+    clustering::Clustering result = clustering::clustered(prepared, settings, quiet);
     describe(state, result.statistics, result.sizes.size());
   }
   state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
@@ -102,12 +102,12 @@ void algorithmOne(benchmark::State& state) {
 
 /// What moving a slider costs: the graph is there.
 void changeThreshold(benchmark::State& state) {
-  ClusteringSettings settings;
-  settings.cap = state.range(0) ? SizeCap::whenPercolated : SizeCap::never;
+  clustering::ClusteringSettings settings;
+  settings.cap = state.range(0) ? clustering::SizeCap::whenPercolated : clustering::SizeCap::never;
   graph();
   for (auto _ : state) {
     settings.patchCut = settings.patchCut == 0.5 ? 0.6 : 0.5;
-    Clustering result = clustered(graph(), settings, quiet);
+    clustering::Clustering result = clustering::clustered(graph(), settings, quiet);
     describe(state, result.statistics, result.sizes.size());
   }
 }
@@ -116,11 +116,11 @@ void changeThreshold(benchmark::State& state) {
 /// brightest; `moved`: the slider is the cap's own, else that of the distance.
 void groupAgain(benchmark::State& state) {
   auto most = static_cast<int>(state.range(0));
-  ClusteringSettings settings;
-  settings.cap = most > 0 ? SizeCap::always : SizeCap::never;
+  clustering::ClusteringSettings settings;
+  settings.cap = most > 0 ? clustering::SizeCap::always : clustering::SizeCap::never;
   settings.mostUnknowns = std::max(1, most);
   settings.patchCut = 0.01 * static_cast<double>(state.range(1));
-  Grouper grouper(graph());
+  clustering::Grouper grouper(graph());
   grouper.group(settings, quiet);
   double before = forgetPeak();
   for (auto _ : state) {
@@ -128,7 +128,7 @@ void groupAgain(benchmark::State& state) {
       settings.mostUnknowns = settings.mostUnknowns == most ? most + 16 : most;
     else
       settings.patchRadius = settings.patchRadius == 8.0 ? 9.0 : 8.0;
-    const Grouping& result = grouper.group(settings, quiet);
+    const clustering::Grouping& result = grouper.group(settings, quiet);
     describe(state, result.statistics, result.sizes.size());
   }
   state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
@@ -136,9 +136,9 @@ void groupAgain(benchmark::State& state) {
 
 /// ... and from then until its errors are.
 void errorsOfGrouping(benchmark::State& state) {
-  ClusteringSettings settings;
-  Grouper grouper(graph());
-  const Grouping& grouping = grouper.group(settings, quiet);
+  clustering::ClusteringSettings settings;
+  clustering::Grouper grouper(graph());
+  const clustering::Grouping& grouping = grouper.group(settings, quiet);
   for (auto _ : state) benchmark::DoNotOptimize(errorOf(graph(), grouping, settings, quiet));
 }
 
@@ -146,7 +146,8 @@ void cappedClusters(benchmark::State& state) {
   graph();
   double before = forgetPeak();
   for (auto _ : state) {
-    Clustering result = clustered(graph(), capped(static_cast<int>(state.range(0))), quiet);
+    clustering::Clustering result =
+        clustering::clustered(graph(), capped(static_cast<int>(state.range(0))), quiet);
     describe(state, result.statistics, result.sizes.size());
   }
   state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
@@ -157,12 +158,13 @@ void cappedInverse(benchmark::State& state) {
   usable();
   double before = forgetPeak();
   for (auto _ : state) {
-    ConnectionGraph prepared(venue(), usable(), {}, quiet);
-    Clustering result = clustered(prepared, capped(static_cast<int>(state.range(0))), quiet);
-    ClusterInverseSettings settings;
-    settings.colour = state.range(1) ? ClusterColour::full : ClusterColour::shared;
-    settings.solver = state.range(2) ? ClusterSolver::truncatedSvd : ClusterSolver::ridge;
-    ClusterInverse inverse = computeClusterInverse(result, usable(), settings, quiet);
+    clustering::ConnectionGraph prepared(venue(), usable(), {}, quiet);
+    clustering::Clustering result =
+        clustering::clustered(prepared, capped(static_cast<int>(state.range(0))), quiet);
+    inverse::ClusterInverseSettings settings;
+    settings.colour = state.range(1) ? inverse::ClusterColour::full : inverse::ClusterColour::shared;
+    settings.solver = state.range(2) ? inverse::ClusterSolver::truncatedSvd : inverse::ClusterSolver::ridge;
+    inverse::ClusterInverse inverse = inverse::computeClusterInverse(result, usable(), settings, quiet);
     state.counters["inverse_MiB"] = static_cast<double>(inverse.bytes()) / 1048576.0;
     describe(state, result.statistics, result.sizes.size());
   }
@@ -174,15 +176,15 @@ void windows(benchmark::State& state) {
   usable();
   double before = forgetPeak();
   for (auto _ : state) {
-    WindowInverse inverse = computeWindows(venue(), usable(), {}, quiet);
+    inverse::WindowInverse inverse = inverse::computeWindows(venue(), usable(), {}, quiet);
     state.counters["inverse_MiB"] = static_cast<double>(inverse.bytes()) / 1048576.0;
   }
   state.counters["peak_MiB_beyond"] = mebibytes("VmHWM") - before;
 }
 
 void applyInverse(benchmark::State& state) {
-  Clustering result = clustered(graph(), capped(256), quiet);
-  ClusterInverse inverse = computeClusterInverse(result, usable(), {}, quiet);
+  clustering::Clustering result = clustering::clustered(graph(), capped(256), quiet);
+  inverse::ClusterInverse inverse = inverse::computeClusterInverse(result, usable(), {}, quiet);
   Stack residual = venue().floodlight();
   for (auto _ : state) benchmark::DoNotOptimize(inverse.apply(residual));
 }

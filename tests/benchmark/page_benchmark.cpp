@@ -13,6 +13,8 @@
 #include "wizard/threshold/threshold_page.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::gui;
 
 namespace {
 

@@ -4,21 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
+#include "relucent/base/random.h"
 
 namespace relucent::benchmarks {
 namespace {
 
-ColourBlock randomBlock(Random& random, float size) {
-  ColourBlock block;
+transport::ColourBlock randomBlock(Random& random, float size) {
+  transport::ColourBlock block;
   for (int i = 0; i < 9; ++i) block.data()[i] = size * random.uniformFloat() * (i % 4 == 0 ? 1.0f : 0.1f);
   return block;
 }
 
 }  // namespace
 
-BlockSparse syntheticLeaves(const SyntheticSettings& settings, const NodeLayout& layout) {
-  BlockSparseBuilder builder(layout.count(), std::vector<float>(settings.camera.count(), 1.0f));
+transport::BlockSparse syntheticLeaves(const SyntheticSettings& settings,
+                                       const transport::NodeLayout& layout) {
+  transport::BlockSparseBuilder builder(layout.count(), std::vector<float>(settings.camera.count(), 1.0f));
   Size projector = settings.projector;
   for (std::size_t row = 0; row < settings.camera.count(); ++row) {
     Random random{row};
@@ -32,7 +33,7 @@ BlockSparse syntheticLeaves(const SyntheticSettings& settings, const NodeLayout&
         builder.add(row, layout.index({0, 0, x, y}), randomBlock(random, 1.0f));
 
     for (int i = 0; i < settings.coarseNodes; ++i) {
-      Node node =
+      transport::Node node =
           layout.nodeOver(random.below(projector.count()), settings.finestCoarse + i % settings.coarseLevels);
       builder.add(row, layout.index(node), randomBlock(random, 0.05f));
     }
@@ -40,11 +41,12 @@ BlockSparse syntheticLeaves(const SyntheticSettings& settings, const NodeLayout&
   return builder.build();
 }
 
-BlockSparse defocusedLeaves(const SyntheticSettings& settings, const DefocusSettings& defocus,
-                            const NodeLayout& layout) {
+transport::BlockSparse defocusedLeaves(const SyntheticSettings& settings, const DefocusSettings& defocus,
+                                       const transport::NodeLayout& layout) {
   Size projector = settings.projector;
   std::size_t expected = settings.camera.count() * static_cast<std::size_t>(60 + settings.coarseNodes);
-  BlockSparseWriter writer(layout.count(), std::vector<float>(settings.camera.count(), 1.0f), expected);
+  transport::BlockSparseWriter writer(layout.count(), std::vector<float>(settings.camera.count(), 1.0f),
+                                      expected);
   for (std::size_t row = 0; row < settings.camera.count(); ++row) {
     Random random{row, 17};
     Pixel camera = pixelAt(settings.camera, row);
@@ -59,16 +61,16 @@ BlockSparse defocusedLeaves(const SyntheticSettings& settings, const DefocusSett
           double squared = ((px - cx) * (px - cx) + (py - cy) * (py - cy)) / (2.0 * sigma * sigma);
           if (squared > 5.3) continue;  // 0.5 % of the peak
           double value = peak * std::exp(-squared) * (0.9 + 0.2 * random.uniform());
-          ColourBlock block = ColourBlock::Constant(static_cast<float>(0.1 * value));
+          transport::ColourBlock block = transport::ColourBlock::Constant(static_cast<float>(0.1 * value));
           block.diagonal().setConstant(static_cast<float>(value));
-          writer.add(layout.index({0, 0, px, py}), codeOf(block, 1.0f / 32767.0f));
+          writer.add(layout.index({0, 0, px, py}), transport::codeOf(block, 1.0f / 32767.0f));
         }
     };
     addFootprint(x, y, defocus.sharpest + (defocus.softest - defocus.sharpest) * across, 0.8);
     if (row % 3 == 0) addFootprint(projector.width - 1 - x, y, 1.5, 0.05);
     for (int i = 0; i < settings.coarseNodes; ++i) {
-      Node node = layout.nodeOver(random.below(projector.count()), 3 + i % 4);
-      writer.add(layout.index(node), codeOf(randomBlock(random, 0.05f), 1.0f / 32767.0f));
+      transport::Node node = layout.nodeOver(random.below(projector.count()), 3 + i % 4);
+      writer.add(layout.index(node), transport::codeOf(randomBlock(random, 0.05f), 1.0f / 32767.0f));
     }
     writer.endRow();
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "transport/block_sparse.h"
-#include "transport/node_layout.h"
+#include "relucent/transport/block_sparse.h"
+#include "relucent/transport/node_layout.h"
 
 namespace relucent::benchmarks {
 
@@ -18,7 +18,8 @@ struct SyntheticSettings {
 
 /// Leaves as an acquisition finds them: each camera pixel sees the neighbouring projector pixels at its
 /// place, and nodes of levels 3 to 6 spread over the projector.
-BlockSparse syntheticLeaves(const SyntheticSettings& settings, const NodeLayout& layout);
+transport::BlockSparse syntheticLeaves(const SyntheticSettings& settings,
+                                       const transport::NodeLayout& layout);
 
 /// Leaves of a venue with depth, for what depends on how footprints overlap: direct light is a Gaussian whose
 /// standard deviation grows from `sharpest` to `softest` projector pixels across the picture, down to 0.5 %
@@ -28,8 +29,8 @@ struct DefocusSettings {
   double sharpest = 0.7;
   double softest = 1.6;
 };
-BlockSparse defocusedLeaves(const SyntheticSettings& settings, const DefocusSettings& defocus,
-                            const NodeLayout& layout);
+transport::BlockSparse defocusedLeaves(const SyntheticSettings& settings, const DefocusSettings& defocus,
+                                       const transport::NodeLayout& layout);
 
 /// Uniform random values.
 Stack randomStack(std::size_t pixels, std::uint64_t seed);

@@ -15,27 +15,27 @@ namespace {
 using Reference = Eigen::SparseMatrix<float, Eigen::RowMajor, int>;
 
 /// Made on first use: a filter that leaves a benchmark out also saves its data.
-const NodeLayout& layout() {
-  static const NodeLayout layout{Rasters(SyntheticSettings{}.projector)};
+const transport::NodeLayout& layout() {
+  static const transport::NodeLayout layout{Rasters(SyntheticSettings{}.projector)};
   return layout;
 }
 
-const BlockSparse& leaves() {
-  static const BlockSparse leaves = syntheticLeaves(SyntheticSettings{}, layout());
+const transport::BlockSparse& leaves() {
+  static const transport::BlockSparse leaves = syntheticLeaves(SyntheticSettings{}, layout());
   return leaves;
 }
 
 /// The same values, one by one.
 const Reference& reference() {
   static const Reference reference = [] {
-    const BlockSparse& from = leaves();
+    const transport::BlockSparse& from = leaves();
     Reference matrix(static_cast<int>(3 * from.rows()), static_cast<int>(3 * from.columns()));
     matrix.reserve(static_cast<Eigen::Index>(9 * from.blocks()));
     for (std::size_t row = 0; row < from.rows(); ++row) {
       for (int channel = 0; channel < 3; ++channel) {
         matrix.startVec(static_cast<int>(3 * row) + channel);
         for (std::size_t entry = from.rowBegin(row); entry < from.rowBegin(row + 1); ++entry) {
-          ColourBlock block = from.block(row, entry);
+          transport::ColourBlock block = from.block(row, entry);
           for (int c = 0; c < 3; ++c)
             matrix.insertBack(static_cast<int>(3 * row) + channel,
                               static_cast<int>(3 * from.column(entry)) + c) = block(channel, c);
@@ -88,7 +88,7 @@ void oneThread(benchmark::internal::Benchmark* benchmark) {
 }
 
 void multiply(benchmark::State& state) {
-  const BlockSparse& matrix = leaves();
+  const transport::BlockSparse& matrix = leaves();
   Stack x = randomStack(matrix.columns(), 1);
   Measured measured(state);
   for (auto _ : state) benchmark::DoNotOptimize(matrix.multiply(x));
@@ -97,7 +97,7 @@ void multiply(benchmark::State& state) {
 BENCHMARK(multiply)->Apply(everyNumberOfThreads);
 
 void multiplyTransposed(benchmark::State& state) {
-  const BlockSparse& matrix = leaves();
+  const transport::BlockSparse& matrix = leaves();
   Stack y = randomStack(matrix.rows(), 2);
   Measured measured(state);
   for (auto _ : state) benchmark::DoNotOptimize(matrix.multiplyTransposed(y));
@@ -108,7 +108,7 @@ BENCHMARK(multiplyTransposed)->Apply(everyNumberOfThreads);
 /// A pattern of which one pixel in 64 is lit, through the matrix stored by columns: acquisition's
 /// predictions.
 void multiplyDarkPattern(benchmark::State& state) {
-  static const BlockSparse byColumns = leaves().transposed();
+  static const transport::BlockSparse byColumns = leaves().transposed();
   Stack pattern(3 * byColumns.rows(), 0.0f);
   std::size_t lit = 0;
   for (std::size_t pixel = 0; pixel < SyntheticSettings{}.projector.count(); pixel += 64) {

@@ -13,11 +13,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "relucent/transport/matrix_density.h"
 #include "synthetic_transport.h"
-#include "transport/matrix_density.h"
 #include "views/matrix_view.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::transport;
 
 namespace {
 

@@ -132,7 +132,7 @@ std::string bytesOf(const Dng& dng) {
   return bytes;
 }
 
-Dng dngOf(const Image& signal) {
+Dng dngOf(const image::Image& signal) {
   constexpr float black = 512.0f, white = 15871.0f;
   Dng dng;
   dng.size = {2 * signal.width(), 2 * signal.height()};

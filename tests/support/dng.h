@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/raster.h"
-#include "image/image.h"
+#include "relucent/base/raster.h"
+#include "relucent/image/image.h"
 
 namespace relucent::test {
 
@@ -26,6 +26,6 @@ std::string bytesOf(const Dng& dng);
 
 /// The raw file of a photograph: every pixel becomes a 2x2 cell red, green, green, blue, with black at 512
 /// and white at 15871.
-Dng dngOf(const Image& signal);
+Dng dngOf(const image::Image& signal);
 
 }  // namespace relucent::test

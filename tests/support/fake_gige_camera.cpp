@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "base/file.h"
-#include "devices/temporary_folder.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/temporary_folder.h"
 
 namespace relucent::test {
 namespace {
@@ -66,7 +66,7 @@ std::string formatName(ArvPixelFormat format) {
 struct FakeGigeCamera::Parts {
   FakeGigeSettings settings;
   Look look;
-  TemporaryFolder folder;
+  devices::TemporaryFolder folder;
   std::string description;
   ArvGvFakeCamera* camera = nullptr;
 
@@ -124,7 +124,7 @@ void FakeGigeCamera::setSensorSize(Size size) {
   arv_fake_camera_write_register(camera, ARV_FAKE_CAMERA_REGISTER_HEIGHT, static_cast<guint32>(size.height));
 }
 
-void fillBayerRG12(const Image& photograph, std::uint8_t* bytes) {
+void fillBayerRG12(const image::Image& photograph, std::uint8_t* bytes) {
   const auto width = static_cast<std::size_t>(2 * photograph.width());
   auto put = [&](int x, int y, float signal) {
     const auto code = static_cast<std::uint32_t>(std::lround(signal * 4095.0f));

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "base/raster.h"
-#include "image/image.h"
+#include "relucent/base/raster.h"
+#include "relucent/image/image.h"
 
 namespace relucent::test {
 
@@ -51,6 +51,6 @@ class FakeGigeCamera {
 
 /// The photograph (12 bits, three channels) as a sensor under a colour filter sees it: each pixel a 2x2 cell
 /// of red, green, green, blue; two bytes a sample, little endian.
-void fillBayerRG12(const Image& photograph, std::uint8_t* bytes);
+void fillBayerRG12(const image::Image& photograph, std::uint8_t* bytes);
 
 }  // namespace relucent::test

@@ -15,6 +15,6 @@ void FakeGigeCamera::unplug() {}
 void FakeGigeCamera::plug() {}
 void FakeGigeCamera::losePackets(double) {}
 void FakeGigeCamera::setSensorSize(Size) {}
-void fillBayerRG12(const Image&, std::uint8_t*) {}
+void fillBayerRG12(const image::Image&, std::uint8_t*) {}
 
 }  // namespace relucent::test

@@ -62,8 +62,8 @@ ScreenLight::~ScreenLight() {
   xcb_disconnect(parts_->x);
 }
 
-Image ScreenLight::look(Size size) const {
-  Image light(size, 3, 0.0f);
+image::Image ScreenLight::look(Size size) const {
+  image::Image light(size, 3, 0.0f);
   const std::optional<Place> place = parts_->place();
   if (!place || place->size.width < size.width || place->size.height < size.height) return light;
   auto image = owned(xcb_get_image_reply(

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "image/image.h"
+#include "relucent/image/image.h"
 
 namespace relucent::test {
 
@@ -17,7 +17,7 @@ class ScreenLight {
   ~ScreenLight();
 
   /// Drive values in the middle `size` of the output; black where there is nothing.
-  Image look(Size size) const;
+  image::Image look(Size size) const;
 
  private:
   struct Parts;

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
-#include "base/fingerprint.h"
-#include "base/parallel.h"
-#include "base/random.h"
+#include "relucent/base/error.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
 
 namespace relucent::test {
 
@@ -30,21 +30,21 @@ Curve sCurve(double strength) {
 }
 
 struct ScriptedVenue::State {
-  TransportMatrix transport;
+  transport::TransportMatrix transport;
   Stack black;
   ScriptedSettings settings;
-  std::vector<Image> shown;  // per projector
-  Stack lamp;                // radiance of what is shown, at full lamp power; empty: to be computed
+  std::vector<image::Image> shown;  // per projector
+  Stack lamp;                       // radiance of what is shown, at full lamp power; empty: to be computed
   std::atomic<int> captures{0};
 
   const ScriptedProjector& projector(std::size_t index) const { return pick(settings.projectors, index); }
   const ScriptedCamera& camera(std::size_t index) const { return pick(settings.cameras, index); }
 
-  Stack linearDrive(const std::vector<Image>& patterns, bool withWhiteSegment) const {
+  Stack linearDrive(const std::vector<image::Image>& patterns, bool withWhiteSegment) const {
     const Rasters& rasters = transport.projectors();
     require(patterns.size() == rasters.devices(), "{} patterns for {} projectors", patterns.size(),
             rasters.devices());
-    Stack linear = stackFromImages(patterns, rasters);
+    Stack linear = image::stackFromImages(patterns, rasters);
     for (std::size_t index = 0; index < rasters.devices(); ++index) {
       const ScriptedProjector& model = projector(index);
       std::array<std::vector<float>, 3> table;
@@ -67,7 +67,7 @@ struct ScriptedVenue::State {
     return linear;
   }
 
-  Stack lampRadiance(const std::vector<Image>& patterns) const {
+  Stack lampRadiance(const std::vector<image::Image>& patterns) const {
     Stack light = transport.apply(linearDrive(patterns, true));
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += black.empty() ? 0.0f : black[i];
     return light;
@@ -84,7 +84,7 @@ namespace {
 
 using State = ScriptedVenue::State;
 
-class ProjectorOfScript : public Projector {
+class ProjectorOfScript : public rig::Projector {
  public:
   ProjectorOfScript(std::shared_ptr<State> state, std::size_t index)
       : state_(std::move(state)), index_(index) {}
@@ -92,7 +92,7 @@ class ProjectorOfScript : public Projector {
   std::string name() const override { return fmt::format("scripted projector {}", index_ + 1); }
   Size size() const override { return state_->transport.projectors().size(index_); }
   int bits() const override { return state_->projector(index_).bits; }
-  void show(const Image& encodedDrive) override {
+  void show(const image::Image& encodedDrive) override {
     require(encodedDrive.size() == size() && encodedDrive.channels() == 3, "a pattern of {}x{} on {}x{}",
             encodedDrive.width(), encodedDrive.height(), size().width, size().height);
     state_->shown[index_] = encodedDrive;
@@ -104,15 +104,15 @@ class ProjectorOfScript : public Projector {
   std::size_t index_;
 };
 
-class CameraOfScript : public Camera {
+class CameraOfScript : public rig::Camera {
  public:
   CameraOfScript(std::shared_ptr<State> state, std::size_t index) : state_(std::move(state)), index_(index) {}
 
   std::string name() const override { return fmt::format("scripted camera {}", index_ + 1); }
   Size size() const override { return state_->transport.cameras().size(index_); }
-  ExposureRange exposures() const override { return model().exposures; }
+  rig::ExposureRange exposures() const override { return model().exposures; }
 
-  RawFrame capture(const CaptureRequest& request) override {
+  rig::RawFrame capture(const rig::CaptureRequest& request) override {
     if (state_->settings.beforeCapture) state_->settings.beforeCapture(request);
     ++state_->captures;
     if (state_->lamp.empty()) state_->lamp = state_->lampRadiance(state_->shown);
@@ -125,7 +125,7 @@ class CameraOfScript : public Camera {
     double reported = std::clamp(request.seconds, model().exposures.shortest, model().exposures.longest);
     double seconds = reported * trueTimeFactor(reported);
 
-    RawFrame frame{Image(size(), 3), model().bits, reported};
+    rig::RawFrame frame{image::Image(size(), 3), model().bits, reported};
     std::size_t offset = state_->transport.cameras().offset(index_);
     parallelFor(0, size().count(), 256, [&](std::size_t i) {
       Random random{settings.seed, 2, shotKey, index_, i};
@@ -163,7 +163,7 @@ class CameraOfScript : public Camera {
 
 }  // namespace
 
-ScriptedVenue::ScriptedVenue(TransportMatrix transport, Stack black, ScriptedSettings settings)
+ScriptedVenue::ScriptedVenue(transport::TransportMatrix transport, Stack black, ScriptedSettings settings)
     : state_(std::make_shared<State>()) {
   require(black.empty() || black.size() == 3 * transport.cameras().count(), "{} black values for {} pixels",
           black.size(), transport.cameras().count());
@@ -173,8 +173,8 @@ ScriptedVenue::ScriptedVenue(TransportMatrix transport, Stack black, ScriptedSet
   state_->settings = std::move(settings);
 }
 
-Rig ScriptedVenue::rig() const {
-  Rig rig;
+rig::Rig ScriptedVenue::rig() const {
+  rig::Rig rig;
   for (std::size_t i = 0; i < state_->transport.projectors().devices(); ++i)
     rig.projectors.push_back(std::make_unique<ProjectorOfScript>(state_, i));
   for (std::size_t i = 0; i < state_->transport.cameras().devices(); ++i)
@@ -182,7 +182,7 @@ Rig ScriptedVenue::rig() const {
   return rig;
 }
 
-const TransportMatrix& ScriptedVenue::transport() const {
+const transport::TransportMatrix& ScriptedVenue::transport() const {
   return state_->transport;
 }
 
@@ -194,11 +194,11 @@ Stack ScriptedVenue::black() const {
   return black;
 }
 
-Stack ScriptedVenue::linearDrive(const std::vector<Image>& encodedPatterns) const {
+Stack ScriptedVenue::linearDrive(const std::vector<image::Image>& encodedPatterns) const {
   return state_->linearDrive(encodedPatterns, false);
 }
 
-Stack ScriptedVenue::radiance(const std::vector<Image>& encodedPatterns) const {
+Stack ScriptedVenue::radiance(const std::vector<image::Image>& encodedPatterns) const {
   Stack light = state_->lampRadiance(encodedPatterns);
   for (std::size_t i = 0; i < light.size(); ++i)
     light[i] += state_->settings.ambient.empty() ? 0.0f : state_->settings.ambient[i];
@@ -265,7 +265,7 @@ class Correspondence {
 
 struct Leaf {
   std::size_t node;
-  ColourBlock block;
+  transport::ColourBlock block;
 };
 
 class Builder {
@@ -273,7 +273,7 @@ class Builder {
   explicit Builder(const SyntheticSettings& settings)
       : settings_(settings), layout_(Rasters(settings.projectors)), cameras_(settings.cameras) {}
 
-  TransportMatrix build() {
+  transport::TransportMatrix build() {
     rows_.resize(cameras_.count());
     for (std::size_t camera = 0; camera < cameras_.devices(); ++camera)
       for (std::size_t projector = 0; projector < layout_.projectors().devices(); ++projector)
@@ -282,10 +282,10 @@ class Builder {
     std::vector<float> fullScale(rows_.size(), 0.0f);
     for (std::size_t row = 0; row < rows_.size(); ++row)
       for (const Leaf& leaf : rows_[row]) fullScale[row] = std::max(fullScale[row], leaf.block.maxCoeff());
-    BlockSparseBuilder builder(layout_.count(), std::move(fullScale));
+    transport::BlockSparseBuilder builder(layout_.count(), std::move(fullScale));
     for (std::size_t row = 0; row < rows_.size(); ++row)
       for (const Leaf& leaf : rows_[row]) builder.add(row, leaf.node, leaf.block);
-    return TransportMatrix(cameras_, layout_.projectors(), builder.build());
+    return transport::TransportMatrix(cameras_, layout_.projectors(), builder.build());
   }
 
  private:
@@ -299,7 +299,7 @@ class Builder {
     parallelFor(0, size.count(), 64, [&](std::size_t index) {
       Pixel pixel = pixelAt(size, index);
       double u = (pixel.x + 0.5) / size.width, v = (pixel.y + 0.5) / size.height;
-      ColourBlock mix;
+      transport::ColourBlock mix;
       for (int row = 0; row < 3; ++row) {
         double rho = 0.1 + 0.9 * reflectance[static_cast<std::size_t>(row)](u, v);
         for (int column = 0; column < 3; ++column) {
@@ -315,7 +315,8 @@ class Builder {
     });
   }
 
-  void addDirect(std::vector<Leaf>& leaves, std::size_t projector, Point at, const ColourBlock& mix) const {
+  void addDirect(std::vector<Leaf>& leaves, std::size_t projector, Point at,
+                 const transport::ColourBlock& mix) const {
     Size size = layout_.projectors().size(projector);
     double reach = 3.0 * settings_.footprint + 0.5;
     double norm = 1.0 / (2.0 * std::numbers::pi * settings_.footprint * settings_.footprint);
@@ -335,7 +336,8 @@ class Builder {
     }
   }
 
-  void addFarField(std::vector<Leaf>& leaves, std::size_t projector, Point at, const ColourBlock& mix) const {
+  void addFarField(std::vector<Leaf>& leaves, std::size_t projector, Point at,
+                   const transport::ColourBlock& mix) const {
     int level = std::min(settings_.interreflectionLevel, layout_.levels(projector) - 1);
     require(level > 0, "the far field needs a coarser level than pixels, not {}", level);
     Size grid = layout_.gridSize(projector, level);
@@ -343,7 +345,7 @@ class Builder {
     std::vector<double> weights;
     double sum = 0.0;
     for (std::size_t index = 0; index < grid.count(); ++index) {
-      Block block = layout_.block(nodeAt(projector, level, pixelAt(grid, index)));
+      transport::Block block = layout_.block(nodeAt(projector, level, pixelAt(grid, index)));
       double dx = (0.5 * (block.x0 + block.x1) - at.x) / size.width;
       double dy = (0.5 * (block.y0 + block.y1) - at.y) / size.height;
       weights.push_back(block.count() / (0.05 + dx * dx + dy * dy));
@@ -356,23 +358,23 @@ class Builder {
     }
   }
 
-  static Node nodeAt(std::size_t projector, int level, Pixel place) {
+  static transport::Node nodeAt(std::size_t projector, int level, Pixel place) {
     return {static_cast<int>(projector), level, place.x, place.y};
   }
 
   const SyntheticSettings& settings_;
-  NodeLayout layout_;
+  transport::NodeLayout layout_;
   Rasters cameras_;
   std::vector<std::vector<Leaf>> rows_;
 };
 
 }  // namespace
 
-TransportMatrix syntheticTransport(const SyntheticSettings& settings) {
+transport::TransportMatrix syntheticTransport(const SyntheticSettings& settings) {
   return Builder(settings).build();
 }
 
-Stack syntheticBlack(const TransportMatrix& transport, double share) {
+Stack syntheticBlack(const transport::TransportMatrix& transport, double share) {
   Stack flood = transport.floodlight();
   double mean = 0.0;
   for (float value : flood) mean += value;

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "rig/rig.h"
-#include "transport/transport_matrix.h"
+#include "relucent/rig/rig.h"
+#include "relucent/transport/transport_matrix.h"
 
 namespace relucent::test {
 
@@ -29,7 +29,7 @@ struct ScriptedProjector {
 /// How a scripted camera behaves.
 struct ScriptedCamera {
   int bits = 12;  // 0: floating point, no rounding
-  ExposureRange exposures{1e-4, 8.0};
+  rig::ExposureRange exposures{1e-4, 8.0};
   double readNoise = 1e-3;  // standard deviation, full scale 1; rounding comes on top
   double gain = 1e-4;       // photon noise: variance per linear signal
   double timeError = 0.0;   // true exposure times are off by up to this, the same for equal times
@@ -45,7 +45,7 @@ struct ScriptedSettings {
   double flicker = 0.0;                       // relative deviation of lamp power between exposures
   std::uint64_t seed = 1;                     // of all noise
   /// Called before every exposure: counts, asks to stop, throws.
-  std::function<void(const CaptureRequest&)> beforeCapture;
+  std::function<void(const rig::CaptureRequest&)> beforeCapture;
 };
 
 /// Devices that answer from a given light transport,
@@ -54,18 +54,18 @@ struct ScriptedSettings {
 class ScriptedVenue {
  public:
   /// `black`: radiance of the projectors' black levels at full lamp power; empty: none.
-  ScriptedVenue(TransportMatrix transport, Stack black, ScriptedSettings settings = {});
+  ScriptedVenue(transport::TransportMatrix transport, Stack black, ScriptedSettings settings = {});
 
   /// Devices that share this venue's data and may outlive it.
-  Rig rig() const;
+  rig::Rig rig() const;
 
-  const TransportMatrix& transport() const;
+  const transport::TransportMatrix& transport() const;
   /// Radiance without any light from patterns: black + ambient.
   Stack black() const;
   /// Linear drive that encoded patterns make, rounded to codes, without a white segment.
-  Stack linearDrive(const std::vector<Image>& encodedPatterns) const;
+  Stack linearDrive(const std::vector<image::Image>& encodedPatterns) const;
   /// True radiance, camera signal per second, at full lamp power, free of noise.
-  Stack radiance(const std::vector<Image>& encodedPatterns) const;
+  Stack radiance(const std::vector<image::Image>& encodedPatterns) const;
   /// Exposures taken so far.
   int captures() const;
 
@@ -91,9 +91,9 @@ struct SyntheticSettings {
 /// Per camera pixel and projector: a Gaussian footprint around a smooth, slightly warped correspondence,
 /// scaled by a textured reflectance and a 3x3 mixing, and, if wanted, a far field on coarse nodes.
 /// All values are positive. Same settings, same bits.
-TransportMatrix syntheticTransport(const SyntheticSettings& settings);
+transport::TransportMatrix syntheticTransport(const SyntheticSettings& settings);
 
 /// An even black level: `share` of the mean flood radiance, slightly textured.
-Stack syntheticBlack(const TransportMatrix& transport, double share = 1e-3);
+Stack syntheticBlack(const transport::TransportMatrix& transport, double share = 1e-3);
 
 }  // namespace relucent::test

@@ -4,7 +4,7 @@
 #include <QtTest>
 #include <string>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 namespace relucent {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/progress.h"
+#include "relucent/base/progress.h"
 
 namespace relucent {
 

@@ -10,12 +10,14 @@
 #include <fstream>
 #include <iostream>
 
-#include "base/error.h"
-#include "base/fingerprint.h"
-#include "image/exr.h"
+#include "relucent/base/error.h"
+#include "relucent/base/fingerprint.h"
+#include "relucent/image/exr.h"
 #include "system/command_venue.h"
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::rig;
 namespace fs = std::filesystem;
 
 namespace {

@@ -17,7 +17,7 @@ inline ScriptedVenue commandVenue() {
   ScriptedCamera camera;
   camera.exposures = {1e-4, 2.0};
   devices.cameras = {camera};
-  TransportMatrix transport = syntheticTransport(scene);
+  transport::TransportMatrix transport = syntheticTransport(scene);
   Stack black = syntheticBlack(transport);
   return ScriptedVenue(std::move(transport), std::move(black), devices);
 }

@@ -5,11 +5,12 @@
 #include <QTest>
 #include <cstdlib>
 
+#include "relucent/transport/difference.h"
+#include "relucent/transport/files.h"
 #include "system/command_venue.h"
-#include "transport/difference.h"
-#include "transport/files.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

@@ -11,7 +11,8 @@ class TestImportCaptures : public QObject {
  private slots:
   void initTestCase() {
 #ifdef __SANITIZE_ADDRESS__
-    QSKIP("a real capture takes ten minutes under the address sanitizer; test_import runs the same code there");
+    QSKIP(
+        "a real capture takes ten minutes under the address sanitizer; test_import runs the same code there");
 #endif
   }
   void predictsWhatItWasNotShown_data() {

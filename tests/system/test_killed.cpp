@@ -15,7 +15,7 @@
 #include <map>
 #include <set>
 
-#include "base/random.h"
+#include "relucent/base/random.h"
 #include "system/command_venue.h"
 
 using namespace relucent;

@@ -60,7 +60,30 @@ def includes(path):
     for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
         found = re.match(r'\s*#\s*include\s*([<"])([^>"]+)', line)
         if found:
-            yield number, found.group(2)
+            yield number, found.group(2).removeprefix("relucent/")
+
+
+def name_breaches(source):
+    """A sentence for each header of core that is included without the prefix under which it is installed, and for
+    each namespace of core that is not its folder's."""
+    found = []
+    folders = {path.parent.name for path in (source / "core").glob("*/CMakeLists.txt")}
+    for path in sorted(path for part in ("core", "gui", "tests") for path in (source / part).rglob("*.[ch]*")):
+        if path.suffix not in {".h", ".cpp"}:
+            continue
+        where, text = path.relative_to(source), path.read_text(errors="replace")
+        for number, line in enumerate(text.splitlines(), 1):
+            include = re.match(r'\s*#\s*include\s*"([^"/]+)/', line)
+            if include and include.group(1) in folders:
+                found.append(f'{where}:{number}: includes a header of core without "relucent/"')
+            opened = re.match(r"namespace relucent((?:::\w+)*) \{", line)
+            folder = where.parts[1]
+            if where.parts[0] == "core" and folder not in {"base", "cmake"} and opened:
+                space = opened.group(1).split("::")[1:2]
+                # Friends of a type of base, and declarations of what other folders define, stand where the type does.
+                if not space and where.as_posix() not in IN_THE_TYPES_NAMESPACE or space and space[0] not in folders:
+                    found.append(f"{where}:{number}: opens {line.strip(' {')} in the folder {folder}")
+    return found
 
 
 def layer_breaches(source):
@@ -107,6 +130,10 @@ def gui_breaches(source):
                 found.append(f"{where}:{number}: includes {name}, but wizard/{inner} does not use it")
     return found
 
+
+# What the JSON library looks for beside a type, where the type is one of base.
+IN_THE_TYPES_NAMESPACE = {"core/calibration/message_json.h", "core/calibration/message_json.cpp",
+                          "core/pipeline/settings_json.cpp"}
 
 # Headers of one operating system or one desktop, and the only folder that may include them.
 SYSTEM_HEADERS = re.compile(
@@ -208,6 +235,9 @@ class ThisRepository(unittest.TestCase):
         self.assertEqual(layer_breaches(SOURCE), [])
         self.assertEqual(gui_breaches(SOURCE), [])
 
+    def test_core_is_named_by_its_folders(self):
+        self.assertEqual(name_breaches(SOURCE), [])
+
     def test_only_the_folders_for_it_know_the_system(self):
         self.assertEqual(system_breaches(SOURCE), [])
 
@@ -250,17 +280,30 @@ class TheCheckItself(unittest.TestCase):
         self.write(place, f"// SPDX-License-Identifier: MIT\n{line}\n")
 
     def test_includes_from_the_closure_are_fine(self):
-        self.include("core/rig/a.cpp", '#include "base/a.h"\n#include "image/a.h"\n#include <vector>')
+        self.include("core/rig/a.cpp", '#include "relucent/base/a.h"\n#include "relucent/image/a.h"\n#include <vector>')
         self.assertEqual(layer_breaches(self.source), [])
         self.assertEqual(system_breaches(self.source), [])
 
     def test_an_include_from_below_is_found(self):
-        self.include("core/base/a.h", '#include "image/a.h"')
+        self.include("core/base/a.h", '#include "relucent/image/a.h"')
         self.assertEqual(len(layer_breaches(self.source)), 1)
 
     def test_a_use_from_below_is_found(self):
         self.library("base", "USES rig")
         self.assertEqual(len(layer_breaches(self.source)), 1)
+
+    def test_a_header_without_its_prefix_is_found(self):
+        self.include("core/image/a.cpp", '#include "relucent/base/a.h"\n#include "theme/a.h"')
+        self.assertEqual(name_breaches(self.source), [])
+        self.include("gui/theme/a.cpp", '#include "base/a.h"')
+        self.assertEqual(len(name_breaches(self.source)), 1)
+
+    def test_a_namespace_that_is_no_folder_is_found(self):
+        self.include("core/image/a.cpp", "namespace relucent::rig {\nclass A;\n}\nnamespace relucent::image {\n}")
+        self.include("core/base/a.cpp", "namespace relucent {\n}")
+        self.assertEqual(name_breaches(self.source), [])
+        self.include("core/rig/a.cpp", "namespace relucent {\n}\nnamespace relucent::rigs {\n}")
+        self.assertEqual(len(name_breaches(self.source)), 2)
 
     def test_qt_in_core_is_found(self):
         self.include("core/image/a.cpp", "#include <QImage>")
@@ -299,18 +342,18 @@ class TheCheckItself(unittest.TestCase):
         self.assertEqual(len(system_breaches(self.source)), 1)
 
     def test_json_outside_of_files_and_documents_is_found(self):
-        self.include("core/calibration/a.cpp", '#include "calibration/json.h"')
-        self.include("core/base/a.cpp", '#include "calibration/json_fwd.h"')
+        self.include("core/calibration/a.cpp", '#include "relucent/calibration/json.h"')
+        self.include("core/base/a.cpp", '#include "relucent/calibration/json_fwd.h"')
         self.assertEqual(json_breaches(self.source), [])
-        self.include("gui/wizard/venue/a.cpp", '#include "calibration/json.h"')
+        self.include("gui/wizard/venue/a.cpp", '#include "relucent/calibration/json.h"')
         self.assertEqual(len(json_breaches(self.source)), 1)
 
     def test_a_circle_through_headers_and_sources_is_found(self):
-        self.include("core/rig/a.h", '#include "rig/b.h"')
-        self.include("core/rig/b.h", '#include "image/a.h"')
-        self.include("core/rig/c.cpp", '#include "rig/c.h"\n#include "rig/a.h"')
+        self.include("core/rig/a.h", '#include "relucent/rig/b.h"')
+        self.include("core/rig/b.h", '#include "relucent/image/a.h"')
+        self.include("core/rig/c.cpp", '#include "relucent/rig/c.h"\n#include "relucent/rig/a.h"')
         self.assertEqual(include_circles(self.source, "core"), [])
-        self.include("core/rig/b.cpp", '#include "rig/c.h"')
+        self.include("core/rig/b.cpp", '#include "relucent/rig/c.h"')
         self.include("core/rig/c.h", "")
         self.assertEqual(include_circles(self.source, "core"), [("core/rig/a", "core/rig/b", "core/rig/c")])
 

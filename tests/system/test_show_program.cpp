@@ -14,6 +14,7 @@
 #include "gui/output/two_screens.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

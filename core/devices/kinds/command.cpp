@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "base/error.h"
-#include "devices/camera_kind.h"
-#include "devices/command_camera.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/camera_kind.h"
+#include "relucent/devices/command_camera.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
-std::unique_ptr<Camera> openCommand(const std::string& command, const CameraWishes& wishes) {
+std::unique_ptr<rig::Camera> openCommand(const std::string& command, const CameraWishes& wishes) {
   CommandCameraSettings settings;
   settings.command = command;
   settings.size = wishes.size;
@@ -30,4 +30,4 @@ CameraKind commandKind() {
       .open = openCommand};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

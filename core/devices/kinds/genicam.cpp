@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
-#include "devices/camera_kind.h"
-#include "devices/genicam_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_kind.h"
+#include "relucent/devices/genicam_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
-std::unique_ptr<Camera> openGenicam(const std::string& place, const CameraWishes& wishes) {
+std::unique_ptr<rig::Camera> openGenicam(const std::string& place, const CameraWishes& wishes) {
   GenicamSettings settings;
   settings.camera = place;
   settings.photograph = wishes.size;
@@ -36,4 +36,4 @@ CameraKind genicamKind() {
       .list = listGenicam};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

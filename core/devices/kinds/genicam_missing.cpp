@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stands in for genicam.cpp where Aravis is not installed.
-#include "base/error.h"
-#include "devices/camera_kind.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/camera_kind.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
-std::unique_ptr<Camera> openGenicam(const std::string& place, const CameraWishes&) {
+std::unique_ptr<rig::Camera> openGenicam(const std::string& place, const CameraWishes&) {
   throw Error(
       ErrorKind::device,
       RELUCENT_MESSAGE("device.build-relucent-not-know-genicam",
@@ -29,4 +29,4 @@ CameraKind genicamKind() {
           .open = openGenicam};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
-#include "devices/camera_kind.h"
-#include "devices/gphoto_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_kind.h"
+#include "relucent/devices/gphoto_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
-std::unique_ptr<Camera> openGphoto(const std::string& place, const CameraWishes& wishes) {
+std::unique_ptr<rig::Camera> openGphoto(const std::string& place, const CameraWishes& wishes) {
   GphotoCameraSettings settings;
   settings.camera = place;
   settings.photograph = wishes.size;
@@ -39,4 +39,4 @@ CameraKind gphoto2Kind() {
           .list = listGphoto};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

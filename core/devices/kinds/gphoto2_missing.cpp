@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stands in for gphoto2.cpp where libgphoto2 or LibRaw is not installed.
-#include "base/error.h"
-#include "devices/camera_kind.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/camera_kind.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace {
 
-std::unique_ptr<Camera> openGphoto(const std::string& place, const CameraWishes&) {
+std::unique_ptr<rig::Camera> openGphoto(const std::string& place, const CameraWishes&) {
   throw Error(
       ErrorKind::device,
       RELUCENT_MESSAGE("device.build-relucent-not-know-dslr",
@@ -30,4 +30,4 @@ CameraKind gphoto2Kind() {
           .open = openGphoto};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <set>
 
-#include "base/message.h"
-#include "devices/camera_kind.h"
-#include "devices/video_driver.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_kind.h"
+#include "relucent/devices/video_driver.h"
 
-namespace relucent {
+namespace relucent::devices {
 namespace fs = std::filesystem;
 namespace {
 
@@ -54,7 +54,7 @@ std::unique_ptr<CameraDriver> driverFor(const std::string& path, std::optional<S
   return makeVideoDriver(openCvVideoSource(path), "v4l2:" + path, size);
 }
 
-std::unique_ptr<Camera> openVideo(const std::string& place, const CameraWishes& wishes) {
+std::unique_ptr<rig::Camera> openVideo(const std::string& place, const CameraWishes& wishes) {
   return std::make_unique<DrivenCamera>(driverFor(place, wishes.size), videoPatience());
 }
 
@@ -78,4 +78,4 @@ CameraKind v4l2Kind() {
           .list = listVideo};
 }
 
-}  // namespace relucent
+}  // namespace relucent::devices

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "engine/bench/bench_transport.h"
+#include "relucent/engine/bench/bench_transport.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
+#include "relucent/base/random.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr int footprint = 4, coarseLeaves = 36, finestCoarse = 4, coarseLevels = 3;
 
 }  // namespace
 
-TransportMatrix benchTransport(Size projector, Size camera) {
-  NodeLayout layout{Rasters(projector)};
-  BlockSparseBuilder builder(layout.count(), std::vector<float>(camera.count(), 1.0f));
+transport::TransportMatrix benchTransport(Size projector, Size camera) {
+  transport::NodeLayout layout{Rasters(projector)};
+  transport::BlockSparseBuilder builder(layout.count(), std::vector<float>(camera.count(), 1.0f));
   Random random{20071028};
   for (std::size_t row = 0; row < camera.count(); ++row) {
     Pixel place = pixelAt(camera, row);
@@ -28,7 +28,7 @@ TransportMatrix benchTransport(Size projector, Size camera) {
       for (int x = left; x < left + footprint; ++x) {
         double distance = (x - u) * (x - u) + (y - v) * (y - v);
         float value = reflectance * static_cast<float>(std::exp(-distance / 2.0) / 6.3);
-        ColourBlock block = ColourBlock::Constant(0.05f * value);
+        transport::ColourBlock block = transport::ColourBlock::Constant(0.05f * value);
         block.diagonal().array() += 0.85f * value;
         builder.add(row, indexOf(projector, {x, y}), block);
       }
@@ -36,13 +36,14 @@ TransportMatrix benchTransport(Size projector, Size camera) {
     for (int i = 0; i < coarseLeaves; ++i) {
       int level = finestCoarse + static_cast<int>(random.below(coarseLevels));
       Size grid = layout.gridSize(0, std::min(level, layout.levels() - 1));
-      Node node{0, std::min(level, layout.levels() - 1),
-                static_cast<int>(random.below(static_cast<std::uint64_t>(grid.width))),
-                static_cast<int>(random.below(static_cast<std::uint64_t>(grid.height)))};
-      builder.add(row, layout.index(node), ColourBlock::Identity() * (0.004f * random.uniformFloat()));
+      transport::Node node{0, std::min(level, layout.levels() - 1),
+                           static_cast<int>(random.below(static_cast<std::uint64_t>(grid.width))),
+                           static_cast<int>(random.below(static_cast<std::uint64_t>(grid.height)))};
+      builder.add(row, layout.index(node),
+                  transport::ColourBlock::Identity() * (0.004f * random.uniformFloat()));
     }
   }
-  return TransportMatrix(Rasters(camera), Rasters(projector), builder.build());
+  return transport::TransportMatrix(Rasters(camera), Rasters(projector), builder.build());
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// A transport matrix with the structure of measured ones: a footprint of 4x4 projector pixels per camera
 /// pixel, and three dozen coarse leaves of indirect light. 16 million leaves at the full scale of 1024x768 /
 /// 640x480. Deterministic.
-TransportMatrix benchTransport(Size projector, Size camera);
+transport::TransportMatrix benchTransport(Size projector, Size camera);
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/bench/engine_bench.h"
+#include "relucent/engine/bench/engine_bench.h"
 
 #include <tbb/global_control.h>
 
@@ -10,17 +10,17 @@
 #include <optional>
 #include <thread>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "base/random.h"
-#include "engine/bench/bench_transport.h"
-#include "engine/bench/reference_products.h"
-#include "engine/cpu_backend.h"
-#include "engine/opengl/gl_context.h"
-#include "engine/opengl/opengl_backend.h"
-#include "transport/files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
+#include "relucent/engine/bench/bench_transport.h"
+#include "relucent/engine/bench/reference_products.h"
+#include "relucent/engine/cpu_backend.h"
+#include "relucent/engine/opengl/gl_context.h"
+#include "relucent/engine/opengl/opengl_backend.h"
+#include "relucent/transport/files.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 /// Seconds on the wall.
@@ -142,7 +142,7 @@ void timeOpenGl(Bench& bench, const EngineVenue& engine, const EngineContent& co
   backend.render(noise.frame(), {}, words, report);
   const auto transport = static_cast<double>(backend.transportBytes());
   bench.timeReported(name + ": M", static_cast<double>(engine.inverse.bytes()),
-                   [&] { return backend.applyWindows(); });
+                     [&] { return backend.applyWindows(); });
   bench.timeReported(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
   timeFrames(bench, backend, engine, size, transport);
 }
@@ -155,7 +155,7 @@ Stack randomStack(std::size_t pixels, std::uint64_t seed) {
 }
 
 void timeReferences(Bench& bench, const EngineVenue& engine) {
-  const TransportMatrix& transport = engine.venue.transport;
+  const transport::TransportMatrix& transport = engine.venue.transport;
   const Stack projector = randomStack(transport.projectors().count(), 1);
   const Stack camera = randomStack(transport.cameras().count(), 2);
   bench.time("WindowInverse::apply", static_cast<double>(engine.inverse.bytes()),
@@ -180,10 +180,10 @@ void compare(EngineBenchResult& result) {
   }
 }
 
-MeasuredVenue venueOf(const EngineBenchSettings& settings) {
-  MeasuredVenue venue;
+compensation::MeasuredVenue venueOf(const EngineBenchSettings& settings) {
+  compensation::MeasuredVenue venue;
   venue.transport = settings.transport.empty() ? benchTransport(settings.projector, settings.camera)
-                                               : loadTransport(settings.transport);
+                                               : transport::loadTransport(settings.transport);
   venue.flood = venue.transport.floodlight();
   venue.black.assign(venue.flood.size(), 0.001f);
   venue.usable.assign(venue.transport.cameras().count(), 1);
@@ -234,13 +234,14 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   const bool oneThread = settings.oneThread && context == nullptr;
 
   Progress preparing = progress.part(0.5, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
-  const MeasuredVenue venue = venueOf(settings);
+  const compensation::MeasuredVenue venue = venueOf(settings);
   preparing.report(0.3);
   Progress computing = preparing.part(0.6, RELUCENT_MESSAGE("stage.windows", "Windows"));
-  const WindowInverse inverse = computeWindows(venue.transport, venue.usable, {}, computing);
+  const inverse::WindowInverse inverse =
+      inverse::computeWindows(venue.transport, venue.usable, {}, computing);
   EngineSettings plan;
   plan.patchSide = settings.patchSide;
-  const std::vector<ProjectorResponse> responses(venue.transport.projectors().devices());
+  const std::vector<linearization::ProjectorResponse> responses(venue.transport.projectors().devices());
   const EngineVenue engine = prepareVenue(venue, inverse, responses, plan);
   const EngineContent content = prepareContent(engine, settings.content);
 
@@ -265,4 +266,4 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   return std::move(bench.result);
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "engine/engine_plan.h"
-#include "engine/fallback_backend.h"
+#include "relucent/base/progress.h"
+#include "relucent/engine/engine_plan.h"
+#include "relucent/engine/fallback_backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 struct EngineBenchSettings {
   Size projector{1024, 768};
@@ -57,4 +57,4 @@ struct EngineBenchTiming {
 };
 EngineBenchTiming timedRuns(const std::function<double()>& run);
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/bench/reference_products.h"
+#include "relucent/engine/bench/reference_products.h"
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 using Plane = ReferencePlane;
@@ -11,7 +11,7 @@ constexpr double bytesOfAnEntry = 8.0;  // a float and an index
 
 /// The windows' channel: projector pixels x camera pixels.
 Plane windowsPlane(const EngineVenue& engine, std::size_t channel) {
-  WindowArrays windows = engine.inverse.view();
+  inverse::WindowArrays windows = engine.inverse.view();
   Size size = engine.venue.transport.projectors().size(0), grid = windows.tiles->size(0);
   auto pixels = static_cast<std::size_t>(windows.tile * windows.tile);
   Plane plane(static_cast<Eigen::Index>(size.count()),
@@ -90,4 +90,4 @@ void benchReferences(const EngineVenue& engine, bool oneThread, const std::funct
         "engine.scipy-not-timed-no-python3", "SciPy was not timed: no python3 of this machine has it"));
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

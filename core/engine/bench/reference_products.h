@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/bench/engine_bench.h"
+#include "relucent/engine/bench/engine_bench.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// One colour channel of an operator in compressed rows.
 using ReferencePlane = Eigen::SparseMatrix<float, Eigen::RowMajor, int>;
@@ -28,4 +28,4 @@ void benchReferences(const EngineVenue& engine, bool oneThread, const std::funct
 std::optional<EngineBenchTiming> timeSciPy(const ReferencePlane& plane, ReferenceProduct product,
                                            bool oneThread);
 
-}  // namespace relucent
+}  // namespace relucent::engine

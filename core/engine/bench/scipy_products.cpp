@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "engine/bench/reference_products.h"
-#include "engine/bench/scripts.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/bench/reference_products.h"
+#include "relucent/engine/bench/scripts.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 /// A folder among the system's temporary files, removed at the end.
@@ -84,4 +84,4 @@ std::optional<EngineBenchTiming> timeSciPy(const ReferencePlane& plane, Referenc
   return std::nullopt;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

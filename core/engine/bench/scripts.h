@@ -4,8 +4,8 @@
 #include <string_view>
 
 /// The texts of the .py files beside this one, which the build compiles into the library.
-namespace relucent::scripts {
+namespace relucent::engine::scripts {
 
 extern const std::string_view scipy_products;
 
-}  // namespace relucent::scripts
+}  // namespace relucent::engine::scripts

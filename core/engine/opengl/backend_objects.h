@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "engine/opengl/gl_objects.h"
-#include "engine/opengl/opengl_backend.h"
-#include "engine/opengl/shaders.h"
-#include "engine/opengl/sliced_transport.h"
+#include "relucent/engine/opengl/gl_objects.h"
+#include "relucent/engine/opengl/opengl_backend.h"
+#include "relucent/engine/opengl/shaders.h"
+#include "relucent/engine/opengl/sliced_transport.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Buffers and programs of a frame on a graphics card, and its stages. The context must be current in all
 /// calls.
@@ -81,4 +81,4 @@ struct OpenGlBackend::Objects {
   GlTimestamp refining = GlTimestamp::make(), refined = GlTimestamp::make();
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/opengl/gl_context.h"
+#include "relucent/engine/opengl/gl_context.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr int leastVersion = 43;
@@ -27,14 +27,15 @@ bool isSoftwareRenderer(const std::string& name) {
 }
 
 GlContext::GlContext(Device wanted) {
-  if (!HeadlessGl::isInstalled())
+  if (!platform::HeadlessGl::isInstalled())
     throw Error(
         ErrorKind::device,
         RELUCENT_MESSAGE("engine.there-no-libegl-no-libopengl",
                          "there is no libEGL or no libOpenGL, which open graphics cards without a display"),
         advice);
   std::string found;
-  context_ = HeadlessGl::open({leastVersion, wanted == Device::any}, [&] { return accepts(wanted, found); });
+  context_ = platform::HeadlessGl::open({leastVersion, wanted == Device::any},
+                                        [&] { return accepts(wanted, found); });
   if (!context_)
     throw Error(
         ErrorKind::device,
@@ -65,4 +66,4 @@ bool GlContext::failed() const noexcept {
   return wrong;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "platform/headless_gl.h"
+#include "relucent/platform/headless_gl.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// An OpenGL 4.3 context without a window and without a display, for compute shaders. It is current only
 /// during the lifetime of a Current, on one thread at a time.
@@ -29,15 +29,15 @@ class GlContext {
 
   /// Makes the context current during its lifetime, and restores the previous one. OpenGL contexts of GLX
   /// must not be current on the same thread.
-  class Current : public HeadlessGl::Current {
+  class Current : public platform::HeadlessGl::Current {
    public:
-    explicit Current(const GlContext& context) noexcept : HeadlessGl::Current(*context.context_) {}
+    explicit Current(const GlContext& context) noexcept : platform::HeadlessGl::Current(*context.context_) {}
   };
 
  private:
   bool accepts(Device wanted, std::string& found);
 
-  std::unique_ptr<HeadlessGl> context_;
+  std::unique_ptr<platform::HeadlessGl> context_;
   std::string renderer_;
   bool software_ = false;
   bool reportsReset_ = false;
@@ -46,4 +46,4 @@ class GlContext {
 /// Whether a driver's name is that of a software renderer.
 bool isSoftwareRenderer(const std::string& name);
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "engine/opengl/gl_objects.h"
+#include "relucent/engine/opengl/gl_objects.h"
 
 #include <algorithm>
 #include <string>
 
-#include "base/error.h"
-#include "engine/opengl/shaders.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/opengl/shaders.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr auto advice = RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work");
@@ -161,4 +161,4 @@ double GlTimestamp::seconds() const noexcept {
   return 1e-9 * static_cast<double>(nanoseconds);
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace relucent {
+namespace relucent::engine {
 
 /// A shader storage buffer. Like all objects of OpenGL it is made, used and destroyed while the context that
 /// it belongs to is current.
@@ -110,4 +110,4 @@ class GlTimestamp {
   GLuint name_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

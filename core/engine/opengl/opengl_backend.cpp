@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/opengl/opengl_backend.h"
+#include "relucent/engine/opengl/opengl_backend.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "base/error.h"
-#include "engine/opengl/backend_objects.h"
-#include "engine/opengl/gl_context.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/opengl/backend_objects.h"
+#include "relucent/engine/opengl/gl_context.h"
+#include "relucent/image/colour.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -18,7 +18,7 @@ constexpr std::size_t vector = 4 * sizeof(float);
 constexpr std::size_t knownFloats = 24;  // six vectors a camera pixel
 
 /// Tiles as their shader reads them: the first row of the window and the scales of its weights.
-std::vector<std::array<std::uint32_t, 4>> tilesOf(const WindowArrays& windows) {
+std::vector<std::array<std::uint32_t, 4>> tilesOf(const inverse::WindowArrays& windows) {
   std::size_t count = windows.tiles->count();
   std::vector<std::array<std::uint32_t, 4>> tiles(count + 1);
   for (std::size_t tile = 0; tile <= count; ++tile) {
@@ -30,7 +30,7 @@ std::vector<std::array<std::uint32_t, 4>> tilesOf(const WindowArrays& windows) {
 }
 
 /// What does not change with the content.
-std::vector<float> knownOf(const MeasuredVenue& venue, const WindowArrays& windows) {
+std::vector<float> knownOf(const compensation::MeasuredVenue& venue, const inverse::WindowArrays& windows) {
   std::vector<float> known(knownFloats * venue.usable.size());
   for (std::size_t i = 0; i < venue.usable.size(); ++i) {
     float* to = &known[knownFloats * i];
@@ -52,7 +52,7 @@ GlBuffer bufferOf(std::span<const float> values) {
 
 /// The ranges of tiles whose weights a shader can reach at once.
 template <typename Batch>
-std::vector<Batch> batchesOf(const WindowArrays& windows) {
+std::vector<Batch> batchesOf(const inverse::WindowArrays& windows) {
   const std::size_t bytesOfARow = 6 * static_cast<std::size_t>(windows.tile * windows.tile);
   const std::size_t alignment = GlBuffer::alignment(), most = GlBuffer::largest();
   std::vector<Batch> batches;
@@ -89,7 +89,7 @@ OpenGlBackend::Objects::Slices::Slices(const LeafSlices& from)
 }
 
 OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
-  const WindowArrays arrays = engine.inverse.view();
+  const inverse::WindowArrays arrays = engine.inverse.view();
   const std::size_t pixels = static_cast<std::size_t>(arrays.tile * arrays.tile);
   const std::size_t windowCount = arrays.start[arrays.tiles->count()];
   tiles = GlBuffer(tilesOf(arrays));
@@ -128,7 +128,8 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
   words = GlBuffer(sizeof(std::uint32_t) * projectorPixels);
 
   std::vector<float> linear;
-  for (int code = 0; code < 256; ++code) linear.push_back(static_cast<float>(srgbDecode(code / 255.0)));
+  for (int code = 0; code < 256; ++code)
+    linear.push_back(static_cast<float>(image::srgbDecode(code / 255.0)));
   linearOfSrgb = GlBuffer(linear);
   for (const DriveEncoder& encoder : engine.encoders)
     encoders.push_back({GlBuffer(wordsOf(encoder.firstLevels())), bufferOf(encoder.lights()),
@@ -210,4 +211,4 @@ bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& reques
   return true;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

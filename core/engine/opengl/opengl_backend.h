@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "engine/backend.h"
+#include "relucent/engine/backend.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 class GlContext;
 
@@ -44,4 +44,4 @@ class OpenGlBackend : public EngineBackend {
   bool lost_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::engine

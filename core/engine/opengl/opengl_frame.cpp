@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/opengl/backend_objects.h"
-#include "engine/opengl/gl_context.h"
+#include "relucent/engine/opengl/backend_objects.h"
+#include "relucent/engine/opengl/gl_context.h"
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr std::size_t group = GlProgram::group;
@@ -78,8 +78,8 @@ void OpenGlBackend::Objects::showPlaced() noexcept {
 }
 
 void OpenGlBackend::Objects::invert(bool correction) noexcept {
-  const CompensatorSettings& settings = engine.settings.compensator;
-  const WindowArrays arrays = engine.inverse.view();
+  const compensation::CompensatorSettings& settings = engine.settings.compensator;
+  const inverse::WindowArrays arrays = engine.inverse.view();
   const Rasters& projectors = engine.venue.transport.projectors();
   const GlProgram& program = correction ? windowsCorrected : windows;
   if (correction) {
@@ -105,7 +105,7 @@ void OpenGlBackend::Objects::invert(bool correction) noexcept {
 }
 
 void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
-  const NodeLayout& layout = engine.venue.transport.layout();
+  const transport::NodeLayout& layout = engine.venue.transport.layout();
   nodeLight.bind(0);
   for (int level = 1; level < layout.levels(); ++level) {
     for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector) {
@@ -150,7 +150,7 @@ void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
 }
 
 void OpenGlBackend::Objects::spread(bool correction, float length) noexcept {
-  const NodeLayout& layout = engine.venue.transport.layout();
+  const transport::NodeLayout& layout = engine.venue.transport.layout();
   const GlProgram& program = correction ? spreadCorrected : spreadStep;
   counters.clear();
   bindAll({&sums, &light, &counters, &nodeLight});
@@ -235,4 +235,4 @@ double OpenGlBackend::copyBandwidth() {
   return best;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -4,9 +4,9 @@
 #include <string_view>
 
 /// The texts of the .comp files beside this one, which the build compiles into the library.
-namespace relucent::shaders {
+namespace relucent::engine::shaders {
 
 extern const std::string_view common, place, windows, means, gather, forward, backward, sum_nodes, spread,
     brightness, show_placed, encode, copy;
 
-}  // namespace relucent::shaders
+}  // namespace relucent::engine::shaders

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "engine/opengl/sliced_transport.h"
+#include "relucent/engine/opengl/sliced_transport.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace relucent {
+namespace relucent::engine {
 namespace {
 
 constexpr std::uint32_t lanes = LeafSlices::lanes;
@@ -113,4 +113,4 @@ SlicedTransport slicedTransport(const PackedTransport& packed, std::size_t nodes
   return result;
 }
 
-}  // namespace relucent
+}  // namespace relucent::engine

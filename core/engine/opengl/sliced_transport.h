@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/packed_transport.h"
+#include "relucent/engine/packed_transport.h"
 
-namespace relucent {
+namespace relucent::engine {
 
 /// Rows of leaves in slices of 32 for a graphics card: first the first leaves of all rows of a slice, then
 /// all second ones, and so on. Rows of a patch are sorted by length, so that little padding is needed;
@@ -47,4 +47,4 @@ struct SlicedTransport {
 
 SlicedTransport slicedTransport(const PackedTransport& packed, std::size_t nodes);
 
-}  // namespace relucent
+}  // namespace relucent::engine

@@ -4,17 +4,17 @@
 #include <numeric>
 #include <utility>
 
-#include "acquisition/forecast.h"
-#include "base/message.h"
-#include "calibration/results.h"
-#include "pipeline/measuring.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/acquisition/forecast.h"
+#include "relucent/base/message.h"
+#include "relucent/calibration/results.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/missing_screen.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -33,7 +33,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     trace_.clear();
     forecast_.reset();
     left_ = {};
-    kept_ = session_.isOpen() ? session_.photographsKept(Stage::acquisition) : 0;
+    kept_ = session_.isOpen() ? session_.photographsKept(calibration::Stage::acquisition) : 0;
     connect(&session_.live(), &LiveRig::seen, this, [this] {
       if (isMeasuring()) tellProgress();
     });
@@ -79,13 +79,13 @@ void AcquirePage::makeCommands() {
       Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
   again_ = addCommand(Icon::retry, begins);
   goOn_ = addCommand(Icon::play, begins);
-  retryAlarm_ = answering(Icon::retry, Answer::retry);
-  keepAtAlarm_ = answering(Icon::save, Answer::keepAndStop);
-  skipAlarm_ = answering(Icon::next, Answer::skip);
+  retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
+  keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
+  skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
   retry_ = addCommand(Icon::play, begins);
 }
 
-Command* AcquirePage::answering(Icon icon, Answer answer) {
+Command* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
   return addCommand(icon, [this, answer] { question_->give(answer); });
 }
 
@@ -97,16 +97,16 @@ StepStatus AcquirePage::status() const {
   if (isPaused()) return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
   if (isCountingDown()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
-  switch (session_.progress(Stage::acquisition)) {
-    case StageProgress::done:
+  switch (session_.progress(calibration::Stage::acquisition)) {
+    case calibration::StageProgress::done:
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
                     .arg(durationText(spent->seconds))};
       return {StepState::done, tr("Measured")};
-    case StageProgress::stale:
+    case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StageProgress::open:
+    case calibration::StageProgress::open:
       break;
   }
   if (job_.state() == Job::State::failed) return {StepState::failed, tr("Stopped by a failure")};
@@ -122,7 +122,8 @@ QString AcquirePage::hint() const {
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
-  if (isDone()) return tr("Measured in %1").arg(durationText(cost().value_or(StageCost()).seconds));
+  if (isDone())
+    return tr("Measured in %1").arg(durationText(cost().value_or(calibration::StageCost()).seconds));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const auto patterns = static_cast<int>(work->shots);
@@ -168,11 +169,11 @@ std::optional<double> AcquirePage::progress() const {
 std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (isMeasuring() || isCountingDown()) return std::nullopt;
-  StageProgress progress = session_.progress(Stage::acquisition);
-  if (progress == StageProgress::stale)
+  calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
+  if (progress == calibration::StageProgress::stale)
     return Banner{Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
                   tr("It still works and stays until the new one is ready."), again_};
-  if (progress == StageProgress::open && kept_ > 0)
+  if (progress == calibration::StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
                      nullptr, kept_),
@@ -190,19 +191,19 @@ std::optional<double> AcquirePage::secondsLeft() const {
 }
 
 Fineness AcquirePage::fineness() const {
-  const AcquisitionSettings& settings = session_.settings().acquisition;
+  const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
   if (settings.singleExposure) return Fineness::fast;
   return settings.relativeThreshold <= fineThreshold ? Fineness::fine : Fineness::usual;
 }
 
-void AcquirePage::change(const QString& what, const AcquisitionSettings& acquisition) {
+void AcquirePage::change(const QString& what, const acquisition::AcquisitionSettings& acquisition) {
   changeUndoably(what, session_.settings().acquisition, acquisition,
-                 [this](const AcquisitionSettings& wanted) { keep(wanted); });
+                 [this](const acquisition::AcquisitionSettings& wanted) { keep(wanted); });
 }
 
-void AcquirePage::keep(const AcquisitionSettings& acquisition) {
+void AcquirePage::keep(const acquisition::AcquisitionSettings& acquisition) {
   if (isMeasuring()) return;
-  CalibrateSettings settings = session_.settings();
+  pipeline::CalibrateSettings settings = session_.settings();
   settings.acquisition = acquisition;
   settings.acquisition.seed = session_.settings().acquisition.seed;
   try {
@@ -212,10 +213,11 @@ void AcquirePage::keep(const AcquisitionSettings& acquisition) {
   }
 }
 
-AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
+acquisition::AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
   if (fineness == this->fineness()) return session_.settings().acquisition;
-  AcquisitionSettings settings =
-      relucent::settingsOf(fineness == Fineness::fast ? AcquisitionMode::fast : AcquisitionMode::adaptive);
+  acquisition::AcquisitionSettings settings =
+      acquisition::settingsOf(fineness == Fineness::fast ? acquisition::AcquisitionMode::fast
+                                                         : acquisition::AcquisitionMode::adaptive);
   if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
   return settings;
 }
@@ -227,8 +229,8 @@ void AcquirePage::setFineness(Fineness fineness) {
 
 void AcquirePage::setWhite(bool white) {
   if (isMeasuring() || white == isWhite()) return;
-  AcquisitionSettings settings = session_.settings().acquisition;
-  settings.colours = white ? LitColours::white : LitColours::rgb;
+  acquisition::AcquisitionSettings settings = session_.settings().acquisition;
+  settings.colours = white ? acquisition::LitColours::white : acquisition::LitColours::rgb;
   change(tr("Colours"), settings);
 }
 
@@ -240,32 +242,32 @@ QString AcquirePage::watching() const {
       nullptr, session_.settings().acquisition.checkInterval);
 }
 
-std::optional<StageCost> AcquirePage::cost() const {
-  const auto& measured = session_.figures<Stage::acquisition>();
+std::optional<calibration::StageCost> AcquirePage::cost() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
   return measured ? measured->cost : std::nullopt;
 }
 
 std::optional<double> AcquirePage::verificationError() const {
-  const auto& measured = session_.figures<Stage::acquisition>();
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
   return measured ? measured->verificationError : std::nullopt;
 }
 
 QStringList AcquirePage::findings() const {
   QStringList sentences;
-  if (const auto& measured = session_.figures<Stage::acquisition>())
+  if (const auto& measured = session_.figures<calibration::Stage::acquisition>())
     for (const Message& finding : measured->findings) sentences << fullSentence(finding);
   return sentences;
 }
 
 /// Tells nobody what cannot be read: Linearize does.
 void AcquirePage::lookAtResponse() {
-  const auto& stored = session_.result(Stage::linearization);
+  const auto& stored = session_.result(calibration::Stage::linearization);
   std::string when = stored ? stored->stored + stored->inputs : std::string();
   if (std::exchange(responseStored_, when) == when) return;
   response_.reset();
   if (!stored) return;
   try {
-    response_ = loadLinearization(*stored);
+    response_ = calibration::loadLinearization(*stored);
   } catch (const std::exception&) {
     response_.reset();
   }
@@ -315,21 +317,22 @@ void AcquirePage::begin() {
   trace_.begin();
   second_.start();
   auto retrying = std::make_shared<RetryingObserver>(trace_, question_, beforeRetry);
-  AlarmHandler handler = [this, retrying, question = question_](const Alarm& alarm) {
-    if (retrying->triesAgain(alarm.kind)) return Answer::retry;
+  sentinels::AlarmHandler handler = [this, retrying, question = question_](const sentinels::Alarm& alarm) {
+    if (retrying->triesAgain(alarm.kind)) return sentinels::Answer::retry;
     QMetaObject::invokeMethod(
         this, [this, alarm] { askAboutAlarm(alarm); }, Qt::QueuedConnection);
     return question->wait();
   };
   job_.start([work = workOf(session_), handler, retrying](Progress& progress) {
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
-    Rig& rig = work.devices->open(opening);
-    CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
+    rig::Rig& rig = work.devices->open(opening);
+    calibration::CalibrationFolder folder =
+        calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
     Progress reading = progress.part(0.0, RELUCENT_MESSAGE("stage.reading-response", "Reading the response"));
-    Linearization linearization = measureLinearization(folder, rig, reading);
+    linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, reading);
     Progress measuring = progress.part(
         0.95, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
-    measureAcquisition(folder, rig, linearization, handler, *retrying, measuring);
+    pipeline::measureAcquisition(folder, rig, linearization, handler, *retrying, measuring);
   });
   tellProgress();
   tellResult();
@@ -342,11 +345,11 @@ void AcquirePage::finish() {
   session_.live().resume();
 }
 
-void AcquirePage::askAboutAlarm(const Alarm& alarm) {
+void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
                   QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
                   AcquisitionTrace::headingOf(alarm.kind)};
-  Command* goOn = isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
+  Command* goOn = sentinels::isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
   Q_EMIT failed({failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn});
   Q_EMIT asks();
 }
@@ -356,7 +359,7 @@ void AcquirePage::ended() {
   trace_.end();
   if (session_.isOpen()) {
     session_.reload();
-    kept_ = session_.photographsKept(Stage::acquisition);
+    kept_ = session_.photographsKept(calibration::Stage::acquisition);
   }
   lease_.release();
   if (job_.state() != Job::State::cancelled) Q_EMIT measured();
@@ -378,4 +381,4 @@ void AcquirePage::tick() {
   tellProgress();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

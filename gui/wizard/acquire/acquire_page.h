@@ -4,23 +4,23 @@
 #include <QTimer>
 #include <memory>
 
-#include "acquisition/forecast.h"
 #include "jobs/job.h"
 #include "jobs/time_left.h"
-#include "linearization/linearization.h"
+#include "relucent/acquisition/forecast.h"
+#include "relucent/linearization/linearization.h"
 #include "wizard/acquire/acquisition_trace.h"
 #include "wizard/acquire/alarm_question.h"
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// How finely the light transport is measured.
 enum class Fineness { fast, usual, fine };
 
 /// Patterns whose blocks have one size: a level of the quadtree.
 struct BlockLevel {
-  int block = 1;          // projector pixels along a side
-  PatternRange patterns;  // of a level that has begun they are known
+  int block = 1;                       // projector pixels along a side
+  acquisition::PatternRange patterns;  // of a level that has begun they are known
   int through = 0;
   bool isKnown = false;
   bool isComplete() const { return isKnown && through >= patterns.likely; }
@@ -31,8 +31,8 @@ class AcquirePage : public DevicePage {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"acquire", "relucent::AcquirePage",
-                                     QT_TRANSLATE_NOOP("relucent::AcquirePage", "Acquire")};
+  static constexpr StepName stepName{"acquire", "relucent::gui::AcquirePage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::AcquirePage", "Acquire")};
 
   explicit AcquirePage(Session& session, QObject* parent = nullptr);
   ~AcquirePage() override;
@@ -70,14 +70,14 @@ class AcquirePage : public DevicePage {
 
   Fineness fineness() const;
   void setFineness(Fineness fineness);
-  bool isWhite() const { return session_.settings().acquisition.colours == LitColours::white; }
+  bool isWhite() const { return session_.settings().acquisition.colours == acquisition::LitColours::white; }
   void setWhite(bool white);
   /// What the checks of this measurement said, or of the last one.
   const AcquisitionTrace& trace() const { return trace_; }
   /// How often light and view are compared, and what follows.
   QString watching() const;
   /// What it cost, as far as the folder tells.
-  std::optional<StageCost> cost() const;
+  std::optional<calibration::StageCost> cost() const;
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
   /// What is worth knowing of the measurement, in sentences.
@@ -90,7 +90,7 @@ class AcquirePage : public DevicePage {
   std::vector<BlockLevel> levels() const;
   std::uint64_t freeBytes() const;
   /// Linear, of the shown camera: as last photographed or as measured. Empty: not yet.
-  Image floodlight() const;
+  image::Image floodlight() const;
   /// Another number, another picture; 0: none.
   int floodlightNumber() const;
 
@@ -122,12 +122,12 @@ class AcquirePage : public DevicePage {
   void start();
   void begin();
   void stay();
-  std::optional<WorkLeft> expected(const AcquisitionSettings& settings) const;
-  AcquisitionSettings settingsOf(Fineness fineness) const;
-  void change(const QString& what, const AcquisitionSettings& settings);
-  void keep(const AcquisitionSettings& settings);
-  void askAboutAlarm(const Alarm& alarm);
-  Command* answering(Icon icon, Answer answer);
+  std::optional<WorkLeft> expected(const acquisition::AcquisitionSettings& settings) const;
+  acquisition::AcquisitionSettings settingsOf(Fineness fineness) const;
+  void change(const QString& what, const acquisition::AcquisitionSettings& settings);
+  void keep(const acquisition::AcquisitionSettings& settings);
+  void askAboutAlarm(const sentinels::Alarm& alarm);
+  Command* answering(Icon icon, sentinels::Answer answer);
   void ended();
   void tick();
   void lookAtResponse();
@@ -140,7 +140,7 @@ class AcquirePage : public DevicePage {
   AcquisitionTrace trace_;
   TimeLeft left_;
   std::optional<WorkLeft> forecast_;
-  std::optional<Linearization> response_;
+  std::optional<linearization::Linearization> response_;
   std::string responseStored_;  // when that was
   int kept_ = 0;
   QTimer second_;
@@ -152,4 +152,4 @@ class AcquirePage : public DevicePage {
   Job job_;  // the last: it ends before what its work uses
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,9 +6,9 @@
 #include "jobs/free_space.h"
 #include "wizard/acquire/acquire_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
-std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& settings) const {
+std::optional<WorkLeft> AcquirePage::expected(const acquisition::AcquisitionSettings& settings) const {
   if (!response_ || response_->exposures.empty()) return std::nullopt;
   const std::vector<double>& exposures = response_->exposures;
   const double mean =
@@ -17,7 +17,7 @@ std::optional<WorkLeft> AcquirePage::expected(const AcquisitionSettings& setting
   if (projectors.count() == 0) return std::nullopt;
   // Photographs are counted, not their pixels.
   const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
-  return relucent::forecast({cameras, projectors, exposures.size(), mean}, settings, response_->times, {});
+  return acquisition::forecast({cameras, projectors, exposures.size(), mean}, settings, response_->times, {});
 }
 
 std::vector<BlockLevel> AcquirePage::levels() const {
@@ -26,8 +26,8 @@ std::vector<BlockLevel> AcquirePage::levels() const {
   const AcquisitionTrace::Growth growth = trace_.growth();
   // Of an earlier session only the sum is on record.
   if (isDone() && growth.levels.empty()) return {};
-  std::vector<PatternRange> patterns =
-      levelPatterns(projectors, session_.settings().acquisition, growth.levels);
+  std::vector<acquisition::PatternRange> patterns =
+      acquisition::levelPatterns(projectors, session_.settings().acquisition, growth.levels);
   std::vector<BlockLevel> levels;
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     BlockLevel level{1 << (patterns.size() - 1 - i), patterns[i]};
@@ -46,7 +46,8 @@ std::uint64_t AcquirePage::freeBytes() const {
 }
 
 bool AcquirePage::isDone() const {
-  return !isMeasuring() && session_.progress(Stage::acquisition) == StageProgress::done;
+  return !isMeasuring() &&
+         session_.progress(calibration::Stage::acquisition) == calibration::StageProgress::done;
 }
 
 void AcquirePage::enter() {
@@ -59,11 +60,11 @@ int AcquirePage::floodlightNumber() const {
   return session_.acquisition() ? -1 : 0;
 }
 
-Image AcquirePage::floodlight() const {
+image::Image AcquirePage::floodlight() const {
   if (floodlightNumber() > 0) return session_.live().floodlight(camera()).signal;
   auto measured = session_.acquisition();
   if (!measured || camera() >= measured->transport.cameras().devices()) return {};
-  return imageFromStack(measured->flood, measured->transport.cameras(), camera());
+  return image::imageFromStack(measured->flood, measured->transport.cameras(), camera());
 }
 
 void AcquirePage::setSecondsToLeave(int seconds) {
@@ -78,4 +79,4 @@ void AcquirePage::setSound(bool sound) {
   tellSettings();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "jobs/time_left.h"
-#include "pipeline/pictures.h"
+#include "relucent/pipeline/pictures.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
@@ -16,7 +16,7 @@
 #include "wizard/devices/device_selector.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double brightRoom = 0.02;  // of full light: beyond it photon noise of the room costs precision
@@ -111,7 +111,7 @@ QWidget* resultPart(AcquirePage& model) {
   findings->setObjectName("findings");
   rows->addWidget(findings);
   auto refresh = [&model, part, patterns, photographs, error, findings] {
-    const StageCost cost = model.cost().value_or(StageCost());
+    const calibration::StageCost cost = model.cost().value_or(calibration::StageCost());
     const auto count = [](int number) { return countText(static_cast<std::uint64_t>(number)); };
     part->setVisible(model.verificationError().has_value());
     patterns->setValue(count(cost.patterns));
@@ -141,8 +141,8 @@ QWidget* floodlightCard(AcquirePage& model) {
     card->setVisible(!model.isMeasuring());
     const auto wanted = std::pair(model.floodlightNumber(), model.camera());
     if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
-    const Image flood = wanted.first == 0 ? Image() : model.floodlight();
-    view->setPicture(flood.empty() ? QImage() : pictureOf(flood, displayWhite(flood)));
+    const image::Image flood = wanted.first == 0 ? image::Image() : model.floodlight();
+    view->setPicture(flood.empty() ? QImage() : pictureOf(flood, pipeline::displayWhite(flood)));
   };
   refreshOn(model, card, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return card;
@@ -192,4 +192,4 @@ QWidget* planOf(AcquirePage& model) {
   return part;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

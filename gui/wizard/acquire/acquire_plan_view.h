@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 class AcquirePage;
 
@@ -12,4 +12,4 @@ QWidget* floodlightCard(AcquirePage& model);
 /// Before and after: what to measure with, whether all is ready, and what was measured.
 QWidget* planOf(AcquirePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "wizard/acquire/acquire_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// How it begins and what is heard of it is a preference that is chosen on the page as well.
@@ -35,4 +35,4 @@ WizardStep acquireStep() {
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -11,7 +11,7 @@
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// What goes out and what comes back while it measures.
@@ -126,4 +126,4 @@ PageView viewOf(AcquirePage& model) {
   return {stageOf(model), inspectorOf(model)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

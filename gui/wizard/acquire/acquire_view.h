@@ -4,8 +4,8 @@
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(AcquirePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

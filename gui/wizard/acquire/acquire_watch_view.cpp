@@ -10,7 +10,7 @@
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double percent = 100.0, minute = 60.0;
@@ -20,11 +20,11 @@ constexpr std::size_t mostMarked = 12;  // readings, beyond which their marks wo
 constexpr std::size_t linesTakenAgain = 4;
 
 /// Below which it is an alarm, too; room light is never below nothing.
-double lowest(const Reading& reading) {
-  return std::max(0.0, reading.roomLightExpected - reading_limit::roomLight);
+double lowest(const sentinels::Reading& reading) {
+  return std::max(0.0, reading.roomLightExpected - sentinels::reading_limit::roomLight);
 }
-double highest(const Reading& reading) {
-  return reading.roomLightExpected + reading_limit::roomLight;
+double highest(const sentinels::Reading& reading) {
+  return reading.roomLightExpected + sentinels::reading_limit::roomLight;
 }
 
 /// All values and limits, and room above them for the legend.
@@ -46,7 +46,7 @@ std::vector<Curve> curvesOf(const AcquisitionTrace& trace, double low) {
   Curve above{AcquirePage::tr("alarm beyond"), amberColour, Marker::none, {}, {}};
   Curve below{{}, amberColour, Marker::none, {}, {}};
   for (const AcquisitionTrace::Point& point : trace.points()) {
-    const Reading& reading = point.reading;
+    const sentinels::Reading& reading = point.reading;
     double x = point.seconds / minute;
     light.line.emplace_back(x, percent * reading.roomLight);
     above.line.emplace_back(x, percent * highest(reading));
@@ -75,7 +75,7 @@ QWidget* traceCard(AcquirePage& model) {
   card->setSubtitle(AcquirePage::tr("light that would spoil photographs"));
   card->setFixedHeight(traceHeight);
   const Axis minutes{0.0, leastMinutes, false, AcquirePage::tr("Minutes")};
-  const Axis light{0.0, percent * reading_limit::roomLight, false,
+  const Axis light{0.0, percent * sentinels::reading_limit::roomLight, false,
                    AcquirePage::tr("Room light, % of full light")};
   auto* chart = new LineChart(minutes, light);
   chart->setObjectName("room-light-chart");
@@ -147,4 +147,4 @@ QWidget* watchPart(AcquirePage& model) {
   return part;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

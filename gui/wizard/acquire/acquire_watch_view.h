@@ -5,7 +5,7 @@
 
 #include "wizard/acquire/acquire_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The room light over the measurement with the limits of its alarm, and when something was taken again.
 QWidget* traceCard(AcquirePage& model);
@@ -13,4 +13,4 @@ QWidget* traceCard(AcquirePage& model);
 /// What each watch says, and what was taken again.
 QWidget* watchPart(AcquirePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Hundredths of a percent: limits are tenths.
@@ -13,49 +13,49 @@ QString fineShare(double share) {
   return isolated(decimalText(100.0 * share, 2) + QString::fromUtf8("\u202f%"));
 }
 
-bool isOf(const Reading& reading, std::initializer_list<AlarmKind> kinds) {
+bool isOf(const sentinels::Reading& reading, std::initializer_list<sentinels::AlarmKind> kinds) {
   return reading.alarm && std::find(kinds.begin(), kinds.end(), *reading.alarm) != kinds.end();
 }
 
-QString reasonOf(AlarmKind kind) {
+QString reasonOf(sentinels::AlarmKind kind) {
   switch (kind) {
-    case AlarmKind::flicker:
+    case sentinels::AlarmKind::flicker:
       return AcquisitionTrace::tr("the light flickered");
-    case AlarmKind::ambientChanged:
+    case sentinels::AlarmKind::ambientChanged:
       return AcquisitionTrace::tr("the room light changed");
-    case AlarmKind::lampChanged:
+    case sentinels::AlarmKind::lampChanged:
       return AcquisitionTrace::tr("the projector's light changed");
-    case AlarmKind::moved:
+    case sentinels::AlarmKind::moved:
       return AcquisitionTrace::tr("the camera or the projector moved");
-    case AlarmKind::localChange:
+    case sentinels::AlarmKind::localChange:
       return AcquisitionTrace::tr("something stood in the view");
-    case AlarmKind::mirroredScreen:
-    case AlarmKind::wrongScreen:
+    case sentinels::AlarmKind::mirroredScreen:
+    case sentinels::AlarmKind::wrongScreen:
       return AcquisitionTrace::tr("the picture was not the one sent");
-    case AlarmKind::coveredLens:
+    case sentinels::AlarmKind::coveredLens:
       return AcquisitionTrace::tr("the camera saw nothing");
-    case AlarmKind::projectorAsleep:
+    case sentinels::AlarmKind::projectorAsleep:
       return AcquisitionTrace::tr("the projector showed nothing");
   }
   return {};
 }
 
-QString reasonOf(const Retake& retake) {
+QString reasonOf(const sentinels::Retake& retake) {
   switch (retake.reason) {
-    case RetakeReason::alarm:
-      return reasonOf(retake.alarm.value_or(AlarmKind::localChange));
-    case RetakeReason::overexposed:
+    case sentinels::RetakeReason::alarm:
+      return reasonOf(retake.alarm.value_or(sentinels::AlarmKind::localChange));
+    case sentinels::RetakeReason::overexposed:
       return AcquisitionTrace::tr("too bright, shorter exposure");
-    case RetakeReason::contradiction:
+    case sentinels::RetakeReason::contradiction:
       return AcquisitionTrace::tr("does not fit what was seen before");
   }
   return {};
 }
 
 /// People count from one.
-QString patternsOf(const Retake& retake) {
+QString patternsOf(const sentinels::Retake& retake) {
   auto first = static_cast<std::uint64_t>(retake.shot) + 1;
-  if (retake.patterns < 2 || retake.reason == RetakeReason::overexposed)
+  if (retake.patterns < 2 || retake.reason == sentinels::RetakeReason::overexposed)
     return AcquisitionTrace::tr("No. %1").arg(countText(first));
   return AcquisitionTrace::tr("No. %1 to %2")
       .arg(countText(first), countText(first + static_cast<std::uint64_t>(retake.patterns) - 1));
@@ -63,24 +63,24 @@ QString patternsOf(const Retake& retake) {
 
 }  // namespace
 
-QString AcquisitionTrace::headingOf(AlarmKind kind) {
+QString AcquisitionTrace::headingOf(sentinels::AlarmKind kind) {
   switch (kind) {
-    case AlarmKind::flicker:
+    case sentinels::AlarmKind::flicker:
       return tr("The light flickers");
-    case AlarmKind::ambientChanged:
+    case sentinels::AlarmKind::ambientChanged:
       return tr("Room light changed");
-    case AlarmKind::lampChanged:
+    case sentinels::AlarmKind::lampChanged:
       return tr("The projector's light changed");
-    case AlarmKind::moved:
+    case sentinels::AlarmKind::moved:
       return tr("The camera or the projector moved");
-    case AlarmKind::localChange:
+    case sentinels::AlarmKind::localChange:
       return tr("Something stands in the view");
-    case AlarmKind::mirroredScreen:
-    case AlarmKind::wrongScreen:
+    case sentinels::AlarmKind::mirroredScreen:
+    case sentinels::AlarmKind::wrongScreen:
       return tr("The picture is not the one sent");
-    case AlarmKind::coveredLens:
+    case sentinels::AlarmKind::coveredLens:
       return tr("The camera sees nothing");
-    case AlarmKind::projectorAsleep:
+    case sentinels::AlarmKind::projectorAsleep:
       return tr("The projector shows nothing");
   }
   return {};
@@ -112,7 +112,7 @@ double AcquisitionTrace::seconds() const {
   return std::chrono::duration<double>(ended_.value_or(Clock::now()) - *began_).count();
 }
 
-void AcquisitionTrace::checked(const Reading& reading) {
+void AcquisitionTrace::checked(const sentinels::Reading& reading) {
   Clock::time_point now = Clock::now();
   QMetaObject::invokeMethod(
       this,
@@ -124,7 +124,7 @@ void AcquisitionTrace::checked(const Reading& reading) {
       Qt::QueuedConnection);
 }
 
-void AcquisitionTrace::takenAgain(const Retake& retake) {
+void AcquisitionTrace::takenAgain(const sentinels::Retake& retake) {
   Clock::time_point now = Clock::now();
   QMetaObject::invokeMethod(
       this,
@@ -148,8 +148,8 @@ AcquisitionTrace::Growth AcquisitionTrace::growth() const {
 
 std::optional<RoomLight> AcquisitionTrace::roomLight() const {
   if (points_.empty()) return std::nullopt;
-  const Reading& now = points_.back().reading;
-  return RoomLight{now.roomLight, !isOf(now, {AlarmKind::ambientChanged})};
+  const sentinels::Reading& now = points_.back().reading;
+  return RoomLight{now.roomLight, !isOf(now, {sentinels::AlarmKind::ambientChanged})};
 }
 
 std::array<WatchState, 4> AcquisitionTrace::states() const {
@@ -158,12 +158,13 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
              {false, true, tr("Camera and view"), {}},
              {false, true, tr("Projector"), {}},
              {false, true, tr("Flicker"), {}}}};
-  const Reading& now = points_.back().reading;
-  bool room = !isOf(now, {AlarmKind::ambientChanged});
-  bool view = !isOf(now, {AlarmKind::moved, AlarmKind::localChange, AlarmKind::mirroredScreen,
-                          AlarmKind::wrongScreen, AlarmKind::coveredLens});
-  bool lamp = !isOf(now, {AlarmKind::lampChanged, AlarmKind::projectorAsleep});
-  bool even = now.flicker < reading_limit::flicker;
+  const sentinels::Reading& now = points_.back().reading;
+  bool room = !isOf(now, {sentinels::AlarmKind::ambientChanged});
+  bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
+                          sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
+                          sentinels::AlarmKind::coveredLens});
+  bool lamp = !isOf(now, {sentinels::AlarmKind::lampChanged, sentinels::AlarmKind::projectorAsleep});
+  bool even = now.flicker < sentinels::reading_limit::flicker;
   return {{{true, room, room ? tr("Room light steady") : tr("Room light changed"),
             tr("%1 of full light, changed by %2 since the start.")
                 .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
@@ -184,4 +185,4 @@ std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {
   return lines;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

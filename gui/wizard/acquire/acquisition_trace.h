@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "sentinels/observer.h"
+#include "relucent/sentinels/observer.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What one of the watches says, in words.
 struct WatchState {
@@ -28,7 +28,7 @@ struct TakenAgain {
 
 /// What the checks of a measurement said and what was taken again, in order. Told on the measuring thread, it
 /// speaks on its own.
-class AcquisitionTrace : public QObject, public AcquisitionObserver {
+class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   Q_OBJECT
 
  public:
@@ -36,15 +36,15 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
 
   struct Point {
     double seconds = 0.0;  // since begin()
-    Reading reading;
+    sentinels::Reading reading;
   };
   struct Mark {
     double seconds = 0.0;
-    Retake retake;
+    sentinels::Retake retake;
   };
 
   /// What such an alarm is called, a title.
-  static QString headingOf(AlarmKind kind);
+  static QString headingOf(sentinels::AlarmKind kind);
 
   /// What was told is forgotten, and nothing is listened to until begin().
   void clear();
@@ -70,8 +70,8 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
   /// The last ones, newest first.
   std::vector<TakenAgain> takenAgain(std::size_t most) const;
 
-  void checked(const Reading& reading) override;
-  void takenAgain(const Retake& retake) override;
+  void checked(const sentinels::Reading& reading) override;
+  void takenAgain(const sentinels::Retake& retake) override;
   void grew(const std::vector<int>& levels, int through) override;
 
  Q_SIGNALS:
@@ -86,4 +86,4 @@ class AcquisitionTrace : public QObject, public AcquisitionObserver {
   Growth growth_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,18 +7,18 @@
 #include <chrono>
 #include <optional>
 
-#include "sentinels/alarm.h"
+#include "relucent/sentinels/alarm.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A question of the measuring thread to the user, and its answer.
 class AlarmQuestion {
  public:
-  Answer wait() {
+  sentinels::Answer wait() {
     QMutexLocker lock(&guard_);
     answer_.reset();
     while (!answer_ && !closed_) given_.wait(&guard_);
-    return answer_.value_or(Answer::keepAndStop);
+    return answer_.value_or(sentinels::Answer::keepAndStop);
   }
   /// Waits for that long; false: it was closed meanwhile.
   bool rest(std::chrono::milliseconds time) {
@@ -34,7 +34,7 @@ class AlarmQuestion {
     closed_ = closed;
     given_.wakeAll();
   }
-  void give(Answer answer) {
+  void give(sentinels::Answer answer) {
     QMutexLocker lock(&guard_);
     answer_ = answer;
     given_.wakeAll();
@@ -43,8 +43,8 @@ class AlarmQuestion {
  private:
   QMutex guard_;
   QWaitCondition given_;
-  std::optional<Answer> answer_;
+  std::optional<sentinels::Answer> answer_;
   bool closed_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int planHeight = 112, progressHeight = 46, textHeight = 16;
@@ -168,4 +168,4 @@ QWidget* blockSizesCard(AcquirePage& model) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 
 #include "wizard/acquire/acquire_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The patterns of every block size: as a plan before measuring, columns as high as there are many, and as
 /// progress while it goes on. What is only expected is dashed.
@@ -35,4 +35,4 @@ class BlockSizesView : public QWidget {
 /// The card of it, hidden where nothing is known.
 QWidget* blockSizesCard(AcquirePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

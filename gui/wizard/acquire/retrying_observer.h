@@ -5,33 +5,35 @@
 #include <memory>
 #include <utility>
 
-#include "sentinels/observer.h"
+#include "relucent/sentinels/observer.h"
 #include "wizard/acquire/alarm_question.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Looks on for another, and tries again by itself what may have passed when it is photographed next: a door
 /// stood open, somebody went through the light. Three times at one place, then somebody has to be asked; and
 /// only about what was photographed now: what is read from a log may have been put up with, and trying again
 /// would throw away all that followed. On the measuring thread.
-class RetryingObserver : public AcquisitionObserver {
+class RetryingObserver : public sentinels::AcquisitionObserver {
  public:
   /// `rest`: before each try.
-  RetryingObserver(AcquisitionObserver& other, std::shared_ptr<AlarmQuestion> question, std::chrono::milliseconds rest)
+  RetryingObserver(sentinels::AcquisitionObserver& other, std::shared_ptr<AlarmQuestion> question,
+                   std::chrono::milliseconds rest)
       : other_(other), question_(std::move(question)), rest_(rest) {}
 
-  void checked(const Reading& reading) override {
+  void checked(const sentinels::Reading& reading) override {
     isNew_ = reading.alarm.has_value();
     if (!isNew_) tries_ = 0;
     other_.checked(reading);
   }
-  void takenAgain(const Retake& retake) override { other_.takenAgain(retake); }
+  void takenAgain(const sentinels::Retake& retake) override { other_.takenAgain(retake); }
   void grew(const std::vector<int>& levels, int through) override { other_.grew(levels, through); }
 
   /// After the rest; false: it is for somebody to decide.
-  bool triesAgain(AlarmKind kind) {
+  bool triesAgain(sentinels::AlarmKind kind) {
     constexpr int most = 3;
-    const bool mayPass = kind == AlarmKind::ambientChanged || kind == AlarmKind::localChange;
+    const bool mayPass =
+        kind == sentinels::AlarmKind::ambientChanged || kind == sentinels::AlarmKind::localChange;
     if (!mayPass || !std::exchange(isNew_, false) || tries_ == most) {
       tries_ = 0;
       return false;
@@ -41,11 +43,11 @@ class RetryingObserver : public AcquisitionObserver {
   }
 
  private:
-  AcquisitionObserver& other_;
+  sentinels::AcquisitionObserver& other_;
   std::shared_ptr<AlarmQuestion> question_;
   std::chrono::milliseconds rest_;
   int tries_ = 0;
   bool isNew_ = false;  // the last check that was told had an alarm
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

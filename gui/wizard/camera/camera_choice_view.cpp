@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/camera/camera_choice_view.h"
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 #include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
 #include "wizard/camera/camera_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
-QString traitsText(const CameraTraits& traits) {
+QString traitsText(const devices::CameraTraits& traits) {
   return CameraPage::tr("%1 pixels, %n bit(s), exposures %2 to %3", nullptr, traits.format.bits)
       .arg(sizeText(traits.size.width, traits.size.height), exposureText(traits.exposures.shortest),
            exposureText(traits.exposures.longest));
@@ -19,7 +19,7 @@ QString traitsText(const CameraTraits& traits) {
 
 class CameraRow : public QFrame {
  public:
-  CameraRow(CameraPage& model, const ListedCamera& camera) {
+  CameraRow(CameraPage& model, const devices::ListedCamera& camera) {
     setRole(this, "card");
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(16, 10, 12, 10);
@@ -66,14 +66,15 @@ class CameraChoice : public Card {
       delete item->widget();
       delete item;
     }
-    const CameraList& devices = model_.cameras();
-    for (const ListedCamera& camera : devices.cameras) body()->addWidget(new CameraRow(model_, camera));
+    const devices::CameraList& devices = model_.cameras();
+    for (const devices::ListedCamera& camera : devices.cameras)
+      body()->addWidget(new CameraRow(model_, camera));
     if (devices.cameras.empty())
       body()->addWidget(labelOf(model_.isListing()
                                     ? CameraPage::tr("Looking for cameras")
                                     : CameraPage::tr("No camera answers. Check its cable and its power."),
                                 "secondary"));
-    for (const CameraSupport& kind : devices.support)
+    for (const devices::CameraSupport& kind : devices.support)
       if (!kind.available) body()->addWidget(labelOf(fullSentence(kind.sentence), "note"));
     static_cast<QBoxLayout*>(body())->addStretch(1);
   }
@@ -88,4 +89,4 @@ QWidget* cameraChoice(CameraPage& model) {
   return new CameraChoice(model);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,11 +3,11 @@
 
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 class CameraPage;
 
 /// The cameras that are there, what each can do and what is wrong with it, to be chosen from.
 QWidget* cameraChoice(CameraPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

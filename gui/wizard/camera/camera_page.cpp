@@ -8,17 +8,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/message.h"
-#include "linearization/test_light.h"
+#include "relucent/base/message.h"
+#include "relucent/linearization/test_light.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double saturation = 0.97, dark = 0.01;
 constexpr unsigned long restMilliseconds = 20;  // between two checks of an answer that is waited for
 
-Region centre(Size camera) {
+image::Region centre(Size camera) {
   return {camera.width * 3 / 8, camera.height * 3 / 8, std::max(2, camera.width / 4),
           std::max(2, camera.height / 4)};
 }
@@ -28,12 +28,12 @@ Region centre(Size camera) {
 /// What the looking thread and the interface tell each other.
 struct CameraPage::Shared {
   QMutex guard;
-  std::optional<RigCheck> check;
-  std::optional<ExposureChoice> choice;
+  std::optional<pipeline::RigCheck> check;
+  std::optional<linearization::ExposureChoice> choice;
   std::optional<CameraLook> look;
   std::optional<double> tooBright, tooDark;
   std::size_t exposure = 0;
-  Region area;
+  image::Region area;
   bool posted = false;
 };
 
@@ -41,7 +41,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     : PageModel(stepName, parent),
       session_(session),
       listing_(
-          [this](CameraList found) {
+          [this](devices::CameraList found) {
             cameras_ = std::move(found);
             Q_EMIT camerasListed();
             tellStatus();
@@ -84,10 +84,10 @@ CameraPage::~CameraPage() {
 
 StepStatus CameraPage::status() const {
   if (isLooking()) {
-    bool done = session_.progress(Stage::camera) == StageProgress::done;
+    bool done = session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
     return {done ? StepState::done : StepState::open, tr("Checking")};
   }
-  if (const auto& result = session_.result(Stage::camera)) {
+  if (const auto& result = session_.result(calibration::Stage::camera)) {
     QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
     return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
   }
@@ -95,13 +95,14 @@ StepStatus CameraPage::status() const {
 }
 
 bool CameraPage::needsCamera() const {
-  const ScreenRigSettings* screen = session_.screenRig();
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
   return screen != nullptr && screen->cameraAddress.empty();
 }
 
 /// What was measured belongs to its camera.
 bool CameraPage::mayChooseCamera() const {
-  return session_.screenRig() != nullptr && session_.progress(Stage::linearization) == StageProgress::open;
+  return session_.screenRig() != nullptr &&
+         session_.progress(calibration::Stage::linearization) == calibration::StageProgress::open;
 }
 
 void CameraPage::listCameras() {
@@ -119,7 +120,7 @@ void CameraPage::chooseCamera(const std::string& address, std::optional<Size> si
 void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> size) {
   if (!mayChooseCamera() || isLooking() || !session_.areDevicesFree()) return;
   try {
-    ScreenRigSettings rig = *session_.screenRig();
+    pipeline::ScreenRigSettings rig = *session_.screenRig();
     rig.cameraAddress = address;
     rig.camera = size;
     session_.changeRig(rig);
@@ -146,7 +147,8 @@ QString CameraPage::hint() const {
 }
 
 void CameraPage::updateCommands() {
-  const bool seen = look_.has_value() || session_.progress(Stage::camera) == StageProgress::done;
+  const bool seen =
+      look_.has_value() || session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
   const bool free = session_.areDevicesFree();
   keep_->show(tr("Keep exposures"), seen && (free || isLooking()));
   pause_->show(tr("Pause"));
@@ -177,7 +179,7 @@ void CameraPage::goOn() {
 
 void CameraPage::enter() {
   if (needsCamera()) return listCameras();
-  bool wanted = session_.progress(Stage::camera) != StageProgress::done;
+  bool wanted = session_.progress(calibration::Stage::camera) != calibration::StageProgress::done;
   if (wanted && session_.isOpen() && !job_.isRunning() && session_.areDevicesFree()) start();
 }
 
@@ -186,12 +188,12 @@ void CameraPage::finish() {
   job_.cancel();
 }
 
-void CameraPage::setFocusArea(const Region& area) {
+void CameraPage::setFocusArea(const image::Region& area) {
   if (area == area_) return;
-  changeUndoably(tr("Focus area"), area_, area, [this](const Region& wanted) { watch(wanted); });
+  changeUndoably(tr("Focus area"), area_, area, [this](const image::Region& wanted) { watch(wanted); });
 }
 
-void CameraPage::watch(const Region& area) {
+void CameraPage::watch(const image::Region& area) {
   area_ = area;
   best_ = 0.0;
   if (shared_) {
@@ -202,7 +204,7 @@ void CameraPage::watch(const Region& area) {
 }
 
 bool CameraPage::isFocusJudged() const {
-  return look_ && tooBrightWithin(look_->check, look_->frame.signal.size(), area_) <= 0.5;
+  return look_ && image::tooBrightWithin(look_->check, look_->frame.signal.size(), area_) <= 0.5;
 }
 
 void CameraPage::chooseExposure(std::size_t index) {
@@ -222,35 +224,35 @@ void CameraPage::start() {
   lease_ = session_.leaseDevices(stepName);
   job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
     Progress opening = progress.part(0.4, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
-    Rig& rig = work.devices->open(opening);
+    rig::Rig& rig = work.devices->open(opening);
     if (work.devices->hasScreen()) {
       Progress checking = progress.part(
           0.3, RELUCENT_MESSAGE("stage.checking-projector-camera", "Checking projector and camera"));
-      RigCheck check = work.devices->check(checking);
+      pipeline::RigCheck check = work.devices->check(checking);
       QMutexLocker lock(&shared->guard);
       shared->check = std::move(check);
     }
-    NoShotLog nothing;
-    ShotTaker shots(rig, nothing, "camera");
+    rig::NoShotLog nothing;
+    rig::ShotTaker shots(rig, nothing, "camera");
     Progress exposing =
         progress.part(0.3, RELUCENT_MESSAGE("stage.finding-exposures", "Finding the exposures"));
-    ExposureChoice choice = chooseExposures(shots, exposing);
+    linearization::ExposureChoice choice = linearization::chooseExposures(shots, exposing);
     {
       QMutexLocker lock(&shared->guard);
       shared->choice = choice;
       // The one between bright parts and shadows.
       shared->exposure = choice.seconds.size() / 2;
-      if (shared->area == Region{}) shared->area = centre(rig.cameras[0]->size());
+      if (shared->area == image::Region{}) shared->area = centre(rig.cameras[0]->size());
     }
     Progress looking =
         progress.part(0.0, RELUCENT_MESSAGE("stage.looking-through-camera", "Looking through the camera"));
-    showEven(rig, {1, 1, 1});
+    linearization::showEven(rig, {1, 1, 1});
     for (int number = shots.shots();; ++number) {
       looking.checkpoint();
       QElapsedTimer since;
       since.start();
       std::size_t exposure = 0;
-      Region area;
+      image::Region area;
       {
         QMutexLocker lock(&shared->guard);
         exposure = std::min(shared->exposure, choice.seconds.size() - 1);
@@ -263,7 +265,7 @@ void CameraPage::start() {
       }
       CameraLook look;
       look.frame = rig.cameras[0]->capture({{"camera", number}, 0, choice.seconds[exposure]});
-      look.check = checkPhotograph(look.frame.signal, saturation, dark);
+      look.check = image::checkPhotograph(look.frame.signal, saturation, dark);
       look.sharpness = sharpness(look.frame.signal, area);
       QMutexLocker lock(&shared->guard);
       if (exposure + 1 == choice.seconds.size()) shared->tooBright = look.check.tooBright;
@@ -312,11 +314,12 @@ void CameraPage::ended() {
 }
 
 void CameraPage::keepLook() {
-  CameraCheckResult kept;
+  calibration::CameraCheckResult kept;
   kept.exposures = exposures_.seconds;
   if (check_) {
     kept.latencySeconds = check_->latency.seconds;
-    for (const CheckVerdict& verdict : verdictsOf(*check_)) kept.verdicts.push_back(messageOf(verdict));
+    for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*check_))
+      kept.verdicts.push_back(devices::messageOf(verdict));
   }
   try {
     session_.decide(kept);
@@ -326,4 +329,4 @@ void CameraPage::keepLook() {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

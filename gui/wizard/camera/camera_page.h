@@ -3,20 +3,20 @@
 
 #include <QMutex>
 
-#include "devices/camera_registry.h"
-#include "image/photograph_check.h"
 #include "jobs/job.h"
 #include "jobs/latest.h"
-#include "linearization/exposure_choice.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/image/photograph_check.h"
+#include "relucent/linearization/exposure_choice.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// One look through the camera.
 struct CameraLook {
-  RawFrame frame;
-  PhotographCheck check;
+  rig::RawFrame frame;
+  image::PhotographCheck check;
   double sharpness = 0.0;
 };
 
@@ -26,8 +26,8 @@ class CameraPage : public PageModel {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"camera", "relucent::CameraPage",
-                                     QT_TRANSLATE_NOOP("relucent::CameraPage", "Camera")};
+  static constexpr StepName stepName{"camera", "relucent::gui::CameraPage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::CameraPage", "Camera")};
 
   explicit CameraPage(Session& session, QObject* parent = nullptr);
   ~CameraPage() override;
@@ -46,15 +46,15 @@ class CameraPage : public PageModel {
   /// A screen of the desktop is the projector, and no camera is chosen for it yet.
   bool needsCamera() const;
   /// What is there to choose from, as it was when it was looked for.
-  const CameraList& cameras() const { return cameras_; }
+  const devices::CameraList& cameras() const { return cameras_; }
   bool isListing() const { return listing_.isBusy(); }
   void listCameras();
   /// `size`: of the photographs; none: all that the camera has.
   void chooseCamera(const std::string& address, std::optional<Size> size = std::nullopt);
   /// Who looks for cameras; for tests.
-  void setLister(std::function<CameraList()> lister) { lister_ = std::move(lister); }
+  void setLister(std::function<devices::CameraList()> lister) { lister_ = std::move(lister); }
   /// How projector and camera work together, where the projector is a screen; none before it was measured.
-  const std::optional<RigCheck>& check() const { return check_; }
+  const std::optional<pipeline::RigCheck>& check() const { return check_; }
 
   bool isLooking() const { return job_.isRunning(); }
   QString stage() const { return job_.stage(); }
@@ -69,8 +69,8 @@ class CameraPage : public PageModel {
   std::optional<double> tooBrightEverywhere() const { return tooBright_; }
   std::optional<double> tooDarkEverywhere() const { return tooDark_; }
   /// The focus area, in pixels of the camera.
-  Region focusArea() const { return area_; }
-  void setFocusArea(const Region& area);
+  image::Region focusArea() const { return area_; }
+  void setFocusArea(const image::Region& area);
   /// In the focus area there is something to judge: most of it is not too bright.
   bool isFocusJudged() const;
   /// Sharpness relative to the best so far, 0 to 1.
@@ -90,7 +90,7 @@ class CameraPage : public PageModel {
   void goOn();
   void keepLook();
   void start();
-  void watch(const Region& area);
+  void watch(const image::Region& area);
   void takeSharedState();
   void ended();
 
@@ -99,17 +99,17 @@ class CameraPage : public PageModel {
   Job job_;
   std::shared_ptr<Shared> shared_;
   std::optional<CameraLook> look_;
-  ExposureChoice exposures_;
+  linearization::ExposureChoice exposures_;
   std::size_t exposure_ = 0;
   std::optional<double> tooBright_, tooDark_;
-  Region area_;
+  image::Region area_;
   double best_ = 0.0;
-  std::function<CameraList()> lister_ = [] { return cameraRegistry().list(); };
-  CameraList cameras_;
-  Latest<CameraList> listing_;
-  std::optional<RigCheck> check_;
+  std::function<devices::CameraList()> lister_ = [] { return devices::cameraRegistry().list(); };
+  devices::CameraList cameras_;
+  Latest<devices::CameraList> listing_;
+  std::optional<pipeline::RigCheck> check_;
   Command *keep_, *pause_, *again_, *chooseAnother_;
   bool goOn_ = false;  // the next step was asked for while looking
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,10 +3,10 @@
 
 #include "wizard/camera/camera_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep cameraStep() {
   return stepOf<CameraPage>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

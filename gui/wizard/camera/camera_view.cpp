@@ -13,12 +13,12 @@
 #include "views/number_text.h"
 #include "wizard/camera/camera_choice_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Hatches over what is too bright (amber) and too dark (blue, the other slope), the focus area round its
 /// pixels. Drawn finer than the photograph, so that stripes stay stripes.
-QImage overlayOf(const CameraLook& look, const Region& area) {
+QImage overlayOf(const CameraLook& look, const image::Region& area) {
   constexpr int fine = 4;
   Size size = look.frame.signal.size();
   QImage overlay(size.width * fine, size.height * fine, QImage::Format_ARGB32_Premultiplied);
@@ -27,9 +27,9 @@ QImage overlayOf(const CameraLook& look, const Region& area) {
   for (int y = 0; y < overlay.height(); ++y) {
     auto* line = reinterpret_cast<QRgb*>(overlay.scanLine(y));
     for (int x = 0; x < overlay.width(); ++x) {
-      Exposed exposed = look.check.exposed[indexOf(size, {x / fine, y / fine})];
-      if (exposed == Exposed::tooBright && (x + y) % 8 < 4) line[x] = amber;
-      if (exposed == Exposed::tooDark && (x - y + (1 << 20)) % 8 < 4) line[x] = blue;
+      image::Exposed exposed = look.check.exposed[indexOf(size, {x / fine, y / fine})];
+      if (exposed == image::Exposed::tooBright && (x + y) % 8 < 4) line[x] = amber;
+      if (exposed == image::Exposed::tooDark && (x - y + (1 << 20)) % 8 < 4) line[x] = blue;
     }
   }
   QPainter painter(&overlay);
@@ -41,22 +41,22 @@ QImage overlayOf(const CameraLook& look, const Region& area) {
   return overlay;
 }
 
-std::vector<Curve> histogramOf(const PhotographCheck& check) {
+std::vector<Curve> histogramOf(const image::PhotographCheck& check) {
   std::vector<Curve> curves;
   const QColor& (*tints[])() = {[]() -> const QColor& { return colours().red; },
                                 []() -> const QColor& { return colours().green; },
                                 []() -> const QColor& { return colours().blue; }};
   for (std::size_t c = 0; c < 3; ++c) {
     Curve curve{QString(), tints[c], Marker::none, {}, {}};
-    for (std::size_t i = 0; i < PhotographCheck::bins; ++i)
-      curve.line.emplace_back((static_cast<double>(i) + 0.5) / PhotographCheck::bins,
+    for (std::size_t i = 0; i < image::PhotographCheck::bins; ++i)
+      curve.line.emplace_back((static_cast<double>(i) + 0.5) / image::PhotographCheck::bins,
                               1.0 + static_cast<double>(check.histogram[c][i]));
     curves.push_back(std::move(curve));
   }
   return curves;
 }
 
-double tallest(const PhotographCheck& check) {
+double tallest(const image::PhotographCheck& check) {
   std::uint32_t most = 10;
   for (const auto& channel : check.histogram)
     most = std::max(most, *std::max_element(channel.begin(), channel.end()));
@@ -64,10 +64,11 @@ double tallest(const PhotographCheck& check) {
 }
 
 /// How the devices work together, a line each.
-QString verdictLines(const std::optional<RigCheck>& check) {
+QString verdictLines(const std::optional<pipeline::RigCheck>& check) {
   QStringList lines;
   if (check)
-    for (const CheckVerdict& verdict : verdictsOf(*check)) lines << text(messageOf(verdict));
+    for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*check))
+      lines << text(devices::messageOf(verdict));
   return lines.join('\n');
 }
 
@@ -132,7 +133,7 @@ class CameraStage : public Card {
 
  private:
   void moveArea(QPoint to) {
-    Region area = model_.focusArea();
+    image::Region area = model_.focusArea();
     area.x = to.x() - area.width / 2;
     area.y = to.y() - area.height / 2;
     model_.setFocusArea(area);
@@ -265,4 +266,4 @@ PageView viewOf(CameraPage& model) {
   return {stages, CameraInspector::make(model)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,8 +4,8 @@
 #include "wizard/camera/camera_page.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(CameraPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

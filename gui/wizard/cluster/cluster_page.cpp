@@ -3,14 +3,14 @@
 
 #include <limits>
 
-#include "base/message.h"
-#include "clustering/cluster_map.h"
-#include "clustering/grouping.h"
-#include "pipeline/pictures.h"
+#include "relucent/base/message.h"
+#include "relucent/clustering/cluster_map.h"
+#include "relucent/clustering/grouping.h"
+#include "relucent/pipeline/pictures.h"
 #include "views/number_text.h"
 #include "wizard/cluster/cluster_picture.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int paletteColours = 8;
@@ -23,14 +23,15 @@ std::vector<Value> ofCamera(const std::vector<Value>& values, const Rasters& cam
 }
 
 /// The map and its numbers. `surface`: the camera's picture in full light.
-std::shared_ptr<const ClusterResult> mapOf(const Grouping& grouping, const Rasters& cameras,
+std::shared_ptr<const ClusterResult> mapOf(const clustering::Grouping& grouping, const Rasters& cameras,
                                            std::size_t camera, const QImage& surface) {
   auto result = std::make_shared<ClusterResult>();
   result->device = camera;
   result->camera = cameras.size(camera);
   result->statistics = grouping.statistics;
-  result->colours = clusterColours(grouping.cameraCluster, cameras, grouping.sizes.size(), paletteColours);
-  result->borders = ofCamera(clusterBorders(grouping.cameraCluster, cameras), cameras, camera);
+  result->colours =
+      clustering::clusterColours(grouping.cameraCluster, cameras, grouping.sizes.size(), paletteColours);
+  result->borders = ofCamera(clustering::clusterBorders(grouping.cameraCluster, cameras), cameras, camera);
   result->map = ofCamera(grouping.cameraCluster, cameras, camera);
   result->sizes = grouping.sizes;
   result->picture = clusterPicture(result->map, result->colours, result->borders, surface);
@@ -38,13 +39,13 @@ std::shared_ptr<const ClusterResult> mapOf(const Grouping& grouping, const Raste
 }
 
 std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, const Rasters& cameras,
-                                                GroupingError error) {
+                                                clustering::GroupingError error) {
   auto result = std::make_shared<ClusterResult>(map);
   result->exact = true;
   result->statistics = std::move(error.statistics);
   result->error = ofCamera(error.error, cameras, map.device);
   for (std::size_t i = 0; i < result->map.size(); ++i)
-    if (result->map[i] == noCluster) result->error[i] = std::numeric_limits<float>::quiet_NaN();
+    if (result->map[i] == clustering::noCluster) result->error[i] = std::numeric_limits<float>::quiet_NaN();
   double high = std::max(0.1, std::min(1.0, result->statistics.errorP95 * 1.1));
   result->errorScale = {ColourMap::cividis, 0.0, high, false};
   result->errorPicture = mapped(result->error, result->camera, result->errorScale);
@@ -55,10 +56,10 @@ std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, const 
 
 /// The graph refers to T.
 struct ClusterPage::Prepared {
-  TransportMatrix transport;
-  std::optional<ConnectionGraph> graph;
-  std::unique_ptr<Grouper> grouper;  // for computing_ alone, which asks it one thing at a time
-  std::vector<QImage> surfaces;      // a camera
+  transport::TransportMatrix transport;
+  std::optional<clustering::ConnectionGraph> graph;
+  std::unique_ptr<clustering::Grouper> grouper;  // for computing_ alone, which asks it one thing at a time
+  std::vector<QImage> surfaces;                  // a camera
 };
 
 ClusterPage::ClusterPage(Session& session, QObject* parent)
@@ -100,24 +101,24 @@ void ClusterPage::enter() {
 
 /// The graph, once for every threshold.
 void ClusterPage::prepare() {
-  std::shared_ptr<const Acquisition> acquisition = session_.acquisition();
+  std::shared_ptr<const transport::Acquisition> acquisition = session_.acquisition();
   if (!acquisition || !session_.isOpen()) return;
-  const ThresholdSettings& cut = session_.settings().threshold;
+  const transport::ThresholdSettings& cut = session_.settings().threshold;
   std::string wanted = fmt::format("{} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept);
   if (wanted == preparedFor_ && acquisition == source_) return;
   preparedFor_ = wanted;
   source_ = acquisition;
   preparing_.ask([acquisition, cut]() -> std::shared_ptr<const Prepared> {
     auto prepared = std::make_shared<Prepared>();
-    prepared->transport = thresholded(acquisition->transport, cut, acquisition->flood);
+    prepared->transport = transport::thresholded(acquisition->transport, cut, acquisition->flood);
     Progress quiet;
-    prepared->graph.emplace(prepared->transport, usablePixels(*acquisition), ConnectionGraphSettings(),
-                            quiet);
-    prepared->grouper = std::make_unique<Grouper>(*prepared->graph);
+    prepared->graph.emplace(prepared->transport, pipeline::usablePixels(*acquisition),
+                            clustering::ConnectionGraphSettings(), quiet);
+    prepared->grouper = std::make_unique<clustering::Grouper>(*prepared->graph);
     const Rasters& cameras = acquisition->transport.cameras();
     for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-      Image flood = imageFromStack(acquisition->flood, cameras, camera);
-      prepared->surfaces.push_back(relucent::pictureOf(flood, displayWhite(flood)));
+      image::Image flood = image::imageFromStack(acquisition->flood, cameras, camera);
+      prepared->surfaces.push_back(gui::pictureOf(flood, pipeline::displayWhite(flood)));
     }
     return prepared;
   });
@@ -128,7 +129,7 @@ void ClusterPage::compute() {
     computing_.ask([prepared = prepared_, settings = settings_, camera = camera()](Progress& progress,
                                                                                    const auto& tellSoon) {
       Progress grouping = progress.part(0.4, RELUCENT_MESSAGE("stage.joining-clusters", "Joining clusters"));
-      const Grouping& groups = prepared->grouper->group(settings, grouping);
+      const clustering::Grouping& groups = prepared->grouper->group(settings, grouping);
       const Rasters& cameras = prepared->transport.cameras();
       std::shared_ptr<const ClusterResult> map = mapOf(groups, cameras, camera, prepared->surfaces[camera]);
       tellSoon(map);
@@ -161,20 +162,20 @@ void ClusterPage::cameraChanged() {
   compute();
 }
 
-void ClusterPage::setSettings(const ClusteringSettings& settings) {
+void ClusterPage::setSettings(const clustering::ClusteringSettings& settings) {
   settings_ = settings;
   compute();
 }
 
 StepStatus ClusterPage::status() const {
   int clusters = 0;
-  switch (session_.progress(Stage::clustering)) {
-    case StageProgress::done:
-      clusters = static_cast<int>(session_.figures<Stage::clustering>()->clusters);
+  switch (session_.progress(calibration::Stage::clustering)) {
+    case calibration::StageProgress::done:
+      clusters = static_cast<int>(session_.figures<calibration::Stage::clustering>()->clusters);
       return {StepState::done, groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
-    case StageProgress::stale:
+    case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StageProgress::open:
+    case calibration::StageProgress::open:
       break;
   }
   return {};
@@ -197,22 +198,23 @@ void ClusterPage::updateCommands() {
 }
 
 std::optional<Banner> ClusterPage::banner() const {
-  if (session_.progress(Stage::clustering) != StageProgress::stale) return std::nullopt;
+  if (session_.progress(calibration::Stage::clustering) != calibration::StageProgress::stale)
+    return std::nullopt;
   return Banner{Banner::Kind::amber, tr("The clusters that are kept belong to an earlier threshold"),
                 tr("What you see here is grouped anew. Going on keeps it.")};
 }
 
 void ClusterPage::accept() {
   try {
-    CalibrateSettings settings = session_.settings();
+    pipeline::CalibrateSettings settings = session_.settings();
     settings.clustering = settings_;
     session_.changeSettings(settings);
-    session_.decide(ClusteringResult{result_->sizes.size(), result_->statistics.largest,
-                                     result_->statistics.errorMedian});
+    session_.decide(calibration::ClusteringResult{result_->sizes.size(), result_->statistics.largest,
+                                                  result_->statistics.errorMedian});
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

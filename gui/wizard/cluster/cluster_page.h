@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "clustering/clustering.h"
 #include "jobs/latest.h"
 #include "jobs/refining.h"
+#include "relucent/clustering/clustering.h"
 #include "views/colour_map.h"
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What one set of sliders gives, for the shown camera. Its map is known before its errors.
 struct ClusterResult {
   bool exact = false;  // errors are this map's; until then those of the map before, or none
-  ClusteringStatistics statistics;
+  clustering::ClusteringStatistics statistics;
   std::vector<std::uint32_t> map;     // per camera pixel: cluster or noCluster
   std::vector<std::uint8_t> colours;  // per cluster
   std::vector<std::uint8_t> borders;  // per camera pixel
   std::vector<float> error;           // per camera pixel, or empty; NaN where there was no cluster
-  std::vector<ClusterSize> sizes;
+  std::vector<clustering::ClusterSize> sizes;
   std::size_t device = 0;  // the camera's number
   Size camera;
   QImage picture, errorPicture;  // the maps to be seen
@@ -29,8 +29,8 @@ class ClusterPage : public DevicePage {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"cluster", "relucent::ClusterPage",
-                                     QT_TRANSLATE_NOOP("relucent::ClusterPage", "Cluster")};
+  static constexpr StepName stepName{"cluster", "relucent::gui::ClusterPage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::ClusterPage", "Cluster")};
 
   explicit ClusterPage(Session& session, QObject* parent = nullptr);
 
@@ -45,8 +45,8 @@ class ClusterPage : public DevicePage {
   std::optional<Banner> banner() const override;
   void enter() override;
 
-  const ClusteringSettings& settings() const { return settings_; }
-  void setSettings(const ClusteringSettings& settings);
+  const clustering::ClusteringSettings& settings() const { return settings_; }
+  void setSettings(const clustering::ClusteringSettings& settings);
   /// What the sliders gave last; they may have moved on. Of each set of sliders the map comes first.
   const std::shared_ptr<const ClusterResult>& result() const { return result_; }
   /// "21 480 clusters, median 12 px". Contract: there is a result.
@@ -55,7 +55,7 @@ class ClusterPage : public DevicePage {
   bool isReady() const { return prepared_ != nullptr; }
   bool isComputing() const { return computing_.isBusy() || preparing_.isBusy(); }
   /// The venue in full light.
-  std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
+  std::shared_ptr<const transport::Acquisition> acquisition() const { return session_.acquisition(); }
 
  protected:
   void updateCommands() override;
@@ -69,9 +69,9 @@ class ClusterPage : public DevicePage {
   void accept();
 
   Command* accept_;
-  ClusteringSettings settings_;
+  clustering::ClusteringSettings settings_;
   std::string preparedFor_;  // fingerprint of the threshold
-  std::shared_ptr<const Acquisition> source_;
+  std::shared_ptr<const transport::Acquisition> source_;
   std::shared_ptr<const Prepared> prepared_;
   std::shared_ptr<const ClusterResult> result_;
   Latest<std::shared_ptr<const Prepared>> preparing_;
@@ -79,4 +79,4 @@ class ClusterPage : public DevicePage {
   bool looked_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

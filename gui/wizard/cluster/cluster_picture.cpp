@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "clustering/clustering.h"
+#include "relucent/base/error.h"
+#include "relucent/clustering/clustering.h"
 #include "theme/tokens.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QImage clusterPicture(const std::vector<std::uint32_t>& map, const std::vector<std::uint8_t>& tints,
                       const std::vector<std::uint8_t>& borders, const QImage& surface) {
@@ -21,7 +21,7 @@ QImage clusterPicture(const std::vector<std::uint32_t>& map, const std::vector<s
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
     const auto* light = reinterpret_cast<const QRgb*>(under.constScanLine(y));
     for (int x = 0; x < image.width(); ++x, ++at) {
-      if (map[at] == noCluster) {
+      if (map[at] == clustering::noCluster) {
         line[x] = qRgb(qRed(light[x]) / 4, qGreen(light[x]) / 4, qBlue(light[x]) / 4);
         continue;
       }
@@ -55,4 +55,4 @@ QImage clusterOutline(const std::vector<std::uint32_t>& map, Size size, std::uin
   return image;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Clusters over the surface in full light: its brightness, the clusters' tints, borders dark. What is in no
 /// cluster is dimmed.
@@ -18,4 +18,4 @@ QImage clusterPicture(const std::vector<std::uint32_t>& map, const std::vector<s
 /// The outline of one cluster, to lie over the picture.
 QImage clusterOutline(const std::vector<std::uint32_t>& map, Size size, std::uint32_t cluster);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,10 +3,10 @@
 
 #include "wizard/cluster/cluster_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep clusterStep() {
   return stepOf<ClusterPage>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

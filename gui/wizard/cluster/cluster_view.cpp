@@ -13,13 +13,13 @@
 #include "wizard/cluster/cluster_picture.h"
 #include "wizard/devices/device_selector.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
-std::vector<CutHistogram::Bar> barsOf(const std::vector<ClusterSize>& sizes) {
+std::vector<CutHistogram::Bar> barsOf(const std::vector<clustering::ClusterSize>& sizes) {
   std::vector<CutHistogram::Bar> bars;
   for (double from = 1.0; from < 1024.0; from *= 2.0) bars.push_back({from, 2.0 * from, 0.0});
-  for (const ClusterSize& size : sizes) {
+  for (const clustering::ClusterSize& size : sizes) {
     if (size.unknowns == 0) continue;
     // The upper end is the bar's own: what is as large as the cap stands below it.
     double inside = std::max(1.0, static_cast<double>(size.unknowns) - 0.5);
@@ -85,7 +85,7 @@ class ClusterStage : public QWidget {
     const auto& result = model_.result();
     if (!result) return {};
     std::size_t at = indexOf(result->camera, {pixel.x(), pixel.y()});
-    if (result->map[at] == noCluster)
+    if (result->map[at] == clustering::noCluster)
       return ClusterPage::tr("%1, %2: in no cluster").arg(pixel.x()).arg(pixel.y());
     const auto unknowns = static_cast<int>(result->sizes[result->map[at]].unknowns);
     if (!result->exact)
@@ -130,7 +130,7 @@ class ClusterStage : public QWidget {
     }
     error_->setScale(shown_->errorScale, ClusterPage::tr("error"), true);
     error_->setPicture(shown_->errorPicture);
-    error_->setValues(Image(shown_->camera, 1, shown_->error));
+    error_->setValues(image::Image(shown_->camera, 1, shown_->error));
     form_->setEnabled(error_->canRise());
     QString median = percentText(shown_->statistics.errorMedian);
     error_->setAccessibleName(ClusterPage::tr("Error map, median %1").arg(median));
@@ -141,7 +141,7 @@ class ClusterStage : public QWidget {
     QImage line;
     if (shown_ && link_.pick()) {
       std::size_t at = indexOf(shown_->camera, {link_.pick()->x(), link_.pick()->y()});
-      if (at < shown_->map.size() && shown_->map[at] != noCluster)
+      if (at < shown_->map.size() && shown_->map[at] != clustering::noCluster)
         line = clusterOutline(shown_->map, shown_->camera, shown_->map[at]);
     }
     map_->setOverlay(line);
@@ -216,28 +216,28 @@ QWidget* inspectorOf(ClusterPage& model) {
   column->addStretch(1);
 
   auto change = [&model](auto apply) {
-    ClusteringSettings settings = model.settings();
+    clustering::ClusteringSettings settings = model.settings();
     apply(settings);
     model.setSettings(settings);
   };
   QObject::connect(distance->slider, &QSlider::valueChanged, &model, [change](int value) {
-    change([value](ClusteringSettings& s) { s.patchRadius = value; });
+    change([value](clustering::ClusteringSettings& s) { s.patchRadius = value; });
   });
   QObject::connect(share->slider, &QSlider::valueChanged, &model, [change](int value) {
-    change([value](ClusteringSettings& s) { s.patchCut = value / 100.0; });
+    change([value](clustering::ClusteringSettings& s) { s.patchCut = value / 100.0; });
   });
   QObject::connect(largest->slider, &QSlider::valueChanged, &model, [change](int value) {
-    change([value](ClusteringSettings& s) { s.mostUnknowns = 16 * value; });
+    change([value](clustering::ClusteringSettings& s) { s.mostUnknowns = 16 * value; });
   });
   auto refresh = [=, &model] {
-    const ClusteringSettings& settings = model.settings();
+    const clustering::ClusteringSettings& settings = model.settings();
     distance->set(static_cast<int>(settings.patchRadius), ClusterPage::tr("%1 px").arg(settings.patchRadius));
     share->set(static_cast<int>(std::lround(100.0 * settings.patchCut)), percentText(settings.patchCut));
     largest->set(settings.mostUnknowns / 16, ClusterPage::tr("%1 px").arg(settings.mostUnknowns));
     const auto& result = model.result();
     percolated->setVisible(false);
     if (!result) return;
-    const ClusteringStatistics& s = result->statistics;
+    const clustering::ClusteringStatistics& s = result->statistics;
     clusters->setValue(countText(result->sizes.size()));
     cut->setValue(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap)));
     kept->setValue(percentText(s.keptLight));
@@ -264,4 +264,4 @@ PageView viewOf(ClusterPage& model) {
   return {new ClusterStage(model), inspectorOf(model)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,8 +4,8 @@
 #include "wizard/cluster/cluster_page.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(ClusterPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

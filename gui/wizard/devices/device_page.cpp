@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 DevicePage::DevicePage(const StepName& step, Session& session, QObject* parent)
     : PageModel(step, parent), session_(session) {
@@ -22,4 +22,4 @@ void DevicePage::showCamera(std::size_t camera) {
   tellSettings();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,7 +4,7 @@
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A page that shows something of one projector and of one camera: of several, those that are chosen. The
 /// first ones when a calibration is opened.
@@ -35,4 +35,4 @@ class DevicePage : public PageModel {
   std::size_t projector_ = 0, camera_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/devices/device_selector.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 DeviceSelector::DeviceSelector(Kind kind, DevicePage& page, QWidget* parent)
     : QComboBox(parent), kind_(kind), page_(page) {
@@ -31,4 +31,4 @@ QString DeviceSelector::nameOf(std::size_t device) const {
   return (kind_ == Kind::projector ? tr("Projector %1") : tr("Camera %1")).arg(device + 1);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

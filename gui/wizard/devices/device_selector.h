@@ -5,7 +5,7 @@
 
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// "Projector 2": which of several devices a page shows. Hidden where there is only one.
 class DeviceSelector : public QComboBox {
@@ -24,4 +24,4 @@ class DeviceSelector : public QComboBox {
   DevicePage& page_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

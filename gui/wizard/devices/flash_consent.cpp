@@ -7,7 +7,7 @@
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 namespace {
 
@@ -22,7 +22,7 @@ QString rateSentence(std::optional<double> changes) {
 }  // namespace
 
 std::optional<double> measuredChanges(const Session& session) {
-  const auto& measured = session.figures<Stage::linearization>();
+  const auto& measured = session.figures<calibration::Stage::linearization>();
   if (!measured || !measured->cost) return std::nullopt;
   const double patterns = measured->cost->patterns, seconds = measured->cost->seconds;
   return patterns > 0.0 && seconds > 0.0 ? std::optional(patterns / seconds) : std::nullopt;
@@ -65,4 +65,4 @@ QWidget* consentWidget(DevicePage& page) {
   return part;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

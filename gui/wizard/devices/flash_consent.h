@@ -6,7 +6,7 @@
 #include "theme/tick.h"
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class Note;
 
@@ -35,4 +35,4 @@ class FlashConsent : public QWidget {
 /// That of the open venue, for a page whose measurement asks for it.
 QWidget* consentWidget(DevicePage& page);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include "output/screen_identity.h"
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QList<QScreen*> projectorScreens() {
@@ -117,4 +117,4 @@ void IdentifyOverlay::hide() {
   windows_.clear();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

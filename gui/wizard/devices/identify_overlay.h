@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Its number among the screens, from 1 without the operator's, in the order of their places.
 int screenNumber(const QScreen& screen);
@@ -33,4 +33,4 @@ class IdentifyOverlay : public QObject {
   QTimer leaving_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "wizard/frame/page_model.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What stands above a page while its measurement waits for the projector's screen.
 inline Banner missingScreen() {
@@ -15,4 +15,4 @@ inline Banner missingScreen() {
               "MissingScreen", "Every photograph is safe. Plug it in again: measuring goes on by itself.")};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

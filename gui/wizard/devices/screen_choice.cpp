@@ -11,7 +11,7 @@
 #include "views/number_text.h"
 #include "wizard/devices/identify_overlay.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Translated {
@@ -56,19 +56,21 @@ std::vector<ScreenChoice> screenChoicesFor(Size projector) {
   std::vector<ScreenChoice> choices = screenChoices();
   for (ScreenChoice& choice : choices)
     if (choice.refusal.isEmpty() && choice.size != projector)
-      choice.refusal = Translated::tr("The projector was measured with %1 pixels. Set this screen to that size.")
-                           .arg(sizeText(projector.width, projector.height));
+      choice.refusal =
+          Translated::tr("The projector was measured with %1 pixels. Set this screen to that size.")
+              .arg(sizeText(projector.width, projector.height));
   return choices;
 }
 
-ScreenRigSettings withScreen(ScreenRigSettings settings, const ScreenChoice& choice) {
+pipeline::ScreenRigSettings withScreen(pipeline::ScreenRigSettings settings, const ScreenChoice& choice) {
   settings.display = choice.display;
   settings.projector = choice.size;
   settings.frameRate = choice.frameRate;
   return settings;
 }
 
-QString meaningOfMove(const ScreenRigSettings::Display& measured, const ScreenRigSettings::Display& now) {
+QString meaningOfMove(const pipeline::ScreenRigSettings::Display& measured,
+                      const pipeline::ScreenRigSettings::Display& now) {
   const bool alike = measured.manufacturer == now.manufacturer && measured.model == now.model &&
                      measured.serialNumber == now.serialNumber;
   if (!alike)
@@ -82,4 +84,4 @@ QString meaningOfMove(const ScreenRigSettings::Display& measured, const ScreenRi
       .arg(QString::fromStdString(measured.connector), QString::fromStdString(now.connector));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

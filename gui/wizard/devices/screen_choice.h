@@ -4,13 +4,13 @@
 #include <QString>
 #include <vector>
 
-#include "pipeline/rig_settings.h"
+#include "relucent/pipeline/rig_settings.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A screen of the desktop as it is offered for projecting.
 struct ScreenChoice {
-  ScreenRigSettings::Display display;
+  pipeline::ScreenRigSettings::Display display;
   Size size;  // its own pixels
   double frameRate = 60.0;
   QString title;         // "Screen 1", "This computer"
@@ -26,9 +26,10 @@ std::vector<ScreenChoice> screenChoices();
 std::vector<ScreenChoice> screenChoicesFor(Size projector);
 
 /// The settings with that screen in place of theirs.
-ScreenRigSettings withScreen(ScreenRigSettings settings, const ScreenChoice& choice);
+pipeline::ScreenRigSettings withScreen(pipeline::ScreenRigSettings settings, const ScreenChoice& choice);
 /// What it means for a measurement that its projector is now seen as another screen, a sentence; empty: it is
 /// the same one. Screens that tell no serial number are told from each other by their connectors.
-QString meaningOfMove(const ScreenRigSettings::Display& measured, const ScreenRigSettings::Display& now);
+QString meaningOfMove(const pipeline::ScreenRigSettings::Display& measured,
+                      const pipeline::ScreenRigSettings::Display& now);
 
-}  // namespace relucent
+}  // namespace relucent::gui

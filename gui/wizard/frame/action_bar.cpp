@@ -5,7 +5,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(wizard) {
   setRole(this, "bar");
@@ -111,4 +111,4 @@ void ActionBar::refreshSecondary(const std::vector<Command*>& commands) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include "theme/controls.h"
 #include "wizard/frame/wizard.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Back; the time or a reason; secondary actions; the one primary action, named by its verb.
 class ActionBar : public QFrame {
@@ -37,4 +37,4 @@ class ActionBar : public QFrame {
   std::vector<QPointer<Command>> commands_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

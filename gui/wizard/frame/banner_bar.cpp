@@ -3,7 +3,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_(wizard) {
   auto* all = new QVBoxLayout(this);
@@ -47,4 +47,4 @@ void BannerBar::refresh() {
   primary_->setIcon(iconOf(banner->primary->glyph(), colours().onAccent));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include "theme/controls.h"
 #include "wizard/frame/wizard.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The banner of the current page, if it has one.
 class BannerBar : public QWidget {
@@ -25,4 +25,4 @@ class BannerBar : public QWidget {
   QPushButton* primary_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "theme/icons.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Something that the user can do on a page, which owns it. Its icon is one of the theme, so that each place
 /// draws it in the colour that it has there. Where it is not possible, its tool tip says why.
@@ -25,4 +25,4 @@ class Command : public QAction {
   Icon glyph_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

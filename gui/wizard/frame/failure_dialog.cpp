@@ -7,7 +7,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QString headingOf(ErrorKind kind) {
@@ -86,4 +86,4 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
   first->setFocus();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,7 +5,7 @@
 
 #include "wizard/frame/page_model.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What happened, what is safe, what to do. Esc and Close leave everything as it is.
 class FailureDialog : public QDialog {
@@ -15,4 +15,4 @@ class FailureDialog : public QDialog {
   FailureDialog(const FailureReport& report, const QString& page, QWidget* parent = nullptr);
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

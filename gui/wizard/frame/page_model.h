@@ -12,7 +12,7 @@
 #include "wizard/frame/undoable.h"
 #include "wizard/session/step_name.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Where a step stands, as the rail shows it. Whether it can be opened at all follows from the steps before.
 enum class StepState { open, busy, outOfDate, done, failed };
@@ -89,7 +89,7 @@ class PageModel : public QObject {
   void remedyWanted();
   /// The step is done: the next one, please.
   void nextWanted();
-  void failed(const relucent::FailureReport& report);
+  void failed(const gui::FailureReport& report);
 
  protected:
   /// A command of this page; text and all that changes come from updateCommands().
@@ -138,6 +138,6 @@ class PageModel : public QObject {
   QUndoStack undo_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui
 
-Q_DECLARE_METATYPE(relucent::FailureReport)
+Q_DECLARE_METATYPE(relucent::gui::FailureReport)

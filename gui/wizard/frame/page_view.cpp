@@ -6,7 +6,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 bool focusFirst(QWidget* region) {
   for (QWidget* child : region->findChildren<QWidget*>()) {
@@ -45,4 +45,4 @@ QWidget* inspectorCard(QVBoxLayout*& contents) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

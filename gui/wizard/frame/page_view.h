@@ -6,7 +6,7 @@
 
 #include "wizard/frame/page_model.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What a page looks like: the stage, and beside it the inspector with what is decided and what came out.
 /// Thin: it shows what its model knows and passes on what the user does.
@@ -31,4 +31,4 @@ void pointOut(QWidget* widget);
 /// The inspector's card, which scrolls where the window is low. Its contents go into the layout.
 QWidget* inspectorCard(QVBoxLayout*& contents);
 
-}  // namespace relucent
+}  // namespace relucent::gui

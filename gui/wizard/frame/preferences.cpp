@@ -4,7 +4,7 @@
 #include <QStandardPaths>
 #include <algorithm>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr const char* light = "look/light";
@@ -78,4 +78,4 @@ void Preferences::setLanguage(const QString& language) {
   set(languageKey, language);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

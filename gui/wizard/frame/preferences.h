@@ -5,7 +5,7 @@
 #include <QSettings>
 #include <QString>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What the user prefers, whatever is open. Kept by the desktop's settings as soon as it is set.
 class Preferences : public QObject {
@@ -43,4 +43,4 @@ class Preferences : public QObject {
   QSettings& settings_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

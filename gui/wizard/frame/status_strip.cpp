@@ -11,7 +11,7 @@
 #include "theme/theme.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), session_(session) {
   setRole(this, "strip");
@@ -59,7 +59,7 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
 QString StatusStrip::projectorText() const {
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
-  if (const ScreenRigSettings* screen = session_.screenRig()) {
+  if (const pipeline::ScreenRigSettings* screen = session_.screenRig()) {
     kind = QString::fromStdString(screen->display.connector);
     if (findScreen(identityOf(screen->display)) == nullptr) kind = tr("%1, unplugged").arg(kind);
   }
@@ -87,13 +87,13 @@ void StatusStrip::refresh() {
   }
   projector_->setText(projectorText());
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
-  if (const ScreenRigSettings* screen = session_.screenRig())
+  if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
   camera_->setText(session_.areDevicesFree() ? kind : tr("%1, in use").arg(kind));
   const QString folder = QString::fromStdString(session_.path().string());
   disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
   QString latest;
-  for (Stage stage : allValues<Stage>())
+  for (calibration::Stage stage : allValues<calibration::Stage>())
     if (const auto& result = session_.result(stage))
       latest = std::max(latest, QString::fromStdString(result->stored));
   QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
@@ -102,4 +102,4 @@ void StatusStrip::refresh() {
                      : QString());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

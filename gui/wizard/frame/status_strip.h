@@ -7,7 +7,7 @@
 #include "theme/controls.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Projector, camera, disk, the room's light once it is known, and the last saved state.
 class StatusStrip : public QFrame {
@@ -27,4 +27,4 @@ class StatusStrip : public QFrame {
   QTimer often_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

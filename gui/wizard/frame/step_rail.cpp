@@ -9,7 +9,7 @@
 #include "theme/controls.h"
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double nameLeft = 52.0, nameRight = 12.0, lockRoom = 34.0;
@@ -196,4 +196,4 @@ void StepRail::refresh() {
                     wizard_.isLocked(i));
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include "theme/controls.h"
 #include "wizard/frame/wizard.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// One step in the rail: number or shape, name, result.
 class StepButton : public QAbstractButton {
@@ -49,4 +49,4 @@ class StepRail : public QWidget {
   QLayout* footer_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

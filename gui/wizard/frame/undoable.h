@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A value before and after, and how it is set. Changes of one name in quick succession, as a slider makes
 /// them, are one.
@@ -41,4 +41,4 @@ class Undoable : public QUndoCommand {
   Clock::time_point last_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

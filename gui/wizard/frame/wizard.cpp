@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/frame/wizard.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 Wizard::Wizard(Session& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&session_, &Session::opened, this, [this] {
@@ -55,4 +55,4 @@ std::size_t Wizard::standing() const {
   return last;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

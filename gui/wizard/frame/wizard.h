@@ -7,7 +7,7 @@
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The steps in order, which of them is looked at, and which can be. Knows no page but by its contract.
 class Wizard : public QObject {
@@ -47,4 +47,4 @@ class Wizard : public QObject {
   std::size_t current_ = 0;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

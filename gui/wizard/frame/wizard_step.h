@@ -10,7 +10,7 @@
 #include "wizard/frame/preferences.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What a page is made with. All of it outlives the page.
 struct PageContext {
@@ -42,4 +42,4 @@ WizardStep stepOf() {
   return stepOf<Page>([](const PageContext& context) { return std::make_unique<Page>(context.session); });
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

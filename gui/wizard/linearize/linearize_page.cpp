@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "base/message.h"
-#include "calibration/results.h"
 #include "jobs/time_left.h"
-#include "pipeline/measuring.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/base/message.h"
+#include "relucent/calibration/results.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "views/number_text.h"
 #include "wizard/devices/missing_screen.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(stepName, session, parent) {
   next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
@@ -43,11 +43,11 @@ LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(ste
 
 /// Takes what the folder holds, once for every result.
 void LinearizePage::look() {
-  const auto& stored = session_.result(Stage::linearization);
+  const auto& stored = session_.result(calibration::Stage::linearization);
   if (!stored || stored->stored + stored->inputs == shown_) return;
   shown_ = stored->stored + stored->inputs;
   try {
-    result_ = loadLinearization(*stored);
+    result_ = calibration::loadLinearization(*stored);
   } catch (...) {
     result_.reset();
     Q_EMIT failed(
@@ -57,16 +57,16 @@ void LinearizePage::look() {
 
 StepStatus LinearizePage::status() const {
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
-  switch (session_.progress(Stage::linearization)) {
-    case StageProgress::done:
+  switch (session_.progress(calibration::Stage::linearization)) {
+    case calibration::StageProgress::done:
       if (result_ && !result_->additivityError.empty())
         return {StepState::done, tr("%1 additivity error")
                                      .arg(percentText(*std::max_element(result_->additivityError.begin(),
                                                                         result_->additivityError.end())))};
       return {StepState::done, tr("Measured")};
-    case StageProgress::stale:
+    case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StageProgress::open:
+    case calibration::StageProgress::open:
       break;
   }
   if (job_.state() == Job::State::failed) return {StepState::failed, tr("Stopped by a failure")};
@@ -76,7 +76,7 @@ StepStatus LinearizePage::status() const {
 QString LinearizePage::hint() const {
   if (isMeasuring()) return job_.stage();
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
-  if (session_.progress(Stage::linearization) == StageProgress::done) {
+  if (session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done) {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
     if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
   }
@@ -95,13 +95,13 @@ void LinearizePage::updateCommands() {
 }
 
 Command* LinearizePage::primary() const {
-  const bool done = session_.progress(Stage::linearization) == StageProgress::done;
+  const bool done = session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done;
   return done && !isMeasuring() ? next_ : measure_;
 }
 
 std::vector<Command*> LinearizePage::secondary() const {
   if (isMeasuring()) return {stop_};
-  if (session_.progress(Stage::linearization) != StageProgress::done) return {};
+  if (session_.progress(calibration::Stage::linearization) != calibration::StageProgress::done) return {};
   return {again_};
 }
 
@@ -111,18 +111,20 @@ std::optional<double> LinearizePage::progress() const {
 
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
-  if (isMeasuring() || session_.progress(Stage::linearization) != StageProgress::stale) return std::nullopt;
+  if (isMeasuring() ||
+      session_.progress(calibration::Stage::linearization) != calibration::StageProgress::stale)
+    return std::nullopt;
   return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),
                 tr("They still work and stay until the new ones are measured."), renew_};
 }
 
 std::optional<double> LinearizePage::seconds() const {
-  const auto& measured = session_.figures<Stage::linearization>();
+  const auto& measured = session_.figures<calibration::Stage::linearization>();
   if (!measured || !measured->cost) return std::nullopt;
   return measured->cost->seconds;
 }
 
-const ProjectorResponse* LinearizePage::response() const {
+const linearization::ProjectorResponse* LinearizePage::response() const {
   return result_ && projector() < result_->projectors.size() ? &result_->projectors[projector()] : nullptr;
 }
 
@@ -140,7 +142,7 @@ void LinearizePage::setLevels(int levels) {
 
 void LinearizePage::keepLevels(int levels) {
   if (isMeasuring()) return;
-  CalibrateSettings settings = session_.settings();
+  pipeline::CalibrateSettings settings = session_.settings();
   settings.linearization.levels = levels;
   try {
     session_.changeSettings(settings);
@@ -155,17 +157,18 @@ void LinearizePage::measure(bool again) {
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again](Progress& progress) {
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
-    Rig& rig = work.devices->open(opening);
-    CalibrationFolder folder = CalibrationFolder::open(work.path, CalibrationFolder::Access::write);
+    rig::Rig& rig = work.devices->open(opening);
+    calibration::CalibrationFolder folder =
+        calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
     if (again) {
-      CalibrateSettings settings = settingsOf(folder);
+      pipeline::CalibrateSettings settings = pipeline::settingsOf(folder);
       ++settings.linearization.seed;
-      setShotsAside(folder, Stage::linearization);
+      pipeline::setShotsAside(folder, calibration::Stage::linearization);
       changeSettings(folder, settings);
     }
     Progress measuring =
         progress.part(0.8, RELUCENT_MESSAGE("stage.measuring-response", "Measuring the response"));
-    measureLinearization(folder, rig, measuring);
+    pipeline::measureLinearization(folder, rig, measuring);
   });
   tellResult();
 }
@@ -186,4 +189,4 @@ void LinearizePage::ended() {
   tellResult();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

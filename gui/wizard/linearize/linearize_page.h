@@ -4,15 +4,15 @@
 #include "jobs/job.h"
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Step 3: the light of every level of the projector, measured and fitted.
 class LinearizePage : public DevicePage {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"linearize", "relucent::LinearizePage",
-                                     QT_TRANSLATE_NOOP("relucent::LinearizePage", "Linearize")};
+  static constexpr StepName stepName{"linearize", "relucent::gui::LinearizePage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Linearize")};
 
   using Ramps = std::array<std::map<double, double>, 3>;
 
@@ -33,9 +33,9 @@ class LinearizePage : public DevicePage {
 
   bool isMeasuring() const { return job_.isRunning(); }
   /// What has been measured, perhaps with other settings; none before.
-  const std::optional<Linearization>& result() const { return result_; }
+  const std::optional<linearization::Linearization>& result() const { return result_; }
   /// The shown projector's response; nullptr: not measured yet.
-  const ProjectorResponse* response() const;
+  const linearization::ProjectorResponse* response() const;
   /// Points of its ramps while they are measured, drive -> share of full light.
   Ramps ramps() const { return session_.live().ramps(projector()); }
   LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
@@ -59,8 +59,8 @@ class LinearizePage : public DevicePage {
   Command *next_, *measure_, *stop_, *again_, *renew_, *retry_;
   DeviceLease lease_;
   Job job_;
-  std::optional<Linearization> result_;
+  std::optional<linearization::Linearization> result_;
   std::string shown_;  // when the result was stored that is in result_
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,10 +3,10 @@
 
 #include "wizard/linearize/linearize_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep linearizeStep() {
   return stepOf<LinearizePage>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

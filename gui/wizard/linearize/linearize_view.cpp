@@ -4,7 +4,7 @@
 #include <QComboBox>
 #include <QStackedWidget>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 #include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -14,7 +14,7 @@
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 const QColor& redOf() {
@@ -33,16 +33,16 @@ struct Channel {
   Marker marker;
 };
 constexpr std::array<Channel, 3> channels{
-    {{QT_TRANSLATE_NOOP("relucent::LinearizePage", "Red"), redOf, Marker::circle},
-     {QT_TRANSLATE_NOOP("relucent::LinearizePage", "Green"), greenOf, Marker::square},
-     {QT_TRANSLATE_NOOP("relucent::LinearizePage", "Blue"), blueOf, Marker::triangle}}};
+    {{QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Red"), redOf, Marker::circle},
+     {QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Green"), greenOf, Marker::square},
+     {QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Blue"), blueOf, Marker::triangle}}};
 constexpr double codes = 255.0, percent = 100.0;
 
-std::vector<Curve> fitted(const ProjectorResponse& response) {
+std::vector<Curve> fitted(const linearization::ProjectorResponse& response) {
   std::vector<Curve> curves;
   for (std::size_t c = 0; c < 3; ++c) {
     Curve curve{LinearizePage::tr(channels[c].name), channels[c].colour, channels[c].marker, {}, {}};
-    const ResponseCurve& fit = response.channels[c];
+    const hdr::ResponseCurve& fit = response.channels[c];
     for (int i = 0; i <= 256; ++i) curve.line.emplace_back(codes * i / 256.0, percent * fit(i / 256.0));
     for (std::size_t i = 0; i < fit.x().size(); ++i)
       curve.points.emplace_back(codes * fit.x()[i], percent * fit.y()[i]);
@@ -113,7 +113,7 @@ QWidget* stageOf(LinearizePage& model) {
     if (model.isMeasuring()) {
       chart->setCurves(measured(model.ramps()));
       response->setSubtitle(LinearizePage::tr("as it is measured, in random order"));
-    } else if (const ProjectorResponse* known = model.response()) {
+    } else if (const linearization::ProjectorResponse* known = model.response()) {
       chart->setCurves(fitted(*known));
       response->setSubtitle(
           LinearizePage::tr("%n level(s) a colour, random order, drift removed", nullptr, model.levels()));
@@ -172,7 +172,7 @@ QWidget* inspectorOf(LinearizePage& model) {
       exposures->setValue(QString::fromUtf8("–"));
       return;
     }
-    const Linearization& result = *model.result();
+    const linearization::Linearization& result = *model.result();
     double worst = result.additivityError.empty()
                        ? 0.0
                        : *std::max_element(result.additivityError.begin(), result.additivityError.end());
@@ -211,4 +211,4 @@ PageView viewOf(LinearizePage& model) {
   return {stageOf(model), inspectorOf(model)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

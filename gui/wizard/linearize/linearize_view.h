@@ -4,8 +4,8 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/linearize/linearize_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(LinearizePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -14,7 +14,7 @@
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// The projector's screen, filled again when one is plugged in or out.
@@ -43,7 +43,7 @@ QComboBox* screenBox(OutputPage& page) {
   return box;
 }
 
-QString errorLine(const QString& what, const ProvedProjection& projection) {
+QString errorLine(const QString& what, const pipeline::ProvedProjection& projection) {
   return OutputPage::tr("%1: measured ΔE %2, predicted %3")
       .arg(what, decimalText(projection.measured.deltaE, 1), decimalText(projection.predicted.deltaE, 1));
 }
@@ -52,7 +52,7 @@ void showProof(Remark& remark, const Proof* proof) {
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
-  const ProveResult& figures = proof->figures;
+  const pipeline::ProveResult& figures = proof->figures;
   QString meaning = errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
                     errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
                     OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
@@ -62,7 +62,7 @@ void showProof(Remark& remark, const Proof* proof) {
     remark.show(Remark::Kind::warning, OutputPage::tr("The camera or projector may have moved."), meaning);
 }
 
-void showDrift(Remark& remark, const std::optional<VerifyResult>& drift) {
+void showDrift(Remark& remark, const std::optional<pipeline::VerifyResult>& drift) {
   remark.setVisible(drift.has_value());
   if (!drift) return;
   QString meaning =
@@ -70,13 +70,13 @@ void showDrift(Remark& remark, const std::optional<VerifyResult>& drift) {
           .arg(percentText(drift->found.error), percentText(drift->errorThen),
                percentText(drift->found.changedShare));
   switch (drift->judgement.verdict) {
-    case Verdict::stillGood:
+    case acquisition::Verdict::stillGood:
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
-    case Verdict::remeasure:
+    case acquisition::Verdict::remeasure:
       return remark.show(Remark::Kind::warning,
                          OutputPage::tr("Something has changed. Measure the light transport again."),
                          meaning);
-    case Verdict::startAgain:
+    case acquisition::Verdict::startAgain:
       return remark.show(Remark::Kind::failed,
                          OutputPage::tr("Hardly anything fits. Aim, focus and measure everything again."),
                          meaning);
@@ -203,4 +203,4 @@ QWidget* outputInspector(OutputPage& page) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,11 +3,11 @@
 
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 class OutputPage;
 
 /// Beside the output's pictures: the screen, what plays, what was proved, and how the venue is handed over.
 QWidget* outputInspector(OutputPage& page);
 
-}  // namespace relucent
+}  // namespace relucent::gui

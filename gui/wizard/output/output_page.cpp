@@ -8,12 +8,12 @@
 #include <QStandardPaths>
 #include <QUrl>
 
-#include "base/error.h"
-#include "output/installation.h"
 #include "output/default_picture.h"
+#include "output/installation.h"
+#include "relucent/base/error.h"
 #include "wizard/session/method_name.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 OutputPage::OutputPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
@@ -170,8 +170,8 @@ void OutputPage::setFade(double seconds) {
 }
 
 QString OutputPage::stillMethod() const {
-  const Method method = session_.settings().content.method;
-  return method == Method::refined ? QString() : methodName(method);
+  const compensation::Method method = session_.settings().content.method;
+  return method == compensation::Method::refined ? QString() : methodName(method);
 }
 
 void OutputPage::open() {
@@ -229,14 +229,14 @@ void OutputPage::setConfigFolder(const QString& folder) {
 
 void OutputPage::detectInstalledShow() {
   const QString venue = QString::fromStdString(session_.path().string());
-  installed_ = session_.isOpen() && (relucent::isInstalled(Start::service, config_, venue) ||
-                                     relucent::isInstalled(Start::autostart, config_, venue));
+  installed_ = session_.isOpen() && (gui::isInstalled(Start::service, config_, venue) ||
+                                     gui::isInstalled(Start::autostart, config_, venue));
   tellResult();
 }
 
 QStringList OutputPage::showArguments() const {
-  Canvas canvas =
-      isOpen() ? projection_.canvas() : OutputProjection::canvasFor(playlist_.settings(), Fit::fit);
+  Canvas canvas = isOpen() ? projection_.canvas()
+                           : OutputProjection::canvasFor(playlist_.settings(), compensation::Fit::fit);
   QStringList arguments{"show",      QString::fromStdString(session_.path().string()),
                         "--content", playlist_.file(),
                         "--canvas",  QString("%1x%2").arg(canvas.size.width()).arg(canvas.size.height()),
@@ -256,8 +256,8 @@ void OutputPage::install() {
     playlist_.save();
     if (starts_)
       // Where systemd does not run the session, the desktop starts it.
-      relucent::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
-                        QCoreApplication::applicationFilePath(), showArguments());
+      gui::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
+                   QCoreApplication::applicationFilePath(), showArguments());
     else
       for (Start start : {Start::service, Start::autostart}) uninstall(start, config_);
   } catch (...) {
@@ -270,4 +270,4 @@ void OutputPage::tell(const Failure& failure) {
   Q_EMIT failed({failure, tr("The calibration is as it was.")});
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

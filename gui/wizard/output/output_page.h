@@ -6,7 +6,7 @@
 #include "wizard/devices/device_page.h"
 #include "wizard/output/output_proof.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A screen that the output can shine on.
 struct OutputScreen {
@@ -20,8 +20,8 @@ class OutputPage : public DevicePage {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"output", "relucent::OutputPage",
-                                     QT_TRANSLATE_NOOP("relucent::OutputPage", "Output")};
+  static constexpr StepName stepName{"output", "relucent::gui::OutputPage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::OutputPage", "Output")};
 
   explicit OutputPage(Session& session, QObject* parent = nullptr);
   ~OutputPage() override;
@@ -132,4 +132,4 @@ class OutputPage : public DevicePage {
   bool starts_ = true;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -9,7 +9,7 @@
 #include "wizard/devices/screen_choice.h"
 #include "wizard/output/output_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 void OutputPage::listScreens() {
   std::vector<std::optional<ScreenIdentity>> before;
@@ -34,7 +34,7 @@ void OutputPage::listScreens() {
 /// The one that was measured, and no other in its place; where none was, one that nobody works at and no
 /// projector has.
 std::optional<std::size_t> OutputPage::usualScreen() const {
-  if (const ScreenRigSettings* measured = session_.screenRig()) {
+  if (const pipeline::ScreenRigSettings* measured = session_.screenRig()) {
     QList<ScreenIdentity> present;
     for (const OutputScreen& screen : screens_) present << screen.identity;
     return findScreen(identityOf(measured->display), present);
@@ -69,7 +69,7 @@ bool OutputPage::coversOperator() const {
 
 /// The calibration was given another screen, here or at Venue.
 void OutputPage::followScreen() {
-  const ScreenRigSettings* screen = session_.screenRig();
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
   const ScreenIdentity now = screen != nullptr ? identityOf(screen->display) : ScreenIdentity();
   if (std::exchange(screenBefore_, now) == now || screen == nullptr) return;
   if (chosen() && screens_[*chosen()].identity == now) return;
@@ -79,7 +79,7 @@ void OutputPage::followScreen() {
 }
 
 void OutputPage::keepScreen() {
-  const ScreenRigSettings* before = session_.screenRig();
+  const pipeline::ScreenRigSettings* before = session_.screenRig();
   if (before == nullptr || !session_.areDevicesFree()) return;
   for (const ScreenChoice& choice : screenChoicesFor(before->projector)) {
     if (!choice.refusal.isEmpty() || identityOf(choice.display) != screens_[*chosen()].identity) continue;
@@ -94,12 +94,12 @@ void OutputPage::keepScreen() {
 }
 
 QString OutputPage::meaningOfScreen() const {
-  const ScreenRigSettings* now = session_.screenRig();
+  const pipeline::ScreenRigSettings* now = session_.screenRig();
   return now != nullptr ? meaningOfMove(session_.measuredDisplay(), now->display) : QString();
 }
 
 QString OutputPage::screenHint(std::size_t projector) const {
-  if (const ScreenRigSettings* measured = session_.screenRig(); measured != nullptr)
+  if (const pipeline::ScreenRigSettings* measured = session_.screenRig(); measured != nullptr)
     return tr("The projector's screen %1 is not there. Plug it in, or choose another.")
         .arg(QString::fromStdString(measured->display.connector));
   if (projectors() > 1) {
@@ -112,4 +112,4 @@ QString OutputPage::screenHint(std::size_t projector) const {
       "There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.");
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,14 +4,14 @@
 #include <QFile>
 #include <QStandardPaths>
 
-#include "base/error.h"
-#include "base/file.h"
 #include "handover/report_pdf.h"
-#include "image/exr.h"
-#include "pipeline/report.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/image/exr.h"
+#include "relucent/pipeline/report.h"
 #include "wizard/output/proof_file.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,15 +39,15 @@ std::vector<fs::path> showLogs() {
 
 /// When the light transport was measured.
 std::string measurementOf(const Session& session) {
-  const auto& stored = session.result(Stage::acquisition);
+  const auto& stored = session.result(calibration::Stage::acquisition);
   return stored ? stored->stored : std::string();
 }
 
-std::shared_ptr<Proof> proofOf(ProveResult figures, const fs::path& folder) {
+std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& folder) {
   auto proof = std::make_shared<Proof>();
   proof->wanted = read(folder / "target.png");
   proof->photograph = read(folder / "after.png");
-  proof->deltaE = readExr(folder / "after_delta_e.exr").pixels;
+  proof->deltaE = image::readExr(folder / "after_delta_e.exr").pixels;
   proof->taken = QDateTime::currentDateTime();
   proof->figures = std::move(figures);
   return proof;
@@ -57,7 +57,7 @@ std::shared_ptr<Proof> proofOf(ProveResult figures, const fs::path& folder) {
 
 struct OutputProof::Found {
   std::shared_ptr<const Proof> proof;
-  std::optional<VerifyResult> drift;
+  std::optional<pipeline::VerifyResult> drift;
   QString report;
 };
 
@@ -105,16 +105,16 @@ void OutputProof::photograph(const QString& picture) {
   start(Work::photograph, [found = found_, work = workOf(session_), picture,
                            content = session_.settings().content,
                            measured = measurementOf(session_)](Progress& progress) {
-    ProveSettings settings;
+    pipeline::ProveSettings settings;
     settings.out = proofFolder(work.path);
     settings.image = fileOf(picture, settings.out);
     settings.method = content.method;
     settings.target = targetOf(content);
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
-    Rig& rig = work.devices->open(opening);
+    rig::Rig& rig = work.devices->open(opening);
     Progress proving = progress.part(
         0.8, RELUCENT_MESSAGE("stage.taking-verification-photograph", "Taking the verification photograph"));
-    auto proof = proofOf(proveCalibration(work.path, settings, rig, proving), settings.out);
+    auto proof = proofOf(pipeline::proveCalibration(work.path, settings, rig, proving), settings.out);
     proof->content = content;
     proof->measured = measured;
     saveProof(*proof, settings.out);
@@ -127,9 +127,9 @@ void OutputProof::checkDrift() {
   found_ = std::make_shared<Found>();
   start(Work::drift, [found = found_, work = workOf(session_)](Progress& progress) {
     Progress opening = progress.part(0.3, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
-    Rig& rig = work.devices->open(opening);
+    rig::Rig& rig = work.devices->open(opening);
     Progress verifying = progress.part(0.7, RELUCENT_MESSAGE("stage.checking-drift", "Checking for drift"));
-    found->drift = verifyCalibration(work.path, {}, rig, verifying);
+    found->drift = pipeline::verifyCalibration(work.path, {}, rig, verifying);
     found->drift->found.residual.clear();  // large, and not shown
   });
 }
@@ -139,14 +139,14 @@ void OutputProof::report(const QString& picture) {
   found_ = std::make_shared<Found>();
   start(Work::report, [found = found_, path = session_.path(), cache = session_.cache(), picture,
                        logs = showLogs()](Progress& progress) {
-    ReportSettings settings;
+    pipeline::ReportSettings settings;
     settings.out = path / "report.html";
     settings.images = {fileOf(picture, proofFolder(path))};
     settings.bundle = path / "support.zip";
     settings.attachments = logs;
     settings.evaluate = false;  // what was measured, not what a simulation knows
     Progress writing = progress.part(1.0, RELUCENT_MESSAGE("stage.writing-report", "Writing the report"));
-    WrittenFiles written = relucent::report(path, settings, cache, writing);
+    pipeline::WrittenFiles written = relucent::pipeline::report(path, settings, cache, writing);
     found->report = QString::fromStdString(written.files.front().string());
     writeReportPdf(QString::fromStdString(readFile(settings.out)),
                    QString::fromStdString((path / "report.pdf").string()));
@@ -165,4 +165,4 @@ void OutputProof::finished() {
   if (job_.state() == Job::State::failed) Q_EMIT failed(job_.failure());
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,20 +6,20 @@
 #include <functional>
 
 #include "jobs/job.h"
-#include "pipeline/prove.h"
-#include "pipeline/verify.h"
+#include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/verify.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What a verification photograph came to.
 struct Proof {
-  ProveResult figures;
+  pipeline::ProveResult figures;
   QImage wanted, photograph;  // as somebody sees them who is used to the content's white
-  Image deltaE;               // CIEDE2000 of every pixel; NaN outside the content
+  image::Image deltaE;        // CIEDE2000 of every pixel; NaN outside the content
   QDateTime taken;
   /// What it was taken of: with other content or another measurement it proves nothing.
-  ContentSettings content;
+  pipeline::ContentSettings content;
   std::string measured;
 
   /// Within twice of what was predicted: nothing has moved.
@@ -47,7 +47,7 @@ class OutputProof : public QObject {
   bool mayFlash() const { return session_.mayMeasure(); }
 
   const std::shared_ptr<const Proof>& proof() const { return proof_; }
-  const std::optional<VerifyResult>& drift() const { return drift_; }
+  const std::optional<pipeline::VerifyResult>& drift() const { return drift_; }
 
   /// `picture`: a file or resource.
   void photograph(const QString& picture);
@@ -62,8 +62,8 @@ class OutputProof : public QObject {
   void changed();
   void progressed();
   /// In any way, before failed() or reported().
-  void ended(relucent::OutputProof::Work work);
-  void failed(const relucent::Failure& failure);
+  void ended(gui::OutputProof::Work work);
+  void failed(const gui::Failure& failure);
   void reported(const QString& file);
 
  private:
@@ -79,9 +79,9 @@ class OutputProof : public QObject {
   Job job_;
   Work work_ = Work::none;
   std::shared_ptr<const Proof> proof_;
-  std::optional<VerifyResult> drift_;
+  std::optional<pipeline::VerifyResult> drift_;
   struct Found;
   std::shared_ptr<Found> found_;  // by the job
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

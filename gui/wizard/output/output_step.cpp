@@ -3,10 +3,10 @@
 
 #include "wizard/output/output_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep outputStep() {
   return stepOf<OutputPage>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -22,7 +22,7 @@
 #include "wizard/output/output_inspector.h"
 #include "wizard/output/playlist_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double worstDeltaE = 12.0;  // of the map
@@ -261,4 +261,4 @@ PageView viewOf(OutputPage& page) {
   return {new OutputStage(page), outputInspector(page)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,8 +4,8 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(OutputPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

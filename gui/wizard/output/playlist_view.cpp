@@ -10,7 +10,7 @@
 #include <QUrl>
 #include <cmath>
 
-#include "base/message.h"
+#include "relucent/base/message.h"
 #include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -18,7 +18,7 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QStringList draggedFiles(const QMimeData& data) {
   QStringList files;
@@ -181,4 +181,4 @@ QWidget* playlistPart(OutputPage& page) {
   return part;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

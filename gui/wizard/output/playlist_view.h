@@ -3,7 +3,7 @@
 
 #include <QListWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 class OutputPage;
 
@@ -34,4 +34,4 @@ QStringList draggedFiles(const QMimeData& data);
 /// The list with its buttons, repeat and cross-fade.
 QWidget* playlistPart(OutputPage& page);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output/proof_file.h"
 
-#include "image/exr.h"
-#include "pipeline/proof_record.h"
+#include "relucent/image/exr.h"
+#include "relucent/pipeline/proof_record.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,14 +20,14 @@ fs::path proofFolder(const fs::path& calibration) {
 }
 
 void saveProof(const Proof& proof, const fs::path& folder) {
-  saveProofRecord(
+  pipeline::saveProofRecord(
       {proof.taken.toUTC().toString(Qt::ISODate).toStdString(), proof.measured, proof.content, proof.figures},
       folder);
 }
 
 std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
   try {
-    const std::optional<ProofRecord> record = loadProofRecord(folder);
+    const std::optional<pipeline::ProofRecord> record = pipeline::loadProofRecord(folder);
     if (!record) return nullptr;
     auto proof = std::make_shared<Proof>();
     proof->taken = QDateTime::fromString(QString::fromStdString(record->taken), Qt::ISODate).toLocalTime();
@@ -36,7 +36,7 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
     proof->figures = record->figures;
     proof->wanted = read(folder / "target.png");
     proof->photograph = read(folder / "after.png");
-    proof->deltaE = readExr(folder / "after_delta_e.exr").pixels;
+    proof->deltaE = image::readExr(folder / "after_delta_e.exr").pixels;
     const QSize size(proof->deltaE.size().width, proof->deltaE.size().height);
     return proof->wanted.size() == size && proof->photograph.size() == size ? proof : nullptr;
   } catch (const std::exception&) {
@@ -44,4 +44,4 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

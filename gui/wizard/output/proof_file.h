@@ -6,7 +6,7 @@
 
 #include "wizard/output/output_proof.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The folder of a calibration's verification photograph.
 std::filesystem::path proofFolder(const std::filesystem::path& calibration);
@@ -17,4 +17,4 @@ void saveProof(const Proof& proof, const std::filesystem::path& folder);
 /// The verification photograph that lies in the folder; nullptr where there is none that can be read.
 std::shared_ptr<const Proof> loadProof(const std::filesystem::path& folder);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,14 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "compensation/methods.h"
-#include "pipeline/measured_venue.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/pipeline/measured_venue.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// What one method is predicted to do with the content.
 struct MethodPreview {
-  Method method = Method::none;
+  compensation::Method method = compensation::Method::none;
   double psnr = 0.0;  // dB over the reachable pixels
   double ssim = 0.0;  // over the content
   double deltaE = 0.0;
@@ -20,31 +20,32 @@ struct MethodPreview {
 
 /// Pictures of the first camera, linear, and the white they are looked at with.
 struct ContentPreview {
-  Image without, with;       // predicted: nothing corrected, and by the chosen method
-  Image deltaE;              // CIEDE2000; NaN outside the content
-  std::vector<float> reach;  // brightest possible, as a share of the content's white
+  image::Image without, with;  // predicted: nothing corrected, and by the chosen method
+  image::Image deltaE;         // CIEDE2000; NaN outside the content
+  std::vector<float> reach;    // brightest possible, as a share of the content's white
   std::vector<std::uint8_t> reachable, inside;
   float white = 1.0f;
-  Corners corners{};
+  compensation::Corners corners{};
   double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;
-  double tooDark = 0.0, tooBright = 0.0;  // shares of the content
-  double unlit = 0.0;                     // of these, what no projector lights
-  std::shared_ptr<const Image> content;   // what was placed
-  std::string picture;                    // where it came from
+  double tooDark = 0.0, tooBright = 0.0;        // shares of the content
+  double unlit = 0.0;                           // of these, what no projector lights
+  std::shared_ptr<const image::Image> content;  // what was placed
+  std::string picture;                          // where it came from
 };
 
 /// Everything that predicting needs, made once for a threshold.
 struct PreviewEngine {
-  MeasuredCalibration measured;
-  std::optional<Compensator> compensator;
+  pipeline::MeasuredCalibration measured;
+  std::optional<compensation::Compensator> compensator;
 };
 
 /// The content in its place, by the settings' method and uncorrected. Takes as long as the method.
 /// `known`: the settings' picture, where it was read already.  Throws: as fitTarget().
-std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine, const ContentSettings& settings,
-                                                std::shared_ptr<const Image> known);
+std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
+                                                const pipeline::ContentSettings& settings,
+                                                std::shared_ptr<const image::Image> known);
 /// The same content by another method, timed.
-MethodPreview methodPreviewOf(const PreviewEngine& engine, const ContentSettings& settings,
-                              const Image& content, Method method);
+MethodPreview methodPreviewOf(const PreviewEngine& engine, const pipeline::ContentSettings& settings,
+                              const image::Image& content, compensation::Method method);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -10,7 +10,7 @@
 #include "theme/theme.h"
 #include "views/view_tag.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double handleRadius = 7.0, activeRadius = 11.0, grip = 14.0, dividerStep = 0.1;
@@ -21,7 +21,7 @@ constexpr int corners = 4;
 
 CornerView::CornerView(QWidget* parent) : ImageView(parent) {}
 
-void CornerView::setCorners(const std::optional<Corners>& wanted) {
+void CornerView::setCorners(const std::optional<compensation::Corners>& wanted) {
   if (wanted == corners_) return;
   corners_ = wanted;
   if (active_ >= 0) activate(corners_ ? active_ : -1);
@@ -80,8 +80,8 @@ int CornerView::handleAt(QPointF place) const {
   return -1;
 }
 
-Corners CornerView::with(int corner, QPointF place) const {
-  Corners changed = *corners_;
+compensation::Corners CornerView::with(int corner, QPointF place) const {
+  compensation::Corners changed = *corners_;
   changed[static_cast<std::size_t>(corner)] = {
       std::clamp(place.x(), 0.0, static_cast<double>(picture().width())),
       std::clamp(place.y(), 0.0, static_cast<double>(picture().height()))};
@@ -169,7 +169,7 @@ void CornerView::paintEvent(QPaintEvent* event) {
   if (!corners_ || picture().isNull()) return;
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const Colours& dark = relucent::colours(Look::dark);
+  const Colours& dark = gui::colours(Look::dark);
   const QColor& colour = wrong_ ? dark.amber : dark.accent;
   QPolygonF outline;
   for (int corner = 0; corner < corners; ++corner) outline.append(handle(corner));
@@ -188,4 +188,4 @@ void CornerView::paintEvent(QPaintEvent* event) {
   if (active_ >= 0) drawTag(painter, cornerTag().topLeft(), cornerText(active_), dark.text);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

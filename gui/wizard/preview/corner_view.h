@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compensation/placement.h"
+#include "relucent/compensation/placement.h"
 #include "views/image_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A picture with a quadrilateral in it whose corners are dragged, or chosen by Tab and moved by the arrow
 /// keys: one pixel, with Shift ten. D moves the divider, Shift+D back. Whoever owns the corners decides what
@@ -16,7 +16,7 @@ class CornerView : public ImageView {
   explicit CornerView(QWidget* parent = nullptr);
 
   /// Pixels of the picture; none: there is nothing to move.
-  void setCorners(const std::optional<Corners>& corners);
+  void setCorners(const std::optional<compensation::Corners>& corners);
   /// Drawn as what cannot be.
   void setWrong(bool wrong);
   /// The corner that the arrow keys move, clockwise from top left; -1: none.
@@ -30,7 +30,7 @@ class CornerView : public ImageView {
 
  Q_SIGNALS:
   /// The user wants them there: within the picture, perhaps crossed.
-  void moved(const relucent::Corners& corners);
+  void moved(const relucent::compensation::Corners& corners);
   /// The user let go.
   void released();
 
@@ -49,10 +49,10 @@ class CornerView : public ImageView {
   QPointF handle(int corner) const;
   int handleAt(QPointF place) const;
   void activate(int corner);
-  Corners with(int corner, QPointF place) const;
-  std::optional<Corners> corners_, dragged_;
+  compensation::Corners with(int corner, QPointF place) const;
+  std::optional<compensation::Corners> corners_, dragged_;
   bool wrong_ = false;
   int active_ = -1, held_ = -1;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -11,7 +11,7 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QWidget* previewInspector(PreviewPage& page) {
   QVBoxLayout* column = nullptr;
@@ -71,24 +71,25 @@ QWidget* previewInspector(PreviewPage& page) {
   });
   QObject::connect(automatic, &QPushButton::clicked, &page, &PreviewPage::placeAutomatically);
   auto apply = [&page](const QString& what, auto edit) {
-    ContentSettings settings = page.settings();
+    pipeline::ContentSettings settings = page.settings();
     edit(settings);
     page.setSettings(settings, what);
   };
-  static constexpr std::array fits{Fit::fit, Fit::cover, Fit::fill};
+  static constexpr std::array fits{compensation::Fit::fit, compensation::Fit::cover, compensation::Fit::fill};
   QObject::connect(fit, &Segmented::chosen, &page, [apply](int index) {
     apply(PreviewPage::tr("Fit"),
-          [index](ContentSettings& s) { s.fit = fits[static_cast<std::size_t>(index)]; });
+          [index](pipeline::ContentSettings& s) { s.fit = fits[static_cast<std::size_t>(index)]; });
   });
   QObject::connect(brightness, &QSlider::valueChanged, &page, [apply](int value) {
-    apply(PreviewPage::tr("Brightness"), [value](ContentSettings& s) { s.reachablePercentile = value; });
+    apply(PreviewPage::tr("Brightness"),
+          [value](pipeline::ContentSettings& s) { s.reachablePercentile = value; });
   });
   QObject::connect(lift, &QSlider::valueChanged, &page, [apply](int value) {
     apply(PreviewPage::tr("Lift of the blacks"),
-          [value](ContentSettings& s) { s.blackLift = value / 100.0; });
+          [value](pipeline::ContentSettings& s) { s.blackLift = value / 100.0; });
   });
   auto refresh = [=, &page] {
-    const ContentSettings& settings = page.settings();
+    const pipeline::ContentSettings& settings = page.settings();
     name->setText(page.pictureName());
     fit->setCurrent(static_cast<int>(std::find(fits.begin(), fits.end(), settings.fit) - fits.begin()));
     QSignalBlocker quietBrightness(brightness), quietLift(lift);
@@ -118,4 +119,4 @@ QWidget* previewInspector(PreviewPage& page) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

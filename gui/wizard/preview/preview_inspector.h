@@ -3,11 +3,11 @@
 
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 class PreviewPage;
 
 /// Beside the preview: the content, how bright it is wanted, and what of it can be reached.
 QWidget* previewInspector(PreviewPage& page);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,18 +3,19 @@
 
 #include <QFileInfo>
 
-#include "base/message.h"
 #include "output/default_picture.h"
-#include "pipeline/measuring.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/base/message.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// What is compared; `optimum` last, it takes longest.
-constexpr std::array comparedMethods{Method::none, Method::mix, Method::clusters, Method::refined,
-                                     Method::optimum};
+constexpr std::array comparedMethods{compensation::Method::none, compensation::Method::mix,
+                                     compensation::Method::clusters, compensation::Method::refined,
+                                     compensation::Method::optimum};
 
 }  // namespace
 
@@ -40,9 +41,9 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             Q_EMIT failed({failure, tr("What is measured is safe.")});
           }),
       reading_(
-          [this](std::pair<std::string, std::shared_ptr<const Image>> read) {
+          [this](std::pair<std::string, std::shared_ptr<const image::Image>> read) {
             adoptContent(read.first, read.second);
-            ContentSettings after = settings_;
+            pipeline::ContentSettings after = settings_;
             after.picture = read.first;
             setSettings(after, tr("Picture"));
           },
@@ -83,9 +84,9 @@ void PreviewPage::enter() {
 
 void PreviewPage::prepare() {
   if (!session_.isOpen() || job_.isRunning() || !session_.areDevicesFree()) return;
-  const ThresholdSettings& cut = session_.settings().threshold;
+  const transport::ThresholdSettings& cut = session_.settings().threshold;
   std::string wanted = fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept,
-                                   session_.result(Stage::acquisition)->stored);
+                                   session_.result(calibration::Stage::acquisition)->stored);
   if (wanted == preparedFor_) return;
   preparedFor_ = wanted;
   engine_ = nullptr;
@@ -93,20 +94,22 @@ void PreviewPage::prepare() {
   lease_ = session_.leaseDevices(stepName);
   job_.start([made = made_, path = session_.path()](Progress& progress) {
     {
-      CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+      calibration::CalibrationFolder folder =
+          calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
       Progress reading = progress.part(
           0.2, RELUCENT_MESSAGE("stage.reading-light-transport", "Reading the light transport"));
-      MeasuredVenue venue = loadMeasuredVenue(folder, reading);
+      compensation::MeasuredVenue venue = pipeline::loadMeasuredVenue(folder, reading);
       Progress inverting = progress.part(
           0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
-      measureInverse(folder, venue, inverting);
+      pipeline::measureInverse(folder, venue, inverting);
     }
-    CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+    calibration::CalibrationFolder folder =
+        calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
     Progress loading =
         progress.part(0.3, RELUCENT_MESSAGE("stage.preparing-preview", "Preparing the preview"));
-    made->measured = loadCalibration(folder, loading);
-    CompensatorSettings settings;
-    settings.clustering = settingsOf(folder).clustering;
+    made->measured = pipeline::loadCalibration(folder, loading);
+    compensation::CompensatorSettings settings;
+    settings.clustering = pipeline::settingsOf(folder).clustering;
     made->compensator.emplace(made->measured.venue, made->measured.inverse, settings);
   });
   tellStatus();
@@ -131,24 +134,25 @@ QString PreviewPage::pictureName() const {
 }
 
 void PreviewPage::choosePicture(const QString& file) {
-  reading_.ask([file]() -> std::pair<std::string, std::shared_ptr<const Image>> {
-    return {file.toStdString(), std::make_shared<Image>(linearContentOf(file))};
+  reading_.ask([file]() -> std::pair<std::string, std::shared_ptr<const image::Image>> {
+    return {file.toStdString(), std::make_shared<image::Image>(linearContentOf(file))};
   });
 }
 
-void PreviewPage::adoptContent(const std::string& picture, std::shared_ptr<const Image> content) {
+void PreviewPage::adoptContent(const std::string& picture, std::shared_ptr<const image::Image> content) {
   if (contentOf_ != picture || !content_) table_.clear();
   contentOf_ = picture;
   content_ = std::move(content);
 }
 
-void PreviewPage::setSettings(const ContentSettings& settings, const QString& what) {
-  changeUndoably(what, settings_, settings, [this](const ContentSettings& wanted) { adopt(wanted); });
+void PreviewPage::setSettings(const pipeline::ContentSettings& settings, const QString& what) {
+  changeUndoably(what, settings_, settings,
+                 [this](const pipeline::ContentSettings& wanted) { adopt(wanted); });
 }
 
-void PreviewPage::adopt(const ContentSettings& settings) {
+void PreviewPage::adopt(const pipeline::ContentSettings& settings) {
   // The methods are compared with the content in one place under one light.
-  ContentSettings sameMethod = settings;
+  pipeline::ContentSettings sameMethod = settings;
   sameMethod.method = settings_.method;
   if (sameMethod != settings_) table_.clear();
   settings_ = settings;
@@ -157,24 +161,24 @@ void PreviewPage::adopt(const ContentSettings& settings) {
   tellSettings();
 }
 
-void PreviewPage::setCorners(const Corners& corners) {
-  if (!isConvex(corners)) {
+void PreviewPage::setCorners(const compensation::Corners& corners) {
+  if (!compensation::isConvex(corners)) {
     problem_ = tr("The corners cross over. Drag them apart.");
     tellSettings();
     return;
   }
-  ContentSettings after = settings_;
+  pipeline::ContentSettings after = settings_;
   after.corners = corners;
   setSettings(after, tr("Corners"));
 }
 
 void PreviewPage::placeAutomatically() {
-  ContentSettings after = settings_;
+  pipeline::ContentSettings after = settings_;
   after.corners.reset();
   setSettings(after, tr("Automatic place"));
 }
 
-std::optional<Corners> PreviewPage::corners() const {
+std::optional<compensation::Corners> PreviewPage::corners() const {
   if (settings_.corners) return settings_.corners;
   return preview_ ? std::optional(preview_->corners) : std::nullopt;
 }
@@ -199,7 +203,7 @@ void PreviewPage::compute() {
 /// The table fills row by row while the pictures are there already.
 void PreviewPage::compareNext() {
   if (!engine_ || !content_ || comparing_.isBusy() || table_.size() >= comparedMethods.size()) return;
-  Method method = comparedMethods[table_.size()];
+  compensation::Method method = comparedMethods[table_.size()];
   comparing_.ask([engine = engine_, content = content_, settings = settings_, method, round = round_] {
     return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
   });
@@ -207,15 +211,17 @@ void PreviewPage::compareNext() {
 
 StepStatus PreviewPage::status() const {
   if (job_.isRunning())
-    return {session_.progress(Stage::content) == StageProgress::open ? StepState::open : StepState::done,
+    return {session_.progress(calibration::Stage::content) == calibration::StageProgress::open
+                ? StepState::open
+                : StepState::done,
             tr("Preparing")};
-  switch (session_.progress(Stage::content)) {
-    case StageProgress::done:
+  switch (session_.progress(calibration::Stage::content)) {
+    case calibration::StageProgress::done:
       return {StepState::done,
-              tr("%1 in reach").arg(percentText(session_.figures<Stage::content>()->reachable))};
-    case StageProgress::stale:
+              tr("%1 in reach").arg(percentText(session_.figures<calibration::Stage::content>()->reachable))};
+    case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StageProgress::open:
+    case calibration::StageProgress::open:
       break;
   }
   return {};
@@ -242,14 +248,14 @@ std::optional<double> PreviewPage::progress() const {
 
 void PreviewPage::accept() {
   try {
-    CalibrateSettings settings = session_.settings();
+    pipeline::CalibrateSettings settings = session_.settings();
     settings.content = settings_;
     session_.changeSettings(settings);
-    session_.decide(ContentResult{preview_->reachableShare, preview_->deltaEMean});
+    session_.decide(calibration::ContentResult{preview_->reachableShare, preview_->deltaEMean});
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include "wizard/preview/content_preview.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Step 7: content in its place, before it is projected. It lies in the first camera's view, and what all
 /// projectors give together is shown: there is no device to choose.
@@ -15,8 +15,8 @@ class PreviewPage : public PageModel {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"preview", "relucent::PreviewPage",
-                                     QT_TRANSLATE_NOOP("relucent::PreviewPage", "Preview")};
+  static constexpr StepName stepName{"preview", "relucent::gui::PreviewPage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::PreviewPage", "Preview")};
 
   explicit PreviewPage(Session& session, QObject* parent = nullptr);
   ~PreviewPage() override { finish(); }
@@ -35,16 +35,16 @@ class PreviewPage : public PageModel {
 
   bool isReady() const { return engine_ != nullptr; }
   std::size_t projectors() const { return session_.projectors(); }
-  const ContentSettings& settings() const { return settings_; }
+  const pipeline::ContentSettings& settings() const { return settings_; }
   /// `what`: changed, in the list of what can be undone.
-  void setSettings(const ContentSettings& settings, const QString& what = tr("Content"));
+  void setSettings(const pipeline::ContentSettings& settings, const QString& what = tr("Content"));
   /// Where the content lies in the first camera's view. Corners that cross over are refused: problem() says
   /// so.
-  void setCorners(const Corners& corners);
+  void setCorners(const compensation::Corners& corners);
   /// In the largest upright rectangle that can be reached.
   void placeAutomatically();
   /// The corners as they are, chosen or found; none before the first prediction.
-  std::optional<Corners> corners() const;
+  std::optional<compensation::Corners> corners() const;
   /// What stands against the last place that was asked for; empty: nothing.
   const QString& problem() const { return problem_; }
   /// Read on another thread. Tells failed() if it is no picture; the one before stays.
@@ -61,8 +61,8 @@ class PreviewPage : public PageModel {
  private:
   void prepare();
   void prepared();
-  void adopt(const ContentSettings& settings);
-  void adoptContent(const std::string& picture, std::shared_ptr<const Image> content);
+  void adopt(const pipeline::ContentSettings& settings);
+  void adoptContent(const std::string& picture, std::shared_ptr<const image::Image> content);
   void refuse(const Failure& failure);
   void compute();
   void compareNext();
@@ -72,8 +72,8 @@ class PreviewPage : public PageModel {
   Command* accept_;
   DeviceLease lease_;
   Job job_;
-  ContentSettings settings_;
-  std::shared_ptr<const Image> content_;
+  pipeline::ContentSettings settings_;
+  std::shared_ptr<const image::Image> content_;
   std::string contentOf_;  // where it was read
   QString problem_;
   std::shared_ptr<PreviewEngine> made_;  // by the job, taken when it ends
@@ -84,8 +84,8 @@ class PreviewPage : public PageModel {
   int round_ = 0;  // of comparisons: answers of earlier ones are dropped
   Latest<std::shared_ptr<const ContentPreview>> computing_;
   Latest<std::pair<int, MethodPreview>> comparing_;
-  Latest<std::pair<std::string, std::shared_ptr<const Image>>> reading_;
+  Latest<std::pair<std::string, std::shared_ptr<const image::Image>>> reading_;
   bool looked_ = false;  // now
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

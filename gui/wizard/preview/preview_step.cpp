@@ -3,10 +3,10 @@
 
 #include "wizard/preview/preview_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep previewStep() {
   return stepOf<PreviewPage>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

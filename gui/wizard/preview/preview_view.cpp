@@ -14,7 +14,7 @@
 #include "wizard/preview/preview_inspector.h"
 #include "wizard/session/method_name.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Hatches where the content cannot be reached, and its corners. Finer than the picture, so that lines stay
@@ -110,17 +110,17 @@ class PreviewStage : public QWidget {
   }
   void choose(int row) {
     if (row < 0 || static_cast<std::size_t>(row) >= page_.table().size()) return;
-    ContentSettings settings = page_.settings();
+    pipeline::ContentSettings settings = page_.settings();
     settings.method = page_.table()[static_cast<std::size_t>(row)].method;
     page_.setSettings(settings, PreviewPage::tr("Method"));
   }
-  static QString noteOf(Method method) {
+  static QString noteOf(compensation::Method method) {
     switch (method) {
-      case Method::mix:
+      case compensation::Method::mix:
         return PreviewPage::tr("blind to bounces");
-      case Method::refined:
+      case compensation::Method::refined:
         return PreviewPage::tr("recommended");
-      case Method::optimum:
+      case compensation::Method::optimum:
         return PreviewPage::tr("limit of this venue");
       default:
         return {};
@@ -163,7 +163,7 @@ class PreviewStage : public QWidget {
     Size size = preview->with.size();
     views_[picture]->setPicture(pictureOf(preview->without, preview->white));
     views_[picture]->setCompared(pictureOf(preview->with, preview->white), PreviewPage::tr("Uncorrected"),
-                                 page_.settings().method == Method::none
+                                 page_.settings().method == compensation::Method::none
                                      ? PreviewPage::tr("Uncorrected, too")
                                      : PreviewPage::tr("Corrected, predicted"));
     ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};
@@ -196,4 +196,4 @@ PageView viewOf(PreviewPage& page) {
   return {new PreviewStage(page), previewInspector(page)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,8 +4,8 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(PreviewPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

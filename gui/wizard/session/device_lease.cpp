@@ -5,7 +5,7 @@
 
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 DeviceLease::DeviceLease(Session& session) : session_(&session) {}
 
@@ -31,4 +31,4 @@ void DeviceLease::release() {
   Q_EMIT session->devicesChanged();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

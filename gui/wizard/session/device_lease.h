@@ -3,7 +3,7 @@
 
 #include <QPointer>
 
-namespace relucent {
+namespace relucent::gui {
 
 class Session;
 
@@ -27,4 +27,4 @@ class DeviceLease {
   QPointer<Session> session_;  // none: nothing is held
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

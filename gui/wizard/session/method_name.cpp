@@ -3,7 +3,7 @@
 
 #include <QCoreApplication>
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Names {
@@ -12,26 +12,26 @@ struct Names {
 
 }  // namespace
 
-QString methodName(Method method) {
+QString methodName(compensation::Method method) {
   switch (method) {
-    case Method::none:
+    case compensation::Method::none:
       return Names::tr("No correction");
-    case Method::scalar:
+    case compensation::Method::scalar:
       return Names::tr("Each pixel's brightness");
-    case Method::mix:
+    case compensation::Method::mix:
       return Names::tr("Each pixel on its own");
-    case Method::sharpen:
+    case compensation::Method::sharpen:
       return Names::tr("Each pixel, sharpened");
-    case Method::clusters:
+    case compensation::Method::clusters:
       return Names::tr("Clusters");
-    case Method::windows:
+    case compensation::Method::windows:
       return Names::tr("Windows");
-    case Method::refined:
+    case compensation::Method::refined:
       return Names::tr("Windows and steps");
-    case Method::optimum:
+    case compensation::Method::optimum:
       break;
   }
   return Names::tr("Best possible, still pictures");
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

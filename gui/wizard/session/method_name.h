@@ -3,11 +3,11 @@
 
 #include <QString>
 
-#include "compensation/method.h"
+#include "relucent/compensation/method.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A way to compensate, in the user's language.
-QString methodName(Method method);
+QString methodName(compensation::Method method);
 
-}  // namespace relucent
+}  // namespace relucent::gui

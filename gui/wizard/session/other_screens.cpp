@@ -9,18 +9,18 @@
 #include <chrono>
 #include <future>
 
-#include "base/error.h"
 #include "output/projector_window.h"
 #include "output/window_projector.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Looks at whether the waiting thread is asked to end.
 constexpr std::chrono::milliseconds patience(20);
 
 /// What must stay as it is: the projector's screen, and where the operator works.
-std::vector<QRect> takenPlaces(const ScreenRigSettings& projector) {
+std::vector<QRect> takenPlaces(const pipeline::ScreenRigSettings& projector) {
   std::vector<QRect> places;
   for (const QScreen* screen : {findScreen(identityOf(projector.display)), QGuiApplication::primaryScreen()})
     if (screen != nullptr) places.push_back(screen->geometry());
@@ -32,14 +32,14 @@ std::vector<QRect> takenPlaces(const ScreenRigSettings& projector) {
 
 }  // namespace
 
-std::vector<ScreenRigSettings> otherScreens(const ScreenRigSettings& projector) {
+std::vector<pipeline::ScreenRigSettings> otherScreens(const pipeline::ScreenRigSettings& projector) {
   const std::vector<QRect> taken = takenPlaces(projector);
-  std::vector<ScreenRigSettings> others;
+  std::vector<pipeline::ScreenRigSettings> others;
   for (const QScreen* screen : QGuiApplication::screens()) {
     if (std::any_of(taken.begin(), taken.end(),
                     [screen](const QRect& place) { return place.intersects(screen->geometry()); }))
       continue;
-    ScreenRigSettings& other = others.emplace_back(projector);
+    pipeline::ScreenRigSettings& other = others.emplace_back(projector);
     const QSize size = nativeSize(*screen);
     other.display = displayOf(*screen);
     other.projector = {size.width(), size.height()};
@@ -47,9 +47,9 @@ std::vector<ScreenRigSettings> otherScreens(const ScreenRigSettings& projector) 
   return others;
 }
 
-std::vector<ScreenRigSettings> askForOtherScreens(const ScreenRigSettings& projector) {
-  auto asked = std::make_shared<std::promise<std::vector<ScreenRigSettings>>>();
-  std::future<std::vector<ScreenRigSettings>> answer = asked->get_future();
+std::vector<pipeline::ScreenRigSettings> askForOtherScreens(const pipeline::ScreenRigSettings& projector) {
+  auto asked = std::make_shared<std::promise<std::vector<pipeline::ScreenRigSettings>>>();
+  std::future<std::vector<pipeline::ScreenRigSettings>> answer = asked->get_future();
   QMetaObject::invokeMethod(
       qApp, [asked, projector] { asked->set_value(otherScreens(projector)); }, Qt::QueuedConnection);
   while (answer.wait_for(patience) != std::future_status::ready)
@@ -57,4 +57,4 @@ std::vector<ScreenRigSettings> askForOtherScreens(const ScreenRigSettings& proje
   return answer.get();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

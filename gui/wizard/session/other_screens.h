@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "pipeline/rig_settings.h"
+#include "relucent/pipeline/rig_settings.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// The screens of the desktop that may light up to find out which one a camera sees instead of `projector`'s,
 /// each as the projector's settings would be if it were chosen.
@@ -14,9 +14,9 @@ namespace relucent {
 /// into somebody's face; a camera that sees such a screen is told to see none. Where the operator's screen is
 /// the only one, it is the projector's, which the operator was warned of when choosing it.
 /// On the interface's thread.
-std::vector<ScreenRigSettings> otherScreens(const ScreenRigSettings& projector);
+std::vector<pipeline::ScreenRigSettings> otherScreens(const pipeline::ScreenRigSettings& projector);
 
 /// The same for a worker's thread. Throws: Cancelled if that is asked to end meanwhile.
-std::vector<ScreenRigSettings> askForOtherScreens(const ScreenRigSettings& projector);
+std::vector<pipeline::ScreenRigSettings> askForOtherScreens(const pipeline::ScreenRigSettings& projector);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,45 +4,45 @@
 #include <QPointer>
 #include <utility>
 
-#include "base/error.h"
-#include "calibration/results.h"
-#include "devices/test_exposure.h"
 #include "output/window_projector.h"
-#include "pipeline/measuring.h"
-#include "pipeline/stored_settings.h"
-#include "rig/watched_rig.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/results.h"
+#include "relucent/devices/test_exposure.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/rig/watched_rig.h"
 #include "wizard/session/other_screens.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr int audienceLimit = 3;  // patterns a second
 
 /// Holds other screens up as the rig's own projectors, which their pictures are not to be taken for.
-class OtherScreensWatcher : public RigWatcher {
+class OtherScreensWatcher : public rig::RigWatcher {
  public:
   explicit OtherScreensWatcher(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
-  void beforeShowing(std::size_t index, RigLight& light) override { live_->beforeShowing(index, light); }
+  void beforeShowing(std::size_t index, rig::RigLight& light) override { live_->beforeShowing(index, light); }
 
  private:
   std::shared_ptr<LiveRig> live_;
 };
 
 struct ProjectorSize {
-  Size operator()(const ReplayRigSettings&) const { return {}; }  // only the recording knows
+  Size operator()(const pipeline::ReplayRigSettings&) const { return {}; }  // only the recording knows
   Size operator()(const auto& rig) const { return rig.projector; }
 };
 
 }  // namespace
 
-Rig& SessionDevices::open(Progress& progress) {
+rig::Rig& SessionDevices::open(Progress& progress) {
   std::scoped_lock lock(guard_);
   if (!opened_) {
     Progress opening = progress.part(hasScreen() ? 0.3 : 1.0,
                                      RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
-    OpenedRig opened = openRig(settings_, cache_, screens_, opening);
-    opened.rig = watched(std::move(opened.rig), live_);
+    pipeline::OpenedRig opened = pipeline::openRig(settings_, cache_, screens_, opening);
+    opened.rig = rig::watched(std::move(opened.rig), live_);
     {
       std::scoped_lock instant(screenGuard_);
       screen_ = opened.screen;
@@ -58,40 +58,42 @@ Rig& SessionDevices::open(Progress& progress) {
 void SessionDevices::prove(Progress& progress) {
   Progress proving = progress.part(
       0.7, RELUCENT_MESSAGE("stage.looking-projector-picture", "Looking for the projector's picture"));
-  Projector& projector = *opened_->rig.projectors.front();
-  Camera& camera = *opened_->rig.cameras.front();
-  LatencySettings settling;
+  rig::Projector& projector = *opened_->rig.projectors.front();
+  rig::Camera& camera = *opened_->rig.cameras.front();
+  devices::LatencySettings settling;
   settling.mostFrames = 1;  // show() waits long enough
-  Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
-  for (const ScreenRigSettings& other : askForOtherScreens(std::get<ScreenRigSettings>(settings_)))
-    beside.projectors.push_back(delayed(screens_(other), unmeasuredLatency(), sleepFor));
-  beside = watched(std::move(beside), std::make_shared<OtherScreensWatcher>(live_));
-  std::vector<Projector*> others;
-  for (const std::unique_ptr<Projector>& other : beside.projectors) others.push_back(other.get());
-  const ScreenExposure exposureOf = [&](Projector& screen) {
-    return testExposure(screen, camera, settling, sleepFor, proving);
+  rig::Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
+  for (const pipeline::ScreenRigSettings& other :
+       askForOtherScreens(std::get<pipeline::ScreenRigSettings>(settings_)))
+    beside.projectors.push_back(devices::delayed(screens_(other), unmeasuredLatency(), devices::sleepFor));
+  beside = rig::watched(std::move(beside), std::make_shared<OtherScreensWatcher>(live_));
+  std::vector<rig::Projector*> others;
+  for (const std::unique_ptr<rig::Projector>& other : beside.projectors) others.push_back(other.get());
+  const devices::ScreenExposure exposureOf = [&](rig::Projector& screen) {
+    return devices::testExposure(screen, camera, settling, devices::sleepFor, proving);
   };
-  proof_ = proveScreen(projector, others, camera, exposureOf, {}, proving);
-  requireSeen(proof_, projector, camera);
+  proof_ = devices::proveScreen(projector, others, camera, exposureOf, {}, proving);
+  devices::requireSeen(proof_, projector, camera);
 }
 
-RigCheck SessionDevices::check(Progress& progress) {
+pipeline::RigCheck SessionDevices::check(Progress& progress) {
   std::scoped_lock lock(guard_);
   require(opened_ && hasScreen(), "only an open screen is checked");
-  Projector& projector = *opened_->rig.projectors.front();
-  Camera& camera = *opened_->rig.cameras.front();
-  const double frame = 1.0 / std::get<ScreenRigSettings>(settings_).frameRate;
-  RigCheck check;
+  rig::Projector& projector = *opened_->rig.projectors.front();
+  rig::Camera& camera = *opened_->rig.cameras.front();
+  const double frame = 1.0 / std::get<pipeline::ScreenRigSettings>(settings_).frameRate;
+  pipeline::RigCheck check;
   check.proof = proof_;
 
   Progress measuring =
       progress.part(0.6, RELUCENT_MESSAGE("stage.measuring-latency", "Measuring the latency"));
-  LatencySettings latency;
+  devices::LatencySettings latency;
   latency.frame = frame;
   latency.mostFrames = patience_.mostFrames;
   screen()->setLatency(0.0);
   try {
-    check.latency = measureLatency(projector, camera, proof_.exposure, latency, sleepFor, measuring);
+    check.latency =
+        devices::measureLatency(projector, camera, proof_.exposure, latency, devices::sleepFor, measuring);
   } catch (...) {
     screen()->setLatency(unmeasuredLatency());
     throw;
@@ -99,14 +101,14 @@ RigCheck SessionDevices::check(Progress& progress) {
   setLatency(check.latency.seconds);
 
   Progress judging = progress.part(0.4, RELUCENT_MESSAGE("stage.judging-light", "Judging the light"));
-  LightCheckSettings light;
+  devices::LightCheckSettings light;
   light.frame = frame;
   light.photographs = patience_.photographs;
   light.settle = patience_.mostFrames * frame;
   // Within a frame: that is what is judged.
   screen()->setWholeFrames(false);
   try {
-    check.light = checkLight(projector, camera, proof_.exposure, light, sleepFor, judging);
+    check.light = devices::checkLight(projector, camera, proof_.exposure, light, devices::sleepFor, judging);
   } catch (...) {
     screen()->setWholeFrames(true);
     throw;
@@ -115,14 +117,14 @@ RigCheck SessionDevices::check(Progress& progress) {
   return check;
 }
 
-std::shared_ptr<ScreenControl> SessionDevices::screen() const {
+std::shared_ptr<devices::ScreenControl> SessionDevices::screen() const {
   std::scoped_lock instant(screenGuard_);
   return screen_;
 }
 
 /// Long enough for most projectors: what proves the screen comes before what measures.
 double SessionDevices::unmeasuredLatency() const {
-  return patience_.mostFrames / std::get<ScreenRigSettings>(settings_).frameRate / 3.0;
+  return patience_.mostFrames / std::get<pipeline::ScreenRigSettings>(settings_).frameRate / 3.0;
 }
 
 void SessionDevices::setLatency(double seconds) {
@@ -132,7 +134,7 @@ void SessionDevices::setLatency(double seconds) {
 }
 
 void SessionDevices::rest() {
-  if (std::shared_ptr<ScreenControl> used = screen()) used->rest();
+  if (std::shared_ptr<devices::ScreenControl> used = screen()) used->rest();
 }
 
 Session::Session(fs::path cache, QObject* parent)
@@ -140,7 +142,7 @@ Session::Session(fs::path cache, QObject* parent)
       cache_(std::move(cache)),
       live_(std::make_shared<LiveRig>()),
       reading_(
-          [this](std::shared_ptr<const Acquisition> acquisition) {
+          [this](std::shared_ptr<const transport::Acquisition> acquisition) {
             acquisition_ = std::move(acquisition);
             Q_EMIT acquisitionChanged();
           },
@@ -154,16 +156,17 @@ QString Session::name() const {
 }
 
 void Session::open(const fs::path& path) {
-  CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   adopt(folder);
 }
 
-void Session::begin(const fs::path& path, const CalibrateSettings& settings) {
-  CalibrationFolder folder = beginCalibration(path, settings);
+void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings) {
+  calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
   adopt(folder);
 }
 
-void Session::adopt(const CalibrationFolder& folder) {
+void Session::adopt(const calibration::CalibrationFolder& folder) {
   path_ = fs::absolute(folder.path()).lexically_normal();
   if (path_.filename().empty()) path_ = path_.parent_path();
   acquisition_ = nullptr;
@@ -184,15 +187,16 @@ void Session::adopt(const CalibrationFolder& folder) {
 /// Devices by the settings; those of before are let go of.
 void Session::makeDevices() {
   devices_ = std::make_shared<SessionDevices>(
-      settings_.rig, cache_, live_, [this](const ScreenRigSettings& screen) { return openScreen(screen); },
-      patience_);
-  const auto& checked = figures<Stage::camera>();
-  if (checked && progress(Stage::camera) == StageProgress::done && checked->latencySeconds)
+      settings_.rig, cache_, live_,
+      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_);
+  const auto& checked = figures<calibration::Stage::camera>();
+  if (checked && progress(calibration::Stage::camera) == calibration::StageProgress::done &&
+      checked->latencySeconds)
     devices_->setLatency(*checked->latencySeconds);
 }
 
 /// Called on a worker's thread.
-std::unique_ptr<ScreenProjector> Session::openScreen(const ScreenRigSettings& settings) {
+std::unique_ptr<devices::ScreenProjector> Session::openScreen(const pipeline::ScreenRigSettings& settings) {
   return std::make_unique<WindowProjector>(identityOf(settings.display), settings.projector,
                                            [self = QPointer<Session>(this)](bool waits) {
                                              if (!self) return;
@@ -201,10 +205,11 @@ std::unique_ptr<ScreenProjector> Session::openScreen(const ScreenRigSettings& se
                                            });
 }
 
-void Session::changeDevices(const std::function<void(CalibrationFolder&)>& write) {
+void Session::changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write) {
   devices_ = nullptr;  // nobody else is let to a camera that is held
   {
-    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    calibration::CalibrationFolder folder =
+        calibration::CalibrationFolder::open(path_, calibration::CalibrationFolder::Access::write);
     try {
       write(folder);
     } catch (...) {
@@ -217,12 +222,13 @@ void Session::changeDevices(const std::function<void(CalibrationFolder&)>& write
   Q_EMIT stepsChanged();
 }
 
-void Session::changeRig(const RigSettings& rig) {
-  changeDevices([&](CalibrationFolder& folder) { relucent::changeRig(folder, rig); });
+void Session::changeRig(const pipeline::RigSettings& rig) {
+  changeDevices([&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeRig(folder, rig); });
 }
 
-void Session::changeScreen(const ScreenRigSettings& screen) {
-  changeDevices([&](CalibrationFolder& folder) { relucent::changeScreen(folder, screen); });
+void Session::changeScreen(const pipeline::ScreenRigSettings& screen) {
+  changeDevices(
+      [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeScreen(folder, screen); });
 }
 
 void Session::close() {
@@ -239,54 +245,58 @@ void Session::close() {
   Q_EMIT devicesChanged();
 }
 
-void Session::look(const CalibrationFolder& folder) {
-  settings_ = settingsOf(folder);
-  const RigSettings measured = measuredRigOf(folder);
-  const auto* screen = std::get_if<ScreenRigSettings>(&measured);
-  measuredDisplay_ = screen != nullptr ? screen->display : ScreenRigSettings::Display();
-  figures_ = resultsIn(folder);
-  for (Stage stage : allValues<Stage>())
-    stages_[static_cast<std::size_t>(stage)] = {progressOf(folder, stage), resultOf(folder, stage)};
+void Session::look(const calibration::CalibrationFolder& folder) {
+  settings_ = pipeline::settingsOf(folder);
+  const pipeline::RigSettings measured = pipeline::measuredRigOf(folder);
+  const auto* screen = std::get_if<pipeline::ScreenRigSettings>(&measured);
+  measuredDisplay_ = screen != nullptr ? screen->display : pipeline::ScreenRigSettings::Display();
+  figures_ = calibration::resultsIn(folder);
+  for (calibration::Stage stage : allValues<calibration::Stage>())
+    stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),
+                                                calibration::resultOf(folder, stage)};
 }
 
 void Session::reload() {
-  look(CalibrationFolder::open(path_, CalibrationFolder::Access::read));
+  look(calibration::CalibrationFolder::open(path_, calibration::CalibrationFolder::Access::read));
   Q_EMIT stepsChanged();
 }
 
 bool Session::isSimulated() const {
-  return std::holds_alternative<VenueSettings>(settings_.rig);
+  return std::holds_alternative<venue::VenueSettings>(settings_.rig);
 }
 
 bool Session::hasLight() const {
-  return std::holds_alternative<CommandRigSettings>(settings_.rig) || screenRig() != nullptr;
+  return std::holds_alternative<pipeline::CommandRigSettings>(settings_.rig) || screenRig() != nullptr;
 }
 
 std::size_t Session::projectors() const {
-  if (const auto& measured = figures<Stage::acquisition>(); measured && !measured->projectors.empty())
+  if (const auto& measured = figures<calibration::Stage::acquisition>();
+      measured && !measured->projectors.empty())
     return measured->projectors.size();
-  if (const auto& measured = figures<Stage::linearization>(); measured && measured->projectors > 0)
+  if (const auto& measured = figures<calibration::Stage::linearization>();
+      measured && measured->projectors > 0)
     return measured->projectors;
   return projectorsOf(settings_.rig);
 }
 
-std::size_t Session::projectorsOf(const RigSettings& rig) {
-  if (const auto* simulated = std::get_if<VenueSettings>(&rig))
-    for (const VenueDescription& venue : venues())
+std::size_t Session::projectorsOf(const pipeline::RigSettings& rig) {
+  if (const auto* simulated = std::get_if<venue::VenueSettings>(&rig))
+    for (const venue::VenueDescription& venue : venue::venues())
       if (venue.name == simulated->name) return static_cast<std::size_t>(venue.projectors);
   return 1;
 }
 
 std::size_t Session::cameras() const {
-  if (const auto& measured = figures<Stage::acquisition>(); measured && !measured->cameras.empty())
+  if (const auto& measured = figures<calibration::Stage::acquisition>();
+      measured && !measured->cameras.empty())
     return measured->cameras.size();
-  if (const auto& measured = figures<Stage::linearization>(); measured && measured->cameras > 0)
+  if (const auto& measured = figures<calibration::Stage::linearization>(); measured && measured->cameras > 0)
     return measured->cameras;
   return 1;
 }
 
 Size Session::projectorSize(std::size_t projector) const {
-  if (const auto& measured = figures<Stage::acquisition>();
+  if (const auto& measured = figures<calibration::Stage::acquisition>();
       measured && projector < measured->projectors.size())
     return measured->projectors[projector];
   return std::visit(ProjectorSize{}, settings_.rig);
@@ -298,7 +308,7 @@ Rasters Session::projectorRasters() const {
   return Rasters(std::move(sizes));
 }
 
-int Session::photographsKept(Stage stage) const {
+int Session::photographsKept(calibration::Stage stage) const {
   int count = 0;
   std::error_code code;
   const std::string begin = fmt::format("{}-", nameOf(stage));
@@ -307,27 +317,29 @@ int Session::photographsKept(Stage stage) const {
   return count;
 }
 
-void Session::change(const std::function<void(CalibrationFolder&)>& write) {
+void Session::change(const std::function<void(calibration::CalibrationFolder&)>& write) {
   {
-    CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
+    calibration::CalibrationFolder folder =
+        calibration::CalibrationFolder::open(path_, calibration::CalibrationFolder::Access::write);
     write(folder);
     look(folder);
   }
   Q_EMIT stepsChanged();
 }
 
-void Session::changeSettings(const CalibrateSettings& settings) {
-  change([&](CalibrationFolder& folder) { relucent::changeSettings(folder, settings); });
+void Session::changeSettings(const pipeline::CalibrateSettings& settings) {
+  change(
+      [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeSettings(folder, settings); });
 }
 
 void Session::wantAcquisition() {
-  const std::optional<StageResult>& stored = result(Stage::acquisition);
+  const std::optional<calibration::StageResult>& stored = result(calibration::Stage::acquisition);
   if (!stored || stored->stored == acquired_) return;
   acquired_ = stored->stored;
   acquisition_ = nullptr;
   readFailure_.reset();
-  reading_.ask([stored = *stored]() -> std::shared_ptr<const Acquisition> {
-    return std::make_shared<Acquisition>(loadAcquisition(stored));
+  reading_.ask([stored = *stored]() -> std::shared_ptr<const transport::Acquisition> {
+    return std::make_shared<transport::Acquisition>(calibration::loadAcquisition(stored));
   });
 }
 
@@ -366,4 +378,4 @@ void Session::takeBackDevices() {
   if (devices_) devices_->rest();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

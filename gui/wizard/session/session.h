@@ -9,19 +9,19 @@
 #include <mutex>
 #include <optional>
 
-#include "calibration/calibration_folder.h"
-#include "calibration/results.h"
-#include "calibration/stage_progress.h"
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
-#include "pipeline/check.h"
-#include "pipeline/devices.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/check.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "wizard/session/device_lease.h"
 #include "wizard/session/step_name.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// How patiently real devices are checked.
 struct CheckPatience {
@@ -32,8 +32,8 @@ struct CheckPatience {
 /// The devices of the open calibration. Opened by the first work that needs them, used by one work at a time.
 class SessionDevices {
  public:
-  SessionDevices(RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live,
-                 ScreenOpener screens, CheckPatience patience)
+  SessionDevices(pipeline::RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live,
+                 pipeline::ScreenOpener screens, CheckPatience patience)
       : settings_(std::move(settings)),
         cache_(std::move(cache)),
         live_(std::move(live)),
@@ -43,12 +43,12 @@ class SessionDevices {
   /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used;
   /// where it does not, other screens light up too, to tell which one it sees: see other_screens.h. Throws:
   /// as openRig() and requireSeen().
-  Rig& open(Progress& progress);
+  rig::Rig& open(Progress& progress);
   /// Of an open screen: how long a picture takes, waited for from now on, and how steady its light is.
   /// Called on a worker's thread.  Throws: as measureLatency() and checkLight().
-  RigCheck check(Progress& progress);
+  pipeline::RigCheck check(Progress& progress);
   /// Whether check() has something to say.
-  bool hasScreen() const { return std::holds_alternative<ScreenRigSettings>(settings_); }
+  bool hasScreen() const { return std::holds_alternative<pipeline::ScreenRigSettings>(settings_); }
   /// As it was measured earlier, seconds.
   void setLatency(double seconds);
   /// Leaves the projector's screen to others until the next pattern.
@@ -56,21 +56,21 @@ class SessionDevices {
   LiveRig& live() const { return *live_; }
 
  private:
-  std::shared_ptr<ScreenControl> screen() const;
+  std::shared_ptr<devices::ScreenControl> screen() const;
   double unmeasuredLatency() const;
   void prove(Progress& progress);
 
-  RigSettings settings_;
+  pipeline::RigSettings settings_;
   std::filesystem::path cache_;
   std::shared_ptr<LiveRig> live_;
-  ScreenOpener screens_;
+  pipeline::ScreenOpener screens_;
   CheckPatience patience_;
   std::mutex guard_;
-  std::optional<OpenedRig> opened_;
-  ScreenProof proof_;
+  std::optional<pipeline::OpenedRig> opened_;
+  devices::ScreenProof proof_;
   // Held for an instant only: the interface asks for it while a worker opens the devices.
   mutable std::mutex screenGuard_;
-  std::shared_ptr<ScreenControl> screen_;
+  std::shared_ptr<devices::ScreenControl> screen_;
   std::optional<double> latency_;
 };
 
@@ -98,51 +98,55 @@ class Session : public QObject {
 
   /// Throws: as CalibrationFolder::open() and beginCalibration(); the session is then as it was.
   void open(const std::filesystem::path& path);
-  void begin(const std::filesystem::path& path, const CalibrateSettings& settings);
+  void begin(const std::filesystem::path& path, const pipeline::CalibrateSettings& settings);
   void close();
 
-  const CalibrateSettings& settings() const { return settings_; }
-  StageProgress progress(Stage stage) const { return stages_[static_cast<std::size_t>(stage)].progress; }
+  const pipeline::CalibrateSettings& settings() const { return settings_; }
+  calibration::StageProgress progress(calibration::Stage stage) const {
+    return stages_[static_cast<std::size_t>(stage)].progress;
+  }
   /// What a step left behind, perhaps stale.
-  const std::optional<StageResult>& result(Stage stage) const {
+  const std::optional<calibration::StageResult>& result(calibration::Stage stage) const {
     return stages_[static_cast<std::size_t>(stage)].result;
   }
   /// What that result says.
-  template <Stage stage>
-  const std::optional<ResultOf<stage>>& figures() const {
+  template <calibration::Stage stage>
+  const std::optional<calibration::ResultOf<stage>>& figures() const {
     return std::get<static_cast<std::size_t>(stage)>(figures_);
   }
   bool isSimulated() const;
   /// Devices that shine into a room.
   bool hasLight() const;
   /// The projector is a screen of the desktop; nullptr: it is not.
-  const ScreenRigSettings* screenRig() const { return std::get_if<ScreenRigSettings>(&settings_.rig); }
+  const pipeline::ScreenRigSettings* screenRig() const {
+    return std::get_if<pipeline::ScreenRigSettings>(&settings_.rig);
+  }
   /// How many there are, as they were measured; before that, as the rig is described.
   std::size_t projectors() const;
   std::size_t cameras() const;
   /// As a rig is described; only its measurement tells how many a recording has.
-  static std::size_t projectorsOf(const RigSettings& rig);
+  static std::size_t projectorsOf(const pipeline::RigSettings& rig);
   Size projectorSize(std::size_t projector = 0) const;
   Rasters projectorRasters() const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
-  int photographsKept(Stage stage) const;
+  int photographsKept(calibration::Stage stage) const;
 
   /// Throws: Error{disk}.
-  void changeSettings(const CalibrateSettings& settings);
+  void changeSettings(const pipeline::CalibrateSettings& settings);
   /// Keeps what somebody decided at a stage. Throws: Error{disk}.
   template <typename Decision>
   void decide(const Decision& decision) {
-    change([&](CalibrationFolder& folder) { storeDecision(folder, decision); });
+    change([&](calibration::CalibrationFolder& folder) { calibration::storeDecision(folder, decision); });
   }
   /// Other devices, before anything is measured. Throws: as changeRig().
-  void changeRig(const RigSettings& rig);
+  void changeRig(const pipeline::RigSettings& rig);
   /// The projector is another screen from now on; nothing that was measured becomes stale.
-  /// Contract: screenRig(). Throws: as relucent::changeScreen().
-  void changeScreen(const ScreenRigSettings& screen);
+  /// Contract: screenRig(). Throws: as gui::changeScreen().
+  void changeScreen(const pipeline::ScreenRigSettings& screen);
   /// As which screen the projector was measured; see screenRig() for what it is now.
-  const ScreenRigSettings::Display& measuredDisplay() const { return measuredDisplay_; }
+  const pipeline::ScreenRigSettings::Display& measuredDisplay() const { return measuredDisplay_; }
   /// Something was measured that belongs to these devices.
-  bool isMeasured() const { return result(Stage::linearization).has_value(); }
+  bool isMeasured() const { return result(calibration::Stage::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
   /// Looks at the folder again, after some work wrote into it.
   void reload();
@@ -151,7 +155,7 @@ class Session : public QObject {
   LiveRig& live() const { return *live_; }
 
   /// What acquisition measured, with all of T; none until it has been read.
-  std::shared_ptr<const Acquisition> acquisition() const { return acquisition_; }
+  std::shared_ptr<const transport::Acquisition> acquisition() const { return acquisition_; }
   /// Reads it on another thread, once; acquisitionChanged() tells.
   void wantAcquisition();
   /// Why it could not be read; none while it may still be.
@@ -197,28 +201,28 @@ class Session : public QObject {
  private:
   friend class DeviceLease;
   struct StageState {
-    StageProgress progress = StageProgress::open;
-    std::optional<StageResult> result;
+    calibration::StageProgress progress = calibration::StageProgress::open;
+    std::optional<calibration::StageResult> result;
   };
-  void look(const CalibrationFolder& folder);
+  void look(const calibration::CalibrationFolder& folder);
   /// Writes into the calibration and looks at it again.
-  void change(const std::function<void(CalibrationFolder&)>& write);
+  void change(const std::function<void(calibration::CalibrationFolder&)>& write);
   /// The same with the devices closed meanwhile and opened anew.
-  void changeDevices(const std::function<void(CalibrationFolder&)>& write);
-  void adopt(const CalibrationFolder& folder);
+  void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
+  void adopt(const calibration::CalibrationFolder& folder);
   void slowDown();
   void makeDevices();
   void takeBackDevices();
-  std::unique_ptr<ScreenProjector> openScreen(const ScreenRigSettings& settings);
+  std::unique_ptr<devices::ScreenProjector> openScreen(const pipeline::ScreenRigSettings& settings);
 
   std::filesystem::path path_, cache_;
-  CalibrateSettings settings_;
-  ScreenRigSettings::Display measuredDisplay_;
-  std::array<StageState, stageCount> stages_;
-  StageResults figures_;
+  pipeline::CalibrateSettings settings_;
+  pipeline::ScreenRigSettings::Display measuredDisplay_;
+  std::array<StageState, calibration::stageCount> stages_;
+  calibration::StageResults figures_;
   std::shared_ptr<LiveRig> live_;
   std::shared_ptr<SessionDevices> devices_;
-  std::shared_ptr<const Acquisition> acquisition_;
+  std::shared_ptr<const transport::Acquisition> acquisition_;
   std::string acquired_;  // when the result was stored that `acquisition_` is or will be
   std::optional<Failure> readFailure_;
   std::optional<StepName> devicesUser_;
@@ -227,7 +231,7 @@ class Session : public QObject {
   bool screenMissing_ = false;
   std::optional<RoomLight> roomLight_;
   CheckPatience patience_;
-  Latest<std::shared_ptr<const Acquisition>> reading_;
+  Latest<std::shared_ptr<const transport::Acquisition>> reading_;
 };
 
 /// What the job of a measuring stage needs, without the session: it runs on another thread.
@@ -239,4 +243,4 @@ inline SessionWork workOf(const Session& session) {
   return {session.path(), session.devices()};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

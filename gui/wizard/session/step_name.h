@@ -5,7 +5,7 @@
 #include <QString>
 #include <string_view>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A step of the wizard: a word for programs, the same in every language, and its name for people.
 struct StepName {
@@ -21,4 +21,4 @@ struct StepName {
   }
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

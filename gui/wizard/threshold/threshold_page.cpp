@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/cut_estimate.h"
+#include "relucent/transport/cut_estimate.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
 
-bool keepsEverything(const ThresholdSettings& cut) {
+bool keepsEverything(const transport::ThresholdSettings& cut) {
   return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
 }
 
@@ -22,7 +22,7 @@ bool keepsEverything(const ThresholdSettings& cut) {
 ThresholdPage::ThresholdPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
       statistics_(
-          [this](TransportStatistics statistics) {
+          [this](transport::TransportStatistics statistics) {
             // Lowered to nothing meanwhile, the cut leaves everything.
             if (!keepsEverything(cut_)) kept_ = statistics;
             tellResult();
@@ -31,17 +31,17 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             Q_EMIT failed({failure, {}});
           }),
       first_(
-          [this](TransportStatistics statistics) {
+          [this](transport::TransportStatistics statistics) {
             whole_ = statistics;
             if (keepsEverything(cut_)) kept_ = statistics;
-            suggested_ = cutKeeping(statistics.histogram, suggestedShare);
+            suggested_ = transport::cutKeeping(statistics.histogram, suggestedShare);
             tellResult();
           },
           [this](const Failure& failure) {
             Q_EMIT failed({failure, {}});
           }),
       looking_(
-          [this](std::shared_ptr<const PixelFootprint> footprint) {
+          [this](std::shared_ptr<const transport::PixelFootprint> footprint) {
             if (!adopted_ || !picked_ ||
                 footprint->luminance.size() != adopted_->transport.projectors().count())
               return;
@@ -64,7 +64,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             Q_EMIT failed({failure, {}});
           }),
       picturing_(
-          [this](std::shared_ptr<const MatrixPictures> matrix) {
+          [this](std::shared_ptr<const transport::MatrixPictures> matrix) {
             if (!adopted_ || &matrix->transport() != &adopted_->transport) return;
             matrix_ = std::move(matrix);
             tellResult();
@@ -95,7 +95,7 @@ void ThresholdPage::adopt() {
   matrix_ = nullptr;
   forget();
   if (!adopted_) return;
-  first_.ask([acquisition = adopted_] { return statisticsOf(acquisition->transport); });
+  first_.ask([acquisition = adopted_] { return transport::statisticsOf(acquisition->transport); });
   compute();
 }
 
@@ -103,26 +103,30 @@ void ThresholdPage::compute() {
   if (adopted_) {
     if (whole_ && keepsEverything(cut_)) kept_ = whole_;
     if (!keepsEverything(cut_)) {
-      if (whole_ && !shareOfRow_) kept_ = estimatedAfterCut(*whole_, static_cast<double>(cut_.absolute));
-      statistics_.ask(
-          [acquisition = adopted_, cut = cut_] { return statisticsOf(acquisition->transport, cut); });
+      if (whole_ && !shareOfRow_)
+        kept_ = transport::estimatedAfterCut(*whole_, static_cast<double>(cut_.absolute));
+      statistics_.ask([acquisition = adopted_, cut = cut_] {
+        return transport::statisticsOf(acquisition->transport, cut);
+      });
     }
-    picturing_.ask([acquisition = adopted_, cut = cut_]() -> std::shared_ptr<const MatrixPictures> {
-      std::shared_ptr<const TransportMatrix> transport(acquisition, &acquisition->transport);
-      return std::make_shared<MatrixPictures>(transport, cut);
-    });
+    picturing_.ask(
+        [acquisition = adopted_, cut = cut_]() -> std::shared_ptr<const transport::MatrixPictures> {
+          std::shared_ptr<const transport::TransportMatrix> transport(acquisition, &acquisition->transport);
+          return std::make_shared<transport::MatrixPictures>(transport, cut);
+        });
   }
   tellAll();
 }
 
 StepStatus ThresholdPage::status() const {
-  switch (session_.progress(Stage::threshold)) {
-    case StageProgress::done:
+  switch (session_.progress(calibration::Stage::threshold)) {
+    case calibration::StageProgress::done:
       return {StepState::done,
-              tr("%1 of light kept").arg(percentText(session_.figures<Stage::threshold>()->energyKept))};
-    case StageProgress::stale:
+              tr("%1 of light kept")
+                  .arg(percentText(session_.figures<calibration::Stage::threshold>()->energyKept))};
+    case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
-    case StageProgress::open:
+    case calibration::StageProgress::open:
       break;
   }
   return {};
@@ -140,7 +144,8 @@ void ThresholdPage::updateCommands() {
 }
 
 std::optional<Banner> ThresholdPage::banner() const {
-  if (session_.progress(Stage::threshold) != StageProgress::stale) return std::nullopt;
+  if (session_.progress(calibration::Stage::threshold) != calibration::StageProgress::stale)
+    return std::nullopt;
   return Banner{Banner::Kind::amber, tr("The threshold was chosen for an earlier measurement"),
                 tr("Look at it again, then go on.")};
 }
@@ -200,8 +205,8 @@ void ThresholdPage::pickEntry(std::size_t row, std::size_t column) {
   if (!adopted_) return;
   const Rasters &cameras = adopted_->transport.cameras(), &projectors = adopted_->transport.projectors();
   if (row >= cameras.count() || column >= projectors.count()) return;
-  showCamera(deviceOfPixel(cameras, row));
-  showProjector(deviceOfPixel(projectors, column));
+  showCamera(transport::deviceOfPixel(cameras, row));
+  showProjector(transport::deviceOfPixel(projectors, column));
   picked_ = pixelAt(cameras.size(camera()), row - cameras.offset(camera()));
   pickedProjector_ = pixelAt(projectors.size(projector()), column - projectors.offset(projector()));
   follows_ = false;
@@ -223,22 +228,24 @@ std::optional<std::size_t> ThresholdPage::pickedColumn() const {
 }
 
 void ThresholdPage::lookAtRow() {
-  looking_.ask([acquisition = adopted_, row = *pickedRow()]() -> std::shared_ptr<const PixelFootprint> {
-    return std::make_shared<PixelFootprint>(footprintOf(acquisition->transport, row));
+  looking_.ask([acquisition = adopted_,
+                row = *pickedRow()]() -> std::shared_ptr<const transport::PixelFootprint> {
+    return std::make_shared<transport::PixelFootprint>(transport::footprintOf(acquisition->transport, row));
   });
 }
 
 void ThresholdPage::lookAtColumn() {
   lighting_.ask(
       [acquisition = adopted_, column = *pickedColumn()]() -> std::shared_ptr<const std::vector<float>> {
-        return std::make_shared<std::vector<float>>(lightOfPixel(acquisition->transport, column));
+        return std::make_shared<std::vector<float>>(transport::lightOfPixel(acquisition->transport, column));
       });
 }
 
 /// The pixel of the shown projector that lights the picked camera pixel most, if any does.
 void ThresholdPage::followFootprint() {
   const Rasters& projectors = adopted_->transport.projectors();
-  const std::optional<std::size_t> strongest = strongestPixel(*footprint_, projectors, projector());
+  const std::optional<std::size_t> strongest =
+      transport::strongestPixel(*footprint_, projectors, projector());
   if (!strongest) return;
   pickedProjector_ = pixelAt(projectors.size(projector()), *strongest);
   lookAtColumn();
@@ -260,14 +267,14 @@ void ThresholdPage::cameraChanged() {
 
 void ThresholdPage::accept() {
   try {
-    CalibrateSettings settings = session_.settings();
+    pipeline::CalibrateSettings settings = session_.settings();
     settings.threshold = cut_;
     session_.changeSettings(settings);
-    session_.decide(ThresholdResult{kept_->energyKept, kept_->leaves});
+    session_.decide(calibration::ThresholdResult{kept_->energyKept, kept_->leaves});
     Q_EMIT nextWanted();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -2,20 +2,20 @@
 #pragma once
 
 #include "jobs/latest.h"
-#include "transport/footprint.h"
-#include "transport/matrix_density.h"
-#include "transport/statistics.h"
+#include "relucent/transport/footprint.h"
+#include "relucent/transport/matrix_density.h"
+#include "relucent/transport/statistics.h"
 #include "wizard/devices/device_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Step 5: the faintest light that is worth keeping.
 class ThresholdPage : public DevicePage {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"threshold", "relucent::ThresholdPage",
-                                     QT_TRANSLATE_NOOP("relucent::ThresholdPage", "Threshold")};
+  static constexpr StepName stepName{"threshold", "relucent::gui::ThresholdPage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::ThresholdPage", "Threshold")};
 
   explicit ThresholdPage(Session& session, QObject* parent = nullptr);
 
@@ -29,17 +29,17 @@ class ThresholdPage : public DevicePage {
   std::optional<Banner> banner() const override;
   void enter() override { session_.wantAcquisition(); }
 
-  std::shared_ptr<const Acquisition> acquisition() const { return session_.acquisition(); }
+  std::shared_ptr<const transport::Acquisition> acquisition() const { return session_.acquisition(); }
   /// Of everything that was measured; none while it is being read.
-  const std::optional<TransportStatistics>& whole() const { return whole_; }
+  const std::optional<transport::TransportStatistics>& whole() const { return whole_; }
   /// Of what the cut leaves; follows the cut. At first as the histogram of the whole has it, where that
   /// knows, then counted.
-  const std::optional<TransportStatistics>& kept() const { return kept_; }
+  const std::optional<transport::TransportStatistics>& kept() const { return kept_; }
   bool isExact() const { return kept_.has_value() && !statistics_.isBusy(); }
   /// The highest cut that keeps nearly all light.
   double suggested() const { return suggested_; }
 
-  const ThresholdSettings& cut() const { return cut_; }
+  const transport::ThresholdSettings& cut() const { return cut_; }
   bool isShareOfRow() const { return shareOfRow_; }
   void setShareOfRow(bool share);
   void setAbsolute(double cut);
@@ -47,13 +47,13 @@ class ThresholdPage : public DevicePage {
   void useSuggested() { setAbsolute(suggested_); }
 
   /// Pictures of what the cut leaves of T; follows the cut.
-  const std::shared_ptr<const MatrixPictures>& matrix() const { return matrix_; }
+  const std::shared_ptr<const transport::MatrixPictures>& matrix() const { return matrix_; }
 
   /// A pixel of the shown camera that is looked at, and where its light comes from: its row of T.
   /// The shown projector's strongest pixel is then looked at as well.
   void pick(Pixel pixel);
   const std::optional<Pixel>& picked() const { return picked_; }
-  const std::shared_ptr<const PixelFootprint>& footprint() const { return footprint_; }
+  const std::shared_ptr<const transport::PixelFootprint>& footprint() const { return footprint_; }
   /// A pixel of the shown projector that is looked at, and what it lights: its column of T.
   void pickProjector(Pixel pixel);
   const std::optional<Pixel>& pickedProjector() const { return pickedProjector_; }
@@ -79,21 +79,21 @@ class ThresholdPage : public DevicePage {
   void accept();
 
   Command* accept_;
-  std::shared_ptr<const Acquisition> adopted_;
-  ThresholdSettings cut_;
+  std::shared_ptr<const transport::Acquisition> adopted_;
+  transport::ThresholdSettings cut_;
   bool shareOfRow_ = false;
   float absoluteBefore_ = 0.0f, shareBefore_ = 0.0f;  // of the way that is not used now
-  std::optional<TransportStatistics> whole_, kept_;
+  std::optional<transport::TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;
   std::optional<Pixel> picked_, pickedProjector_;
-  std::shared_ptr<const PixelFootprint> footprint_;
+  std::shared_ptr<const transport::PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;
-  std::shared_ptr<const MatrixPictures> matrix_;
+  std::shared_ptr<const transport::MatrixPictures> matrix_;
   bool follows_ = false;  // the projector's pixel is to be the picked row's strongest in that projector
-  Latest<TransportStatistics> statistics_, first_;
-  Latest<std::shared_ptr<const PixelFootprint>> looking_;
+  Latest<transport::TransportStatistics> statistics_, first_;
+  Latest<std::shared_ptr<const transport::PixelFootprint>> looking_;
   Latest<std::shared_ptr<const std::vector<float>>> lighting_;
-  Latest<std::shared_ptr<const MatrixPictures>> picturing_;
+  Latest<std::shared_ptr<const transport::MatrixPictures>> picturing_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

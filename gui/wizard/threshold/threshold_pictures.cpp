@@ -3,7 +3,7 @@
 
 #include <QStackedWidget>
 
-#include "pipeline/pictures.h"
+#include "relucent/pipeline/pictures.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/map_view.h"
@@ -14,7 +14,7 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/threshold/threshold_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// What a projector pixel lights, over the surface: the brighter, the less one sees through it.
@@ -95,8 +95,8 @@ class DeviceViews : public Card {
     if (model_.acquisition() != shown_ || otherCamera) {
       shown_ = model_.acquisition();
       if (shown_) {
-        Image flood = imageFromStack(shown_->flood, shown_->transport.cameras(), camera_);
-        flood_->setPicture(pictureOf(flood, displayWhite(flood)));
+        image::Image flood = image::imageFromStack(shown_->flood, shown_->transport.cameras(), camera_);
+        flood_->setPicture(pictureOf(flood, pipeline::displayWhite(flood)));
       } else {
         flood_->setPicture({});
       }
@@ -137,8 +137,8 @@ class DeviceViews : public Card {
 
   ThresholdPage& model_;
   MapView *flood_, *print_;
-  std::shared_ptr<const Acquisition> shown_;
-  std::shared_ptr<const PixelFootprint> footprint_;
+  std::shared_ptr<const transport::Acquisition> shown_;
+  std::shared_ptr<const transport::PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;
   std::size_t camera_ = 0, projector_ = 0;
   bool following_ = false;
@@ -183,7 +183,7 @@ class MatrixCard : public Card {
 
   ThresholdPage& model_;
   MatrixView* view_;
-  std::shared_ptr<const MatrixPictures> shown_;
+  std::shared_ptr<const transport::MatrixPictures> shown_;
   bool following_ = false;
 };
 
@@ -197,4 +197,4 @@ QWidget* matrixCard(ThresholdPage& model) {
   return new MatrixCard(model);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 class QWidget;
 
-namespace relucent {
+namespace relucent::gui {
 
 class ThresholdPage;
 
@@ -13,4 +13,4 @@ QWidget* deviceCard(ThresholdPage& model);
 /// T, following the cut and the pick.
 QWidget* matrixCard(ThresholdPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,10 +3,10 @@
 
 #include "wizard/threshold/threshold_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep thresholdStep() {
   return stepOf<ThresholdPage>();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,8 +3,8 @@
 
 #include "wizard/frame/wizard_step.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep thresholdStep();
 
-}  // namespace relucent
+}  // namespace relucent::gui

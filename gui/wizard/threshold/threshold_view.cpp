@@ -12,23 +12,24 @@
 #include "views/raster_axis.h"
 #include "wizard/threshold/threshold_pictures.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
-std::vector<CutHistogram::Bar> barsOf(const StrengthHistogram& histogram) {
+std::vector<CutHistogram::Bar> barsOf(const transport::StrengthHistogram& histogram) {
   std::vector<CutHistogram::Bar> bars;
-  for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin)
-    bars.push_back({strengthOfBin(bin), strengthOfBin(bin + 1), static_cast<double>(histogram.leaves[bin])});
+  for (std::size_t bin = 0; bin < transport::StrengthHistogram::bins; ++bin)
+    bars.push_back({transport::strengthOfBin(bin), transport::strengthOfBin(bin + 1),
+                    static_cast<double>(histogram.leaves[bin])});
   return bars;
 }
 
 /// The decades that hold anything.
-Axis axisOf(const StrengthHistogram& histogram) {
-  std::size_t first = 0, last = StrengthHistogram::bins - 1;
+Axis axisOf(const transport::StrengthHistogram& histogram) {
+  std::size_t first = 0, last = transport::StrengthHistogram::bins - 1;
   while (first < last && histogram.leaves[first] == 0) ++first;
   while (last > first && histogram.leaves[last] == 0) --last;
-  double low = std::pow(10.0, std::floor(std::log10(strengthOfBin(first)) + 1e-9));
-  double high = std::pow(10.0, std::ceil(std::log10(strengthOfBin(last + 1)) - 1e-9));
+  double low = std::pow(10.0, std::floor(std::log10(transport::strengthOfBin(first)) + 1e-9));
+  double high = std::pow(10.0, std::ceil(std::log10(transport::strengthOfBin(last + 1)) - 1e-9));
   return {low, std::max(high, 10.0 * low), true,
           ThresholdPage::tr("Transport value, camera signal a second")};
 }
@@ -120,7 +121,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     suggest->setEnabled(model.whole().has_value());
     suggest->setText(ThresholdPage::tr("Use suggested, %1").arg(numberText(model.suggested())));
     if (model.kept() && model.whole()) {
-      const TransportStatistics& kept = *model.kept();
+      const transport::TransportStatistics& kept = *model.kept();
       light->setValue(percentText(kept.energyKept), kept.energyKept < 0.95 ? "amber" : "good");
       connections->setValue(ThresholdPage::tr("%1 of %2")
                                 .arg(numberText(static_cast<double>(kept.connections)),
@@ -132,7 +133,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     for (QWidget* widget : std::initializer_list<QWidget*>{picked, litBy, strongest, direct, elsewhere})
       widget->setVisible(known);
     if (!known) return;
-    const PixelFootprint& footprint = *model.footprint();
+    const transport::PixelFootprint& footprint = *model.footprint();
     picked->setText(ThresholdPage::tr("Picked pixel %1, %2").arg(model.picked()->x).arg(model.picked()->y));
     const auto pixels = static_cast<int>(footprint.pixels);
     litBy->setValue(groupedText(ThresholdPage::tr("%n pixel(s)", nullptr, pixels), pixels));
@@ -150,4 +151,4 @@ PageView viewOf(ThresholdPage& model) {
   return {stageOf(model), inspectorOf(model)};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

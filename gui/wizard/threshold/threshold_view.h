@@ -4,8 +4,8 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/threshold/threshold_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(ThresholdPage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

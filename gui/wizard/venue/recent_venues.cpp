@@ -5,11 +5,11 @@
 #include <QDir>
 #include <QFileInfo>
 
-#include "base/error.h"
-#include "calibration/stage_progress.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/stored_settings.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 struct Translated {
@@ -18,12 +18,16 @@ struct Translated {
 
 constexpr const char* key = "recent/venues";
 
-QString stateOf(const CalibrationFolder& folder) {
-  if (progressOf(folder, Stage::acquisition) == StageProgress::open)
-    return progressOf(folder, Stage::linearization) == StageProgress::open ? Translated::tr("Nothing measured yet")
-                                                                           : Translated::tr("Acquire is next");
-  if (progressOf(folder, Stage::content) == StageProgress::done) return Translated::tr("Ready to play");
-  if (progressOf(folder, Stage::content) == StageProgress::stale) return Translated::tr("Preview out of date");
+QString stateOf(const calibration::CalibrationFolder& folder) {
+  if (calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open)
+    return calibration::progressOf(folder, calibration::Stage::linearization) ==
+                   calibration::StageProgress::open
+               ? Translated::tr("Nothing measured yet")
+               : Translated::tr("Acquire is next");
+  if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::done)
+    return Translated::tr("Ready to play");
+  if (calibration::progressOf(folder, calibration::Stage::content) == calibration::StageProgress::stale)
+    return Translated::tr("Preview out of date");
   return Translated::tr("Measured");
 }
 
@@ -39,9 +43,10 @@ QList<RecentVenue> RecentVenues::list() const {
     venue.name = QFileInfo(venue.folder).fileName();
     if (!QFileInfo::exists(venue.folder)) continue;
     try {
-      auto folder = CalibrationFolder::open(venue.folder.toStdString(), CalibrationFolder::Access::read);
+      auto folder = calibration::CalibrationFolder::open(venue.folder.toStdString(),
+                                                         calibration::CalibrationFolder::Access::read);
       venue.state = stateOf(folder);
-      venue.simulated = std::holds_alternative<VenueSettings>(settingsOf(folder).rig);
+      venue.simulated = std::holds_alternative<venue::VenueSettings>(pipeline::settingsOf(folder).rig);
     } catch (const Error&) {
       // It stays on the list: opening it tells what is wrong.
     }
@@ -59,4 +64,4 @@ void RecentVenues::add(const QString& folder, const QDateTime& now) {
   settings_.setValue(key, entries);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -6,7 +6,7 @@
 #include <QSettings>
 #include <QString>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A calibration that was opened before.
 struct RecentVenue {
@@ -32,4 +32,4 @@ class RecentVenues {
   QSettings& settings_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

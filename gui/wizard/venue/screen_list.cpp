@@ -5,13 +5,13 @@
 #include <QShortcut>
 #include <algorithm>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "theme/theme.h"
 #include "wizard/devices/identify_overlay.h"
 #include "wizard/venue/tile.h"
 #include "wizard/venue/venue_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr QSize largestTile(320, 200);
@@ -47,7 +47,7 @@ ScreenList::ScreenList(Chosen chosen, Offer offer)
   fill();
 }
 
-void ScreenList::start(const ScreenRigSettings::Display& chosen) {
+void ScreenList::start(const pipeline::ScreenRigSettings::Display& chosen) {
   chosen_.reset();
   for (const ScreenChoice& choice : offer_())
     if (choice.display == chosen) chosen_ = choice;
@@ -142,4 +142,4 @@ Card* screensCard(QWidget* stage, ScreenList* list) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -11,7 +11,7 @@
 #include "theme/controls.h"
 #include "wizard/devices/screen_choice.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 class Tile;
 
@@ -27,7 +27,7 @@ class ScreenList : public QWidget {
   using Offer = std::function<std::vector<ScreenChoice>()>;
   explicit ScreenList(Chosen chosen, Offer offer = screenChoices);
   /// Offers anew, with that screen chosen if it is there.
-  void start(const ScreenRigSettings::Display& chosen);
+  void start(const pipeline::ScreenRigSettings::Display& chosen);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -49,4 +49,4 @@ class ScreenList : public QWidget {
 /// A list on a card with the button that shows a number on each screen.
 Card* screensCard(QWidget* stage, ScreenList* list);
 
-}  // namespace relucent
+}  // namespace relucent::gui

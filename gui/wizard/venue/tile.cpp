@@ -9,7 +9,7 @@
 
 #include "theme/theme.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr int besideIcon = 20, besidePicture = 14;
@@ -157,4 +157,4 @@ void Tile::paintEvent(QPaintEvent*) {
                    sentence_);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

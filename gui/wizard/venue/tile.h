@@ -7,7 +7,7 @@
 
 #include "theme/icons.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A large choice: an icon or a picture, a name, and a sentence.
 class Tile : public QAbstractButton {
@@ -48,4 +48,4 @@ class Tile : public QAbstractButton {
   bool dashed_ = false;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

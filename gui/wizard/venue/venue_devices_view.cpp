@@ -8,7 +8,7 @@
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 QWidget* consentToBegin(VenuePage& model) {
   auto* part = new FlashConsent;
@@ -52,7 +52,7 @@ QWidget* devicesInspector(VenuePage& model) {
   column->addWidget(consentToBegin(model));
   column->addStretch(1);
   auto refresh = [&model, screen] {
-    const ScreenRigSettings& chosen = model.screen();
+    const pipeline::ScreenRigSettings& chosen = model.screen();
     screen->setValue(chosen.projector.empty()
                          ? QString::fromUtf8("–")
                          : QString("%1, %2").arg(QString::fromStdString(chosen.display.connector),
@@ -62,4 +62,4 @@ QWidget* devicesInspector(VenuePage& model) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,16 +5,16 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
-#include "calibration/calibration_folder.h"
+#include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
-const QString manifestName = CalibrationFolder::manifestName;
+const QString manifestName = calibration::CalibrationFolder::manifestName;
 
 QString sizeText(Size size) {
-  return relucent::sizeText(size.width, size.height);
+  return gui::sizeText(size.width, size.height);
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ QString VenuePage::subtitle() const {
 
 StepStatus VenuePage::status() const {
   if (!session_.isOpen()) return {StepState::open, mode_ == Mode::start ? QString() : tr("Setting up")};
-  if (const ScreenRigSettings* screen = session_.screenRig())
+  if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     return {StepState::done,
             tr("%1, %2").arg(QString::fromStdString(screen->display.connector), sizeText(screen->projector))};
   QString kind = session_.isSimulated() ? tr("simulated, %1") : tr("by script, %1");
@@ -204,7 +204,7 @@ void VenuePage::setSizes(std::vector<RehearsalSize> sizes) {
   tellSettings();
 }
 
-void VenuePage::setScript(const CommandRigSettings& script) {
+void VenuePage::setScript(const pipeline::CommandRigSettings& script) {
   script_ = script;
   tellSettings();
 }
@@ -266,4 +266,4 @@ void VenuePage::begin() {
   }
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

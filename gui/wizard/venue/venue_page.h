@@ -11,7 +11,7 @@
 
 class QDir;
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A simulated venue as it is offered.
 struct RehearsalVenue {
@@ -30,8 +30,8 @@ class VenuePage : public PageModel {
   Q_OBJECT
 
  public:
-  static constexpr StepName stepName{"venue", "relucent::VenuePage",
-                                     QT_TRANSLATE_NOOP("relucent::VenuePage", "Venue")};
+  static constexpr StepName stepName{"venue", "relucent::gui::VenuePage",
+                                     QT_TRANSLATE_NOOP("relucent::gui::VenuePage", "Venue")};
 
   enum class Mode { start, rehearse, script, devices, screen };
   /// What has to be changed before the venue can begin.
@@ -68,11 +68,11 @@ class VenuePage : public PageModel {
   /// Pixels of their own for tests and pictures.
   void setSizes(std::vector<RehearsalSize> sizes);
 
-  const CommandRigSettings& script() const { return script_; }
-  void setScript(const CommandRigSettings& script);
+  const pipeline::CommandRigSettings& script() const { return script_; }
+  void setScript(const pipeline::CommandRigSettings& script);
 
   /// The screen of the desktop that is the projector, in the mode `devices`.
-  const ScreenRigSettings& screen() const { return screen_; }
+  const pipeline::ScreenRigSettings& screen() const { return screen_; }
   void chooseScreen(const ScreenChoice& choice);
   /// What choosing that screen means, a sentence; empty: nothing out of the ordinary.
   QString screenWarning() const { return screenWarning_; }
@@ -118,7 +118,7 @@ class VenuePage : public PageModel {
     Remedy remedy = Remedy::none;
   };
   Problem firstProblem() const;
-  CalibrateSettings wanted() const;
+  pipeline::CalibrateSettings wanted() const;
   void begin();
   void useScreen();
   void reportNoVenue(const QDir& folder);
@@ -132,8 +132,8 @@ class VenuePage : public PageModel {
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;
   std::size_t venue_ = 0, size_ = 0;
-  CommandRigSettings script_;
-  ScreenRigSettings screen_;
+  pipeline::CommandRigSettings script_;
+  pipeline::ScreenRigSettings screen_;
   QString screenWarning_;
   QString venueName_, parent_;
   QString usualFolder_;
@@ -142,4 +142,4 @@ class VenuePage : public PageModel {
   Command *checkCamera_, *begin_, *useScreen_, *changeScreen_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

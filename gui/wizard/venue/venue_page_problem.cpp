@@ -4,14 +4,14 @@
 #include <QFileInfo>
 #include <QGuiApplication>
 
-#include "acquisition/forecast.h"
-#include "base/message.h"
 #include "jobs/free_space.h"
+#include "relucent/acquisition/forecast.h"
+#include "relucent/base/message.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/venue/venue_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 constexpr Size usualScreen{1920, 1080};
@@ -26,8 +26,8 @@ std::uint64_t VenuePage::freeBytes() const {
   return freeBytesAt(parent_);
 }
 
-CalibrateSettings VenuePage::wanted() const {
-  CalibrateSettings settings;
+pipeline::CalibrateSettings VenuePage::wanted() const {
+  pipeline::CalibrateSettings settings;
   if (isReal()) {
     if (mode_ == Mode::script)
       settings.rig = script_;
@@ -35,7 +35,7 @@ CalibrateSettings VenuePage::wanted() const {
       settings.rig = screen_;
     return settings;
   }
-  VenueSettings venue;
+  venue::VenueSettings venue;
   venue.name = venues_[venue_].id;
   venue.projector = sizes_[size_].projector;
   venue.camera = sizes_[size_].camera;
@@ -55,7 +55,7 @@ WorkLeft VenuePage::expected() const {
   constexpr std::size_t exposures = 2;
   constexpr double meanExposure = 0.1;
   Rasters projectors(std::vector<Size>(Session::projectorsOf(wanted().rig), projector));
-  return forecast({Rasters(camera), projectors, exposures, meanExposure}, {}, {}, {});
+  return acquisition::forecast({Rasters(camera), projectors, exposures, meanExposure}, {}, {}, {});
 }
 
 std::pair<double, double> VenuePage::expectedSeconds() const {
@@ -90,4 +90,4 @@ VenuePage::Problem VenuePage::firstProblem() const {
   return {};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

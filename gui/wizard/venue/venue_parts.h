@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-namespace relucent {
+namespace relucent::gui {
 
 class VenuePage;
 
@@ -25,4 +25,4 @@ QWidget* consentToBegin(VenuePage& model);
 /// Name, folder, and what it will take: the same for every kind of new venue.
 QWidget* keepingPart(VenuePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

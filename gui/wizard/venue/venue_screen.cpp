@@ -3,10 +3,10 @@
 
 #include <QGuiApplication>
 
-#include "base/error.h"
 #include "output/window_projector.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 VenueScreen::VenueScreen(Session& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&session_, &Session::opened, this, &VenueScreen::forget);
@@ -18,12 +18,12 @@ VenueScreen::VenueScreen(Session& session, QObject* parent) : QObject(parent), s
 }
 
 bool VenueScreen::isMissing() const {
-  const ScreenRigSettings* screen = session_.screenRig();
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
   return screen != nullptr && findScreen(identityOf(screen->display)) == nullptr;
 }
 
 std::vector<ScreenChoice> VenueScreen::choices() const {
-  const ScreenRigSettings* screen = session_.screenRig();
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
   if (screen == nullptr) return {};
   return session_.isMeasured() ? screenChoicesFor(screen->projector) : screenChoices();
 }
@@ -35,19 +35,19 @@ void VenueScreen::choose(const ScreenChoice& choice) {
 }
 
 bool VenueScreen::isDifferentScreen() const {
-  const ScreenRigSettings* screen = session_.screenRig();
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
   return screen != nullptr && chosen_ && chosen_->display != screen->display;
 }
 
 QString VenueScreen::meaning() const {
-  const ScreenRigSettings* screen = session_.screenRig();
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
   if (screen == nullptr || !session_.isMeasured()) return {};
   return meaningOfMove(session_.measuredDisplay(), chosen_ ? chosen_->display : screen->display);
 }
 
 void VenueScreen::apply() {
   require(isChangeable() && chosen_.has_value(), "there is no screen to change to");
-  const ScreenRigSettings changed = withScreen(*session_.screenRig(), *chosen_);
+  const pipeline::ScreenRigSettings changed = withScreen(*session_.screenRig(), *chosen_);
   chosen_.reset();
   // With nothing measured yet, a screen of other pixels will do.
   if (session_.isMeasured())
@@ -56,4 +56,4 @@ void VenueScreen::apply() {
     session_.changeRig(changed);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

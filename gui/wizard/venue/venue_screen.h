@@ -7,7 +7,7 @@
 #include "wizard/devices/screen_choice.h"
 #include "wizard/session/session.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Which screen the projector of the open calibration is: the one that it was begun with, until its cable
 /// hangs elsewhere.
@@ -42,4 +42,4 @@ class VenueScreen : public QObject {
   std::optional<ScreenChoice> chosen_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Screens for the calibration that is open, its own chosen whenever the page turns to them.
@@ -20,7 +20,7 @@ class OpenScreenList : public ScreenList {
 
  protected:
   void showEvent(QShowEvent* event) override {
-    if (const ScreenRigSettings* screen = model_.session().screenRig()) start(screen->display);
+    if (const pipeline::ScreenRigSettings* screen = model_.session().screenRig()) start(screen->display);
     ScreenList::showEvent(event);
   }
 
@@ -70,7 +70,7 @@ QWidget* screenInspector(VenuePage& model) {
                             "note"));
   column->addStretch(1);
   auto refresh = [&model, measured, used, pixels] {
-    const ScreenRigSettings* screen = model.session().screenRig();
+    const pipeline::ScreenRigSettings* screen = model.session().screenRig();
     if (screen == nullptr) return;
     measured->setVisible(model.session().isMeasured());
     measured->setValue(QString::fromStdString(model.session().measuredDisplay().connector));
@@ -81,4 +81,4 @@ QWidget* screenInspector(VenuePage& model) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

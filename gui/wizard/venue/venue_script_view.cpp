@@ -9,17 +9,17 @@
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 QLineEdit* commandLine(VenuePage& model, QVBoxLayout* column, const QString& name, const QString& example,
-                       std::string CommandRigSettings::*part) {
+                       std::string pipeline::CommandRigSettings::*part) {
   column->addWidget(labelOf(name, "note"));
   auto* line = new QLineEdit(QString::fromStdString(model.script().*part));
   line->setPlaceholderText(example);
   line->setAccessibleName(name);
   QObject::connect(line, &QLineEdit::textEdited, &model, [&model, part](const QString& text) {
-    CommandRigSettings script = model.script();
+    pipeline::CommandRigSettings script = model.script();
     script.*part = text.toStdString();
     model.setScript(script);
   });
@@ -35,7 +35,7 @@ QWidget* scriptStage(VenuePage& model) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
   column->addWidget(screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
-                                  CommandRigSettings script = model.script();
+                                  pipeline::CommandRigSettings script = model.script();
                                   script.projector = choice.size;
                                   model.setScript(script);
                                 })),
@@ -44,11 +44,11 @@ QWidget* scriptStage(VenuePage& model) {
   programs->setSubtitle(VenuePage::tr("Any projector and any camera that a command can drive"));
   commandLine(model, programs->body(),
               VenuePage::tr("Shows the file {image} and ends as soon as the projector shines it"),
-              "show-on-projector {image}", &CommandRigSettings::projectorCommand);
+              "show-on-projector {image}", &pipeline::CommandRigSettings::projectorCommand);
   commandLine(
       model, programs->body(),
       VenuePage::tr("Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF"),
-      "photograph --seconds {exposure} --to {output}", &CommandRigSettings::cameraCommand);
+      "photograph --seconds {exposure} --to {output}", &pipeline::CommandRigSettings::cameraCommand);
   programs->body()->addStretch(1);
   column->addWidget(programs, 1);
   return stage;
@@ -66,7 +66,7 @@ QWidget* scriptInspector(VenuePage& model) {
     box->setValue(model.script().projector.*side);
     box->setAccessibleName(side == &Size::width ? VenuePage::tr("Width") : VenuePage::tr("Height"));
     QObject::connect(box, &QSpinBox::valueChanged, &model, [&model, side](int value) {
-      CommandRigSettings script = model.script();
+      pipeline::CommandRigSettings script = model.script();
       if (script.projector.*side == value) return;
       script.projector.*side = value;
       model.setScript(script);
@@ -85,4 +85,4 @@ QWidget* scriptInspector(VenuePage& model) {
   return card;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

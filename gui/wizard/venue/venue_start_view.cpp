@@ -8,7 +8,7 @@
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 class RecentRow : public QFrame {
@@ -134,4 +134,4 @@ QWidget* startStage(VenuePage& model) {
   return new StartStage(model);
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -3,7 +3,7 @@
 
 #include "wizard/venue/venue_view.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 WizardStep venueStep() {
   return stepOf<VenuePage>([](const PageContext& context) {
@@ -17,4 +17,4 @@ WizardStep venueStep() {
   });
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

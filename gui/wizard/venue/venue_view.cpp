@@ -13,7 +13,7 @@
 #include "wizard/venue/tile.h"
 #include "wizard/venue/venue_parts.h"
 
-namespace relucent {
+namespace relucent::gui {
 namespace {
 
 /// Name, folder, and what it will take: the same for every kind of new venue.
@@ -151,4 +151,4 @@ PageView viewOf(VenuePage& model) {
   return {stages, inspectors};
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -4,8 +4,8 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/venue/venue_page.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 PageView viewOf(VenuePage& model);
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "acquisition/acquisition.h"
-#include "base/random.h"
+#include "relucent/acquisition/acquisition.h"
+#include "relucent/base/random.h"
+#include "relucent/transport/difference.h"
 #include "support/scripted_rig.h"
-#include "transport/difference.h"
 
 /// A scripted venue and one run of acquisition in it, for the tests of this folder.
 namespace relucent::test {
@@ -20,9 +20,9 @@ struct Venue {
   double noise = 0.0;  // standard deviation of the read noise; photon noise goes with it
   double drift = 0.0;
   double black = 1e-3;
-  std::function<void(const CaptureRequest&)> beforeCapture;
+  std::function<void(const rig::CaptureRequest&)> beforeCapture;
   std::vector<double> exposures{0.2, 0.05};
-  AcquisitionSettings settings;
+  acquisition::AcquisitionSettings settings;
 };
 
 /// One run of acquisition in a scripted venue.
@@ -43,21 +43,21 @@ class Run {
     settings_ = venue.settings;
     linearization_.exposures = venue.exposures;
     linearization_.cameras.resize(rig_.cameras.size());
-    for (CameraModel& model : linearization_.cameras) {
+    for (hdr::CameraModel& model : linearization_.cameras) {
       model.readNoise = std::max(1e-7, venue.noise);
       model.gain = camera.gain;
     }
   }
-  Acquisition operator()(ShotLog& log, Progress progress = {}) {
-    ShotTaker shots(rig_, log, "acquisition");
-    return acquire({shots, linearization_, settings_}, progress);
+  transport::Acquisition operator()(rig::ShotLog& log, Progress progress = {}) {
+    rig::ShotTaker shots(rig_, log, "acquisition");
+    return acquisition::acquire({shots, linearization_, settings_}, progress);
   }
-  Acquisition operator()() {
-    NoShotLog log;
+  transport::Acquisition operator()() {
+    rig::NoShotLog log;
     return (*this)(log);
   }
 
-  TransportMatrix truth;
+  transport::TransportMatrix truth;
 
  private:
   /// Two projectors and the far field on top of white: still below saturation at 0.05 s.
@@ -67,21 +67,21 @@ class Run {
     return synthetic;
   }
 
-  Rig rig_;
-  Linearization linearization_;
-  AcquisitionSettings settings_;
+  rig::Rig rig_;
+  linearization::Linearization linearization_;
+  acquisition::AcquisitionSettings settings_;
 };
 
-class MemoryLog : public ShotLog {
+class MemoryLog : public rig::ShotLog {
  public:
-  std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) override {
+  std::optional<rig::Shot> find(const rig::ShotId& id, const std::string& fingerprint) override {
     auto found = shots.find(id.number);
     if (found == shots.end() || found->second.fingerprint != fingerprint) return std::nullopt;
     return found->second;
   }
-  void keep(const Shot& shot) override { shots[shot.id.number] = shot; }
-  void forget(const ShotId& id, const std::string&) override { shots.erase(id.number); }
-  std::map<int, Shot> shots;
+  void keep(const rig::Shot& shot) override { shots[shot.id.number] = shot; }
+  void forget(const rig::ShotId& id, const std::string&) override { shots.erase(id.number); }
+  std::map<int, rig::Shot> shots;
 };
 
 inline double relativeError(const Stack& a, const Stack& b) {
@@ -93,7 +93,7 @@ inline double relativeError(const Stack& a, const Stack& b) {
   return std::sqrt(apart / whole);
 }
 
-inline double energyOf(const TransportMatrix& transport) {
+inline double energyOf(const transport::TransportMatrix& transport) {
   double sum = 0.0;
   for (float value : transport.floodlight()) sum += static_cast<double>(value);
   return sum;
@@ -124,11 +124,11 @@ inline Stack randomPattern(const Rasters& projectors) {
   return pattern;
 }
 
-inline std::size_t flaggedIn(const Acquisition& acquisition) {
+inline std::size_t flaggedIn(const transport::Acquisition& acquisition) {
   return static_cast<std::size_t>(std::count(acquisition.flagged.begin(), acquisition.flagged.end(), 1));
 }
 
-inline int finestLevel(const TransportMatrix& transport) {
+inline int finestLevel(const transport::TransportMatrix& transport) {
   int finest = transport.layout().levels();
   for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry)
     finest = std::min(finest, transport.layout().node(transport.leaves().column(entry)).level);
@@ -143,10 +143,10 @@ inline Venue smallVenue() {
   return venue;
 }
 
-inline QString shown(const Acquisition& a, const TransportMatrix& truth) {
+inline QString shown(const transport::Acquisition& a, const transport::TransportMatrix& truth) {
   return QString(
              "frobenius %1, energy %2, unresolved %3, verification %4, %5 patterns, %6 exposures, %7 flagged")
-      .arg(difference(a.transport, truth).frobenius)
+      .arg(transport::difference(a.transport, truth).frobenius)
       .arg(energyOf(a.transport) / energyOf(truth) - 1.0)
       .arg(a.unresolvedEnergy)
       .arg(a.verificationError)

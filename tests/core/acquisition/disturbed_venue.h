@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "devices/sensor_frame.h"
-#include "rig/rig.h"
+#include "relucent/devices/sensor_frame.h"
+#include "relucent/rig/rig.h"
 
 namespace relucent::test {
 
@@ -35,7 +35,7 @@ struct Disturbance {
   std::vector<int> shots{};      // in whose first photograph it strikes, ...
   int photographs = 1;           // ... and how many it spoils there, one after the other
   std::chrono::seconds lasts{};  // how long a camera or a card stays away
-  ExposureRange claimed{1.0 / 8000.0, 4.0}, kept{1.0 / 8000.0, 4.0};
+  rig::ExposureRange claimed{1.0 / 8000.0, 4.0}, kept{1.0 / 8000.0, 4.0};
 };
 
 inline constexpr double longExposure = 1.0 / 8.0, shortExposure = 1.0 / 80.0;
@@ -43,15 +43,15 @@ inline constexpr double longExposure = 1.0 / 8.0, shortExposure = 1.0 / 80.0;
 /// What the devices of one run share: the simulated ones, what disturbs them, and what came of it.
 class DisturbedVenue {
  public:
-  DisturbedVenue(Rig simulated, Disturbance disturbance)
+  DisturbedVenue(rig::Rig simulated, Disturbance disturbance)
       : simulated_(std::move(simulated)), disturbance_(std::move(disturbance)) {}
 
   const Disturbance& disturbance() const { return disturbance_; }
-  Projector& projector() { return *simulated_.projectors.front(); }
+  rig::Projector& projector() { return *simulated_.projectors.front(); }
   Size size() const { return simulated_.cameras.front()->size(); }
 
   /// The name of the next photograph: the key of its noise, which reaches no real camera.
-  void ask(const CaptureRequest& request) {
+  void ask(const rig::CaptureRequest& request) {
     request_ = request;
     photographed_.insert(request.shot.number);
     const auto& shots = disturbance_.shots;
@@ -78,24 +78,24 @@ class DisturbedVenue {
     return std::clamp(share * seconds, disturbance_.kept.shortest, disturbance_.kept.longest);
   }
 
-  void show(const Image& picture) {
+  void show(const image::Image& picture) {
     projector().show(picture);
     stayedVisible_ = true;
   }
   bool stayedVisible() const { return stayedVisible_; }
 
   /// 12 bits a sample, exposed now.
-  SensorFrame photograph(double seconds) {
-    Image signal = look(seconds);
+  devices::SensorFrame photograph(double seconds) {
+    image::Image signal = look(seconds);
     if (strikes(Fault::vanishingScreen)) {
-      projector().show(Image(projector().size(), 3));
+      projector().show(image::Image(projector().size(), 3));
       stayedVisible_ = false;
       // The rows of a rolling shutter that were still to come.
-      const Image dark = look(seconds);
+      const image::Image dark = look(seconds);
       const auto half = static_cast<std::ptrdiff_t>(signal.data().size() / 2);
       std::copy(dark.data().begin() + half, dark.data().end(), signal.data().begin() + half);
     }
-    SensorFrame frame{signal.size(), {SensorLayout::rgb, 12}, {}};
+    devices::SensorFrame frame{signal.size(), {devices::SensorLayout::rgb, 12}, {}};
     for (float value : signal.data()) {
       const auto code = static_cast<unsigned>(std::lround(value * 4095.0f));
       frame.bytes.push_back(static_cast<std::uint8_t>(code & 0xffu));
@@ -111,13 +111,13 @@ class DisturbedVenue {
   int captures = 0;   // photographs that were used
 
  private:
-  Image look(double seconds) {
+  image::Image look(double seconds) {
     return simulated_.cameras.front()->capture({request_.shot, request_.exposure, seconds}).signal;
   }
 
-  Rig simulated_;
+  rig::Rig simulated_;
   Disturbance disturbance_;
-  CaptureRequest request_;
+  rig::CaptureRequest request_;
   std::set<int> photographed_, struck_;
   int toSpoil_ = 0, spoilt_ = 0;
   bool stayedVisible_ = false;

@@ -4,10 +4,14 @@
 #include <QtTest>
 
 #include "acquisition_run.h"
-#include "base/message.h"
+#include "relucent/base/message.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 class TestAcquisition : public QObject {

@@ -5,12 +5,18 @@
 #include <filesystem>
 
 #include "acquisition_run.h"
-#include "base/message.h"
-#include "calibration/shot_journal.h"
 #include "disturbed_rig.h"
+#include "relucent/base/message.h"
+#include "relucent/calibration/shot_journal.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+using namespace relucent::transport;
+using namespace relucent::venue;
 using namespace relucent::test;
 namespace fs = std::filesystem;
 

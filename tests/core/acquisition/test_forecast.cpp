@@ -2,11 +2,15 @@
 #include <QtTest>
 #include <cmath>
 
-#include "acquisition/forecast.h"
 #include "acquisition_run.h"
-#include "base/message.h"
+#include "relucent/acquisition/forecast.h"
+#include "relucent/base/message.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::image;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TBB before Qt: its functions have names that Qt defines as keywords.
-#include "acquisition/lookahead.h"
+#include "relucent/acquisition/lookahead.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -11,9 +11,13 @@
 #include <stdexcept>
 
 #include "acquisition_run.h"
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::photography;
+using namespace relucent::sentinels;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "acquisition/reverification.h"
-#include "base/message.h"
-#include "venue/device_faults.h"
-#include "venue/venue.h"
+#include "relucent/acquisition/reverification.h"
+#include "relucent/base/message.h"
+#include "relucent/venue/device_faults.h"
+#include "relucent/venue/venue.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+using namespace relucent::transport;
+using namespace relucent::venue;
 
 namespace {
 

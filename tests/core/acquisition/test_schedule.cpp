@@ -4,10 +4,12 @@
 #include <QtTest>
 #include <set>
 
-#include "acquisition/schedule.h"
-#include "base/random.h"
+#include "relucent/acquisition/schedule.h"
+#include "relucent/base/random.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::transport;
 
 namespace {
 

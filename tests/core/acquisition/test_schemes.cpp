@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "acquisition/scheme.h"
 #include "acquisition_run.h"
+#include "relucent/acquisition/scheme.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -4,12 +4,18 @@
 #include <numeric>
 
 #include "acquisition_run.h"
-#include "base/error.h"
-#include "sentinels/observer.h"
-#include "venue/device_faults.h"
-#include "venue/venue.h"
+#include "relucent/base/error.h"
+#include "relucent/sentinels/observer.h"
+#include "relucent/venue/device_faults.h"
+#include "relucent/venue/venue.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+using namespace relucent::sentinels;
+using namespace relucent::transport;
+using namespace relucent::venue;
 using namespace relucent::test;
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/enum_names.h"
+#include "relucent/base/enum_names.h"
 
 using namespace relucent;
 

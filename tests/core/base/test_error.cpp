@@ -2,7 +2,7 @@
 #include <QtTest>
 #include <set>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 
 using namespace relucent;
 

@@ -6,8 +6,8 @@
 #include <QtTest>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/file.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
 #include "support/sentences.h"
 
 using namespace relucent;

@@ -2,7 +2,7 @@
 #include <QtTest>
 #include <set>
 
-#include "base/fingerprint.h"
+#include "relucent/base/fingerprint.h"
 
 using namespace relucent;
 

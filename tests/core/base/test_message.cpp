@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
+#include "relucent/base/message.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TBB before Qt: its functions have names that Qt defines as keywords.
-#include "base/parallel.h"
+#include "relucent/base/parallel.h"
 
 #include <tbb/global_control.h>
 
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "base/random.h"
+#include "relucent/base/random.h"
 
 using namespace relucent;
 

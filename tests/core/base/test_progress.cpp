@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/progress.h"
-#include "base/random.h"
+#include "relucent/base/progress.h"
+#include "relucent/base/random.h"
 
 using namespace relucent;
 

@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "base/random.h"
+#include "relucent/base/random.h"
 
 using namespace relucent;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/raster.h"
+#include "relucent/base/raster.h"
 
 using namespace relucent;
 

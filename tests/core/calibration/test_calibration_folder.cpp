@@ -6,12 +6,13 @@
 #include <QTest>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "calibration/calibration_folder.h"
-#include "calibration/json.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/json.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
 namespace fs = std::filesystem;
 using Access = CalibrationFolder::Access;
 

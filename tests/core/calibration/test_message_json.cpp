@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
-#include "calibration/message_json.h"
+#include "relucent/base/message.h"
+#include "relucent/calibration/message_json.h"
 
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::calibration;
 
 namespace {
 

@@ -3,13 +3,17 @@
 #include <QTest>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/random.h"
-#include "calibration/json.h"
-#include "calibration/results.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/random.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/results.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::hdr;
+using namespace relucent::linearization;
+using namespace relucent::transport;
 namespace fs = std::filesystem;
 
 namespace {

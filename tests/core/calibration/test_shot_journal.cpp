@@ -13,12 +13,15 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/random.h"
-#include "calibration/shot_journal.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/random.h"
+#include "relucent/calibration/shot_journal.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::image;
+using namespace relucent::rig;
 namespace fs = std::filesystem;
 
 namespace {

@@ -4,13 +4,14 @@
 #include <QTest>
 #include <set>
 
-#include "base/file.h"
-#include "calibration/json.h"
-#include "calibration/results.h"
-#include "calibration/stage_fingerprint.h"
-#include "calibration/stage_progress.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_progress.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
 namespace fs = std::filesystem;
 
 static_assert(std::is_same_v<ResultOf<Stage::threshold>, ThresholdResult>);

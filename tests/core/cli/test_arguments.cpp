@@ -2,9 +2,15 @@
 #include <QTest>
 #include <cstdlib>
 
-#include "cli/arguments.h"
+#include "relucent/cli/arguments.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::cli;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 namespace {
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/message.h"
-#include "cli/devices_document.h"
+#include "relucent/base/message.h"
+#include "relucent/cli/devices_document.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::cli;
+using namespace relucent::devices;
 
 namespace {
 

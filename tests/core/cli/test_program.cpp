@@ -8,11 +8,12 @@
 #include <QTemporaryDir>
 #include <QTest>
 
-#include "base/error.h"
-#include "calibration/calibration_folder.h"
-#include "cli/interruption.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/cli/interruption.h"
 
 using namespace relucent;
+using namespace relucent::cli;
 
 namespace {
 

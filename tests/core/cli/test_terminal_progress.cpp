@@ -2,10 +2,11 @@
 #include <QTest>
 #include <sstream>
 
-#include "base/random.h"
-#include "cli/terminal_progress.h"
+#include "relucent/base/random.h"
+#include "relucent/cli/terminal_progress.h"
 
 using namespace relucent;
+using namespace relucent::cli;
 using Seconds = std::chrono::duration<double>;
 
 namespace {

@@ -6,15 +6,15 @@
 #include <limits>
 #include <vector>
 
-#include "clustering/clustering.h"
-#include "image/colour.h"
+#include "relucent/clustering/clustering.h"
+#include "relucent/image/colour.h"
 
 namespace relucent {
 
 /// Algorithm 1, transcribed line by line on a dense table, as slow as it reads.
 class AsPrinted {
  public:
-  AsPrinted(const TransportMatrix& transport, double thresh1, double thresh2)
+  AsPrinted(const transport::TransportMatrix& transport, double thresh1, double thresh2)
       : projectors_(transport.projectors()),
         rows_(transport.cameras().count()),
         columns_(projectors_.count()),
@@ -22,13 +22,14 @@ class AsPrinted {
         connected_(rows_ * columns_, false) {
     for (std::size_t i = 0; i < rows_; ++i)
       for (std::size_t e = transport.leaves().rowBegin(i); e < transport.leaves().rowBegin(i + 1); ++e) {
-        ColourBlock b = transport.leaves().block(i, e);
+        transport::ColourBlock b = transport.leaves().block(i, e);
         std::array<int, 3> sum{};
         for (std::size_t c = 0; c < 3; ++c)
           for (std::size_t p = 0; p < 3; ++p) sum[c] += transport.leaves().code(e)[3 * c + p];
         at(i, transport.leaves().column(e)) =
-            transport.leaves().scale(i) *
-            luminanceOf(static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]));
+            transport.leaves().scale(i) * image::luminanceOf(static_cast<float>(sum[0]),
+                                                             static_cast<float>(sum[1]),
+                                                             static_cast<float>(sum[2]));
         connected_[i * columns_ + transport.leaves().column(e)] = b.sum() > 0;
       }
     std::vector<bool> original = connected_;
@@ -68,10 +69,10 @@ class AsPrinted {
 
   /// Components by flooding.
   std::vector<std::uint32_t> projectorClusters() const {
-    std::vector<std::uint32_t> cluster(columns_, noCluster);
+    std::vector<std::uint32_t> cluster(columns_, clustering::noCluster);
     std::uint32_t next = 0;
     for (std::size_t start = 0; start < columns_; ++start) {
-      if (cluster[start] != noCluster || !anyRow(start)) continue;
+      if (cluster[start] != clustering::noCluster || !anyRow(start)) continue;
       std::vector<std::size_t> front{start};
       cluster[start] = next;
       while (!front.empty()) {
@@ -79,7 +80,7 @@ class AsPrinted {
         front.pop_back();
         for (std::size_t i = 0; i < rows_; ++i)
           for (std::size_t k = 0; k < columns_ && connected(i, j); ++k)
-            if (connected(i, k) && cluster[k] == noCluster) {
+            if (connected(i, k) && cluster[k] == clustering::noCluster) {
               cluster[k] = next;
               front.push_back(k);
             }

@@ -4,9 +4,9 @@
 #include <QtTest>
 #include <vector>
 
-#include "base/random.h"
-#include "clustering/clustering.h"
 #include "core/inverse/synthetic_transport.h"
+#include "relucent/base/random.h"
+#include "relucent/clustering/clustering.h"
 
 namespace relucent {
 
@@ -15,17 +15,17 @@ inline Progress quiet;
 /// Single floats, sums of some hundred terms, and 16-bit values: of a row's norm.
 inline constexpr double rounding = 3e-4;
 
-inline TransportMatrix pixelTransport(Rasters cameras, Rasters projectors, double density, std::uint64_t seed,
-                                      bool ties) {
-  NodeLayout layout(projectors);
+inline transport::TransportMatrix pixelTransport(Rasters cameras, Rasters projectors, double density,
+                                                 std::uint64_t seed, bool ties) {
+  transport::NodeLayout layout(projectors);
   Random random{seed, 3};
-  BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 4.0f));
+  transport::BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 4.0f));
   for (std::size_t row = 0; row < cameras.count(); ++row)
     for (std::size_t pixel = 0; pixel < projectors.count(); ++pixel) {
       if (random.uniform() >= density) continue;
       // Few different values: ties within rows and columns are what transcriptions get wrong.
       float value = ties ? 1.0f + static_cast<float>(random.below(3)) : 0.1f + 3.0f * random.uniformFloat();
-      ColourBlock block = ColourBlock::Constant(value);
+      transport::ColourBlock block = transport::ColourBlock::Constant(value);
       if (!ties)
         for (int i = 0; i < 9; ++i) block.data()[i] *= random.uniformFloat();
       builder.add(row, pixel, block);
@@ -33,30 +33,30 @@ inline TransportMatrix pixelTransport(Rasters cameras, Rasters projectors, doubl
   return {cameras, projectors, builder.build()};
 }
 
-inline std::vector<std::uint8_t> all(const TransportMatrix& transport) {
+inline std::vector<std::uint8_t> all(const transport::TransportMatrix& transport) {
   return std::vector<std::uint8_t>(transport.cameras().count(), 1);
 }
 
-inline ConnectionGraph everything(const TransportMatrix& transport) {
-  return ConnectionGraph(transport, all(transport), {0.0, 30}, quiet);
+inline clustering::ConnectionGraph everything(const transport::TransportMatrix& transport) {
+  return clustering::ConnectionGraph(transport, all(transport), {0.0, 30}, quiet);
 }
 
-inline ClusteringSettings asPrinted(double radius, double cut) {
-  ClusteringSettings settings;
+inline clustering::ClusteringSettings asPrinted(double radius, double cut) {
+  clustering::ClusteringSettings settings;
   settings.patchRadius = radius;
   settings.patchCut = cut;
-  settings.cap = SizeCap::never;
+  settings.cap = clustering::SizeCap::never;
   return settings;
 }
 
 /// The laws that every clustering obeys.
-inline void verifyPartition(const Clustering& clustering) {
-  std::vector<ClusterSize> counted(clustering.sizes.size());
+inline void verifyPartition(const clustering::Clustering& clustering) {
+  std::vector<clustering::ClusterSize> counted(clustering.sizes.size());
   for (std::uint32_t cluster : clustering.projectorCluster)
-    if (cluster != noCluster) ++counted.at(cluster).unknowns;
+    if (cluster != clustering::noCluster) ++counted.at(cluster).unknowns;
   for (std::uint32_t cluster : clustering.cameraCluster)
-    if (cluster != noCluster) ++counted.at(cluster).rows;
-  const BlockSparse& leaves = clustering.transport.leaves();
+    if (cluster != clustering::noCluster) ++counted.at(cluster).rows;
+  const transport::BlockSparse& leaves = clustering.transport.leaves();
   for (std::size_t i = 0; i < leaves.rows(); ++i)
     for (std::size_t e = leaves.rowBegin(i); e < leaves.rowBegin(i + 1); ++e) {
       QCOMPARE(clustering.projectorCluster.at(leaves.column(e)), clustering.cameraCluster[i]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Algorithm 1 against its literal transcription, and what its cuts do to the light.
-#include "clustering/clustering.h"
+#include "relucent/clustering/clustering.h"
 
 #include <QtTest>
 #include <cmath>
@@ -10,6 +10,8 @@
 #include "core/clustering/clustering_cases.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::transport;
 
 class TestAlgorithmOne : public QObject {
   Q_OBJECT

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/cluster_map.h"
+#include "relucent/clustering/cluster_map.h"
 
 #include <QtTest>
 #include <algorithm>
 
-#include "base/random.h"
-#include "clustering/clustering.h"
+#include "relucent/base/random.h"
+#include "relucent/clustering/clustering.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "clustering/clustering.h"
+#include "relucent/clustering/clustering.h"
 
 #include <tbb/global_control.h>
 
@@ -7,13 +7,15 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "core/clustering/clustering_cases.h"
 #include "core/transport/expanded.h"
 #include "core/transport/random_blocks.h"
+#include "relucent/base/error.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::transport;
 
 class TestClustering : public QObject {
   Q_OBJECT

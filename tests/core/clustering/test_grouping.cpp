@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The first half of clustering, which sliders ask for again and again.
-#include "clustering/grouping.h"
+#include "relucent/clustering/grouping.h"
 
 #include <tbb/global_control.h>
 
-#include "base/parallel.h"  // TBB has functions of the names that Qt's keywords have
+#include "relucent/base/parallel.h"  // TBB has functions of the names that Qt's keywords have
 
 #include <QtTest>
 #include <algorithm>
@@ -12,11 +12,13 @@
 #include <numeric>
 #include <tuple>
 
-#include "clustering/disjoint_sets.h"
 #include "core/clustering/clustering_cases.h"
+#include "relucent/clustering/disjoint_sets.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::transport;
 
 namespace {
 

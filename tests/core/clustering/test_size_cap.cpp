@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Percolation, and the cap that holds clusters to a size.
-#include "base/message.h"
-#include "clustering/clustering.h"
+#include "relucent/base/message.h"
+#include "relucent/clustering/clustering.h"
 
 #include <QtTest>
 #include <cmath>
@@ -9,6 +9,8 @@
 #include "core/clustering/clustering_cases.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::transport;
 
 class TestSizeCap : public QObject {
   Q_OBJECT

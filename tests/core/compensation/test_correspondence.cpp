@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/correspondence.h"
+#include "relucent/compensation/correspondence.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include "core/inverse/synthetic_transport.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/dense_box.h"
+#include "relucent/compensation/dense_box.h"
 
 #include <QtTest>
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/random.h"
 #include "core/compensation/scipy_reference.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
 using namespace relucent::reference;
 
 namespace {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/direct_light.h"
+#include "relucent/compensation/direct_light.h"
 
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
+#include "relucent/base/error.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/methods.h"
+#include "relucent/compensation/methods.h"
 
 #include <QtTest>
 #include <cmath>
@@ -8,6 +8,11 @@
 #include "core/inverse/synthetic_transport.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::compensation;
+using namespace relucent::image;
+using namespace relucent::inverse;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

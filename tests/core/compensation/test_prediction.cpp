@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/prediction.h"
+#include "relucent/compensation/prediction.h"
 
 #include <QtTest>
 #include <cmath>
@@ -7,6 +7,8 @@
 #include "core/inverse/synthetic_transport.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::image;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/ridge_choice.h"
+#include "relucent/compensation/ridge_choice.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::inverse;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/solver.h"
+#include "relucent/compensation/solver.h"
 
 #include <tbb/global_control.h>
 
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
 #include "core/compensation/scipy_reference.h"
 #include "core/inverse/synthetic_transport.h"
+#include "relucent/base/error.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::transport;
 using namespace relucent::reference;
 using namespace relucent::synthetic;
 
@@ -113,7 +115,8 @@ class TestSolver : public QObject {
     QTest::addColumn<int>("seed");
     for (Algorithm algorithm : {Algorithm::fista, Algorithm::barzilaiBorwein, Algorithm::steepestDescent})
       for (int seed = 1; seed <= 3; ++seed)
-        QTest::addRow("%s, seed %d", std::string(nameOf(algorithm)).c_str(), seed) << static_cast<int>(algorithm) << seed;
+        QTest::addRow("%s, seed %d", std::string(nameOf(algorithm)).c_str(), seed)
+            << static_cast<int>(algorithm) << seed;
   }
   SolverSettings exact(int algorithm) {
     SolverSettings settings;

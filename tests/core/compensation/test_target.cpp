@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compensation/target.h"
+#include "relucent/compensation/target.h"
 
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
+#include "relucent/base/error.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::image;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

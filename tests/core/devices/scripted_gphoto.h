@@ -7,9 +7,9 @@
 #include <map>
 #include <memory>
 
-#include "base/error.h"
-#include "devices/gphoto_driver.h"
-#include "devices/shutter_speed.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/gphoto_driver.h"
+#include "relucent/devices/shutter_speed.h"
 
 namespace relucent::test {
 
@@ -20,8 +20,8 @@ struct StillScript {
   /// What is wrong with it from now on, until a time.
   enum class Trouble { none, unplugged, asleep, claimed, full, flat };
 
-  std::vector<GphotoCamera> cameras{{"Canon EOS 80D", "usb:001,005"}};
-  std::map<std::string, GphotoSetting> settings{};
+  std::vector<devices::GphotoCamera> cameras{{"Canon EOS 80D", "usb:001,005"}};
+  std::map<std::string, devices::GphotoSetting> settings{};
   std::vector<std::string> stubborn{}, refusing{};  // settings that do not change: silently, with an error
   std::deque<Answer> answers{};                     // to the next requests; then only good ones
   std::chrono::seconds lateBy{20};                  // of Answer::late
@@ -119,16 +119,16 @@ inline StillScript sony() {
   return script;
 }
 
-class ScriptedPort : public GphotoPort {
+class ScriptedPort : public devices::GphotoPort {
  public:
   explicit ScriptedPort(std::shared_ptr<StillScript> script) : script_(std::move(script)) {}
 
-  std::vector<GphotoCamera> list() override {
+  std::vector<devices::GphotoCamera> list() override {
     return script_->now() == StillScript::Trouble::unplugged || script_->now() == StillScript::Trouble::flat
-               ? std::vector<GphotoCamera>{}
+               ? std::vector<devices::GphotoCamera>{}
                : script_->cameras;
   }
-  void open(const GphotoCamera&) override {
+  void open(const devices::GphotoCamera&) override {
     answer();
     ++script_->opened;
     isOpen_ = true;
@@ -138,7 +138,7 @@ class ScriptedPort : public GphotoPort {
     if (isOpen_) ++script_->closed;
     isOpen_ = false;
   }
-  std::optional<GphotoSetting> get(const std::string& setting) override {
+  std::optional<devices::GphotoSetting> get(const std::string& setting) override {
     answer();
     const auto place = script_->settings.find(setting);
     if (place == script_->settings.end()) return std::nullopt;
@@ -151,7 +151,8 @@ class ScriptedPort : public GphotoPort {
     auto isIn = [&](const std::vector<std::string>& list) {
       return std::find(list.begin(), list.end(), setting) != list.end();
     };
-    if (own.readOnly || isIn(script_->refusing)) throw GphotoFailure(GphotoFault::refused, "not settable");
+    if (own.readOnly || isIn(script_->refusing))
+      throw devices::GphotoFailure(devices::GphotoFault::refused, "not settable");
     if (isIn(script_->stubborn)) return;
     if (setting == "eosremoterelease" || setting == "bulb") bulb(value);
     own.value = value;
@@ -160,12 +161,13 @@ class ScriptedPort : public GphotoPort {
     answer();
     if (script_->busyFor > 0) {
       --script_->busyFor;
-      throw GphotoFailure(GphotoFault::busy, "busy");
+      throw devices::GphotoFailure(devices::GphotoFault::busy, "busy");
     }
     ++script_->triggered;
-    if (script_->now() == StillScript::Trouble::full) throw GphotoFailure(GphotoFault::full, "no space");
+    if (script_->now() == StillScript::Trouble::full)
+      throw devices::GphotoFailure(devices::GphotoFault::full, "no space");
     const auto it = script_->settings.contains("shutterspeed2") ? "shutterspeed2" : "shutterspeed";
-    photograph(secondsFromShutter(script_->value(it)).value_or(0.0));
+    photograph(devices::secondsFromShutter(script_->value(it)).value_or(0.0));
   }
   Event waitEvent(std::chrono::microseconds time) override {
     answer();
@@ -178,13 +180,13 @@ class ScriptedPort : public GphotoPort {
     const std::string name = pending.front().name;
     pending.pop_front();
     if (name.empty()) return {};
-    return {GphotoFile{"/", name}, false};
+    return {devices::GphotoFile{"/", name}, false};
   }
-  std::vector<std::uint8_t> download(const GphotoFile& file) override {
+  std::vector<std::uint8_t> download(const devices::GphotoFile& file) override {
     answer();
     return script_->files.at(file.name);
   }
-  void remove(const GphotoFile& file) override {
+  void remove(const devices::GphotoFile& file) override {
     answer();
     script_->files.erase(file.name);
   }
@@ -197,9 +199,9 @@ class ScriptedPort : public GphotoPort {
       case StillScript::Trouble::unplugged:
       case StillScript::Trouble::flat:
       case StillScript::Trouble::asleep:
-        throw GphotoFailure(GphotoFault::silent, "I/O problem");
+        throw devices::GphotoFailure(devices::GphotoFault::silent, "I/O problem");
       case StillScript::Trouble::claimed:
-        throw GphotoFailure(GphotoFault::claimed, "Could not claim the USB device");
+        throw devices::GphotoFailure(devices::GphotoFault::claimed, "Could not claim the USB device");
       default:
         return;
     }
@@ -238,9 +240,9 @@ class ScriptedPort : public GphotoPort {
       case Answer::small:
         return script_->make(".cr2", 2, end, script_->shown);
       case Answer::noFocus:
-        throw GphotoFailure(GphotoFault::refused, "Out of Focus");
+        throw devices::GphotoFailure(devices::GphotoFault::refused, "Out of Focus");
       case Answer::refused:
-        throw GphotoFailure(GphotoFault::refused, "General Error");
+        throw devices::GphotoFailure(devices::GphotoFault::refused, "General Error");
       case Answer::good:
         return script_->make(".CR2", 0, end, script_->shown);
     }
@@ -251,13 +253,14 @@ class ScriptedPort : public GphotoPort {
 };
 
 /// What stands in for raw files: a value, and what is wrong with the file.
-inline RawPhotograph scriptedRaw(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+inline devices::RawPhotograph scriptedRaw(const std::vector<std::uint8_t>& bytes, const std::string& name) {
   if (bytes.at(1) == 1)
     throw Error(ErrorKind::format, Message::plain("the raw file cannot be read (cut short)"),
                 Message::plain("take it again"), name);
   const Size size = bytes.at(1) == 2 ? Size{4, 4} : Size{12, 8};
-  RawPhotograph photograph;
-  photograph.frame = {size, {SensorLayout::bayerRG, 8}, {}, SensorLevels{{10, 10, 10, 10}, 110.0f}};
+  devices::RawPhotograph photograph;
+  photograph.frame = {
+      size, {devices::SensorLayout::bayerRG, 8}, {}, devices::SensorLevels{{10, 10, 10, 10}, 110.0f}};
   photograph.frame.bytes.assign(size.count(), static_cast<std::uint8_t>(10 + bytes.at(0)));
   return photograph;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/error.h"
-#include "devices/camera_registry.h"
-#include "devices/video_driver.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/devices/video_driver.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::rig;
 
 namespace {
 

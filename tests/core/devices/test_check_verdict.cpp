@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
-#include "devices/check_verdict.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/check_verdict.h"
 
 #include <QtTest>
 #include <set>
 
 using namespace relucent;
+using namespace relucent::devices;
 
 class TestCheckVerdict : public QObject {
   Q_OBJECT

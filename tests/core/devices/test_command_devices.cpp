@@ -4,17 +4,20 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/random.h"
-#include "devices/command_camera.h"
-#include "devices/command_projector.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "rig/shot.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/random.h"
+#include "relucent/devices/command_camera.h"
+#include "relucent/devices/command_projector.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/rig/shot.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::rig;
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 

@@ -4,11 +4,13 @@
 #include <QtTest>
 #include <deque>
 
-#include "base/error.h"
-#include "devices/driven_camera.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/driven_camera.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::rig;
 using namespace std::chrono_literals;
 using std::chrono::microseconds;
 

@@ -6,20 +6,29 @@
 #include <filesystem>
 #include <mutex>
 
-#include "base/file.h"
-#include "devices/driven_camera.h"
-#include "devices/genicam_driver.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/measuring.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/driven_camera.h"
+#include "relucent/devices/genicam_driver.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/venue/venue.h"
 #include "support/fake_gige_camera.h"
 #include "support/own_network.h"
-#include "venue/venue.h"
 
 using namespace relucent;
-using namespace relucent::test;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
+using namespace relucent::transport;
+using namespace relucent::venue;
 using namespace std::chrono_literals;
+using namespace relucent::test;
 namespace fs = std::filesystem;
 
 namespace {

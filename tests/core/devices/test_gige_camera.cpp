@@ -5,18 +5,21 @@
 #include <atomic>
 #include <thread>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "devices/camera_registry.h"
-#include "devices/driven_camera.h"
-#include "devices/genicam_driver.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/devices/driven_camera.h"
+#include "relucent/devices/genicam_driver.h"
 #include "support/fake_gige_camera.h"
 #include "support/own_network.h"
 #include "support/sentences.h"
 
 using namespace relucent;
-using namespace relucent::test;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::rig;
 using namespace std::chrono_literals;
+using namespace relucent::test;
 
 namespace {
 

@@ -2,16 +2,18 @@
 // DSLR and mirrorless cameras, against scripted ones of three makers.
 #include <QtTest>
 
-#include "base/message.h"
 #include "core/devices/scripted_gphoto.h"
-#include "devices/gphoto_failure.h"
-#include "devices/gphoto_setup.h"
-#include "devices/listed_camera.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/gphoto_failure.h"
+#include "relucent/devices/gphoto_setup.h"
+#include "relucent/devices/listed_camera.h"
 #include "support/sentences.h"
 
 using namespace relucent;
-using namespace relucent::test;
+using namespace relucent::devices;
+using namespace relucent::rig;
 using namespace std::chrono_literals;
+using namespace relucent::test;
 using Answer = StillScript::Answer;
 using Trouble = StillScript::Trouble;
 

@@ -3,11 +3,12 @@
 #include <QtTest>
 #include <clocale>
 
-#include "base/error.h"
-#include "devices/gphoto_driver.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/gphoto_driver.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
 
 /// libgphoto2 2.5.30 and its part for USB keep lists of ports, and a camera that could not be connected.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)

@@ -2,13 +2,16 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "devices/latency.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/devices/latency.h"
 #include "support/sentences.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

@@ -4,12 +4,14 @@
 #include <QtTest>
 #include <fstream>
 
-#include "base/random.h"
-#include "devices/raw_photograph.h"
+#include "relucent/base/random.h"
+#include "relucent/devices/raw_photograph.h"
 #include "support/dng.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::image;
 using namespace relucent::test;
 
 namespace {

@@ -4,24 +4,33 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "devices/recording.h"
-#include "image/picture_files.h"
-#include "pipeline/calibrate_settings.h"
-#include "pipeline/measuring.h"
-#include "rig/shot.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/recording.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/rig/shot.h"
 #include "support/scripted_rig.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
+using namespace relucent::venue;
 using namespace relucent::test;
 namespace fs = std::filesystem;
 
 namespace {
 
 /// Two projectors and two cameras, noise included; one camera of 12 bits, one of floats.
-ScriptedVenue venue() {
+ScriptedVenue scene() {
   SyntheticSettings synthetic;
   synthetic.projectors = {{16, 12}, {8, 8}};
   synthetic.cameras = {{12, 9}, {5, 7}};
@@ -72,7 +81,7 @@ class TestRecording : public QObject {
  private slots:
   void whatIsReplayedIsWhatWasRecorded() {
     const fs::path folder = fresh();
-    Rig direct = venue().rig(), rig = recorded(venue().rig(), folder);
+    Rig direct = scene().rig(), rig = recorded(scene().rig(), folder);
     const std::vector<Shot> expected = photographed(direct, 4), taken = photographed(rig, 4);
     QVERIFY(sameFrames(expected, taken));  // recording changes nothing
 
@@ -93,7 +102,7 @@ class TestRecording : public QObject {
 
   void patternsAreThereToBeLookedAt() {
     const fs::path folder = fresh();
-    Rig rig = recorded(venue().rig(), folder);
+    Rig rig = recorded(scene().rig(), folder);
     photographed(rig, 3);
     std::size_t files = 0;
     for (const auto& entry : fs::directory_iterator(folder / "patterns")) {
@@ -107,12 +116,12 @@ class TestRecording : public QObject {
   void aRecordingIsAddedTo() {
     const fs::path folder = fresh();
     {
-      Rig rig = recorded(venue().rig(), folder);
+      Rig rig = recorded(scene().rig(), folder);
       photographed(rig, 2);
     }
     // As if the power had gone while a line was written.
     std::ofstream(folder / "photographs.jsonl", std::ios::app) << "\n{\"camera\":1,\"sta";
-    Rig rig = recorded(venue().rig(), folder);
+    Rig rig = recorded(scene().rig(), folder);
     const std::vector<Shot> expected = photographed(rig, 3);
     Rig again = replayed(folder);
     QVERIFY(sameFrames(expected, photographed(again, 3)));
@@ -120,7 +129,7 @@ class TestRecording : public QObject {
 
   void aShotTakenAgainCountsAsItWasTheSecondTime() {
     const fs::path folder = fresh();
-    Rig rig = recorded(venue().rig(), folder);
+    Rig rig = recorded(scene().rig(), folder);
     for (std::size_t i = 0; i < 2; ++i) rig.projectors[i]->show(patterns(0.5f)[i]);
     rig.cameras[0]->capture({{"stage", 3}, 0, 0.01});
     const RawFrame other = rig.cameras[0]->capture({{"stage", 4}, 0, 0.01});  // other noise
@@ -136,7 +145,7 @@ class TestRecording : public QObject {
 
   void whatWasNotPhotographedIsTold() {
     const fs::path folder = fresh();
-    Rig rig = recorded(venue().rig(), folder);
+    Rig rig = recorded(scene().rig(), folder);
     photographed(rig, 1);
     Rig again = replayed(folder);
     const std::string before = sentenceOf(
@@ -186,11 +195,11 @@ class TestRecording : public QObject {
     const fs::path folder = fresh();
     createFolder(folder);
     writeFileAtomically(folder / "diary.txt", "dear diary");
-    QVERIFY(mentions(sentenceOf([&] { recorded(venue().rig(), folder); }, ErrorKind::input),
+    QVERIFY(mentions(sentenceOf([&] { recorded(scene().rig(), folder); }, ErrorKind::input),
                      "holds other things"));
     const fs::path other = fresh();
-    { Rig rig = recorded(venue().rig(), other); }
-    Rig different = venue().rig();
+    { Rig rig = recorded(scene().rig(), other); }
+    Rig different = scene().rig();
     different.cameras.pop_back();
     QVERIFY(mentions(sentenceOf([&] { recorded(std::move(different), other); }, ErrorKind::input),
                      "a recording of other devices"));

@@ -3,13 +3,17 @@
 #include <deque>
 #include <numeric>
 
-#include "base/error.h"
-#include "devices/screen_proof.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/screen_proof.h"
 #include "support/scripted_rig.h"
 #include "support/sentences.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

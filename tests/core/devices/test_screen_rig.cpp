@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/error.h"
-#include "devices/screen_rig.h"
-#include "devices/whole_frames.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/screen_rig.h"
+#include "relucent/devices/whole_frames.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

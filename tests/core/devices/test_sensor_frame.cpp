@@ -2,12 +2,14 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "devices/sensor_frame.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/devices/sensor_frame.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::image;
 
 namespace {
 

@@ -6,12 +6,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "devices/shell_command.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/shell_command.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "devices/shutter_speed.h"
+#include "relucent/devices/shutter_speed.h"
 
 using namespace relucent;
+using namespace relucent::devices;
 
 namespace {
 

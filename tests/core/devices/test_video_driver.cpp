@@ -6,12 +6,14 @@
 #include <deque>
 #include <map>
 
-#include "base/error.h"
-#include "devices/driven_camera.h"
-#include "devices/video_driver.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/driven_camera.h"
+#include "relucent/devices/video_driver.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::rig;
 using namespace std::chrono_literals;
 using std::chrono::microseconds;
 

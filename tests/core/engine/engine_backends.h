@@ -7,30 +7,30 @@
 #include <functional>
 #include <memory>
 
-#include "base/error.h"
 #include "core/engine/engine_scenes.h"
-#include "engine/cpu_backend.h"
-#include "engine/opengl/gl_context.h"
-#include "engine/opengl/opengl_backend.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/cpu_backend.h"
+#include "relucent/engine/opengl/gl_context.h"
+#include "relucent/engine/opengl/opengl_backend.h"
 
 namespace relucent::synthetic {
 
 /// Every test of test_backends runs on each of the back ends, on those that the machine has.
 struct NamedBackend {
   std::string name;
-  std::function<std::unique_ptr<EngineBackend>(const EngineVenue&)> make;
+  std::function<std::unique_ptr<engine::EngineBackend>(const engine::EngineVenue&)> make;
 };
 
 inline const std::vector<NamedBackend>& backends() {
   static const std::vector<NamedBackend> all = [] {
     std::vector<NamedBackend> list;
-    for (const EngineKernels& kernels : engineKernels())
-      list.push_back({kernels.instructions, [&kernels](const EngineVenue& engine) {
-                        return std::make_unique<CpuBackend>(engine, &kernels);
+    for (const engine::EngineKernels& kernels : engine::engineKernels())
+      list.push_back({kernels.instructions, [&kernels](const engine::EngineVenue& engine) {
+                        return std::make_unique<engine::CpuBackend>(engine, &kernels);
                       }});
-    list.push_back({"OpenGL", [](const EngineVenue& engine) {
-                      return std::make_unique<OpenGlBackend>(
-                          engine, std::make_unique<GlContext>(GlContext::Device::any));
+    list.push_back({"OpenGL", [](const engine::EngineVenue& engine) {
+                      return std::make_unique<engine::OpenGlBackend>(
+                          engine, std::make_unique<engine::GlContext>(engine::GlContext::Device::any));
                     }});
     return list;
   }();
@@ -41,7 +41,7 @@ inline const std::vector<NamedBackend>& backends() {
 inline QString missing(const QString& backend) {
   static const QString openGl = [] {
     try {
-      GlContext context(GlContext::Device::any);
+      engine::GlContext context(engine::GlContext::Device::any);
       return QString();
     } catch (const Error& error) {
       return QString(error.what());
@@ -50,7 +50,8 @@ inline QString missing(const QString& backend) {
   return backend == "OpenGL" ? openGl : QString();
 }
 
-inline std::unique_ptr<EngineBackend> backendOf(const QString& name, const EngineVenue& engine) {
+inline std::unique_ptr<engine::EngineBackend> backendOf(const QString& name,
+                                                        const engine::EngineVenue& engine) {
   for (const NamedBackend& backend : backends())
     if (name == QString::fromStdString(backend.name)) return backend.make(engine);
   return nullptr;
@@ -71,9 +72,9 @@ inline void everyBackendInEveryScene() {
           << QString::fromStdString(backend.name) << QString::fromStdString(scene);
 }
 
-inline ContentFrame frameOf(const Image& linear) {
+inline engine::ContentFrame frameOf(const image::Image& linear) {
   return {linear.data().data(), linear.size(), 12 * static_cast<std::size_t>(linear.width()),
-          ContentFrame::Format::linearFloat};
+          engine::ContentFrame::Format::linearFloat};
 }
 
 /// Skips the row of a back end that cannot run here, and says why.
@@ -83,19 +84,20 @@ inline ContentFrame frameOf(const Image& linear) {
   }
 
 /// Undithered, so that a value has one right code.
-inline EngineSettings plain() {
-  EngineSettings settings;
-  settings.dither = Dither::none;
+inline engine::EngineSettings plain() {
+  engine::EngineSettings settings;
+  settings.dither = engine::Dither::none;
   return settings;
 }
 
-inline std::vector<std::uint32_t> rendered(EngineBackend& backend, const EngineVenue& engine,
-                                           const ContentFrame& frame, const FrameRequest& request,
-                                           FrameReport* report = nullptr) {
-  EngineContent content = prepareContent(engine, frame.size);
+inline std::vector<std::uint32_t> rendered(engine::EngineBackend& backend, const engine::EngineVenue& engine,
+                                           const engine::ContentFrame& frame,
+                                           const engine::FrameRequest& request,
+                                           engine::FrameReport* report = nullptr) {
+  engine::EngineContent content = engine::prepareContent(engine, frame.size);
   backend.setContent(content);
   std::vector<std::uint32_t> words(engine.brightest.size());
-  FrameReport ignored;
+  engine::FrameReport ignored;
   if (!backend.render(frame, request, words, report != nullptr ? *report : ignored)) words.clear();
   return words;
 }

@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "compensation/methods.h"
 #include "core/inverse/synthetic_transport.h"
-#include "engine/engine_plan.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/engine/engine_plan.h"
 
 namespace relucent::synthetic {
 
 /// A venue that the engine can run in, with its inverse.
 struct EngineScene {
-  MeasuredVenue venue;
-  WindowInverse inverse;
-  std::vector<ProjectorResponse> responses;
+  compensation::MeasuredVenue venue;
+  inverse::WindowInverse inverse;
+  std::vector<linearization::ProjectorResponse> responses;
 };
 
-inline MeasuredVenue venueOf(Scene scene) {
-  MeasuredVenue venue;
+inline compensation::MeasuredVenue venueOf(Scene scene) {
+  compensation::MeasuredVenue venue;
   venue.flood = scene.transport.floodlight();
   venue.transport = std::move(scene.transport);
   venue.black = std::move(scene.black);
@@ -27,28 +27,28 @@ inline MeasuredVenue venueOf(Scene scene) {
   return venue;
 }
 
-inline EngineScene engineScene(MeasuredVenue venue, int tile = 4) {
+inline EngineScene engineScene(compensation::MeasuredVenue venue, int tile = 4) {
   EngineScene scene;
   Progress silent;
-  WindowSettings windows;
+  inverse::WindowSettings windows;
   windows.tile = tile;
-  scene.inverse = computeWindows(venue.transport, venue.usable, windows, silent);
+  scene.inverse = inverse::computeWindows(venue.transport, venue.usable, windows, silent);
   scene.responses.resize(venue.transport.projectors().devices());
   scene.venue = std::move(venue);
   return scene;
 }
 
 /// Two cameras and two projectors of odd sizes; every colour of far light has a mixing of its own.
-inline MeasuredVenue severalDevices(std::uint64_t seed) {
+inline compensation::MeasuredVenue severalDevices(std::uint64_t seed) {
   Rasters cameras({{21, 15}, {10, 7}}), projectors({{26, 17}, {13, 11}});
-  NodeLayout layout(projectors);
-  BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
+  transport::NodeLayout layout(projectors);
+  transport::BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
   for (std::size_t camera = 0; camera < 2; ++camera) {
     for (std::size_t local = 0; local < cameras.size(camera).count(); ++local) {
       std::size_t row = cameras.offset(camera) + local;
       Random random{seed, row};
       Pixel place = pixelAt(cameras.size(camera), local);
-      ColourBlock mixing;
+      transport::ColourBlock mixing;
       for (int i = 0; i < 9; ++i)
         mixing.data()[i] = (0.3f + 0.4f * random.uniformFloat()) * (i % 4 == 0 ? 1.0f : 0.1f);
       for (int projector = 0; projector < 2; ++projector) {
@@ -59,14 +59,14 @@ inline MeasuredVenue severalDevices(std::uint64_t seed) {
           for (int x = std::max(0, cx - 1); x <= std::min(cx + 1, size.width - 1); ++x)
             builder.add(row, layout.index({projector, 0, x, y}),
                         ((x == cx && y == cy ? 0.4f : 0.04f) * mixing).eval());
-        ColourBlock far = mixing;
+        transport::ColourBlock far = mixing;
         far.col(static_cast<Eigen::Index>(random.below(3))) *= 1.5f;
         builder.add(row, layout.index({projector, 3, 0, 0}), (0.05f * far).eval());
       }
     }
   }
-  MeasuredVenue venue;
-  venue.transport = TransportMatrix(cameras, projectors, builder.build());
+  compensation::MeasuredVenue venue;
+  venue.transport = transport::TransportMatrix(cameras, projectors, builder.build());
   venue.flood = venue.transport.floodlight();
   venue.black.assign(venue.flood.size(), 0.002f);
   venue.usable.assign(cameras.count(), 1);
@@ -76,18 +76,18 @@ inline MeasuredVenue severalDevices(std::uint64_t seed) {
 
 /// Sizes that nothing divides, a node that every camera pixel sees, and camera pixels that see nothing at
 /// all, every other of them unusable.
-inline MeasuredVenue holes(std::uint64_t seed) {
+inline compensation::MeasuredVenue holes(std::uint64_t seed) {
   const Rasters cameras(Size{37, 23}), projectors(Size{29, 31});
-  NodeLayout layout(projectors);
-  BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
-  MeasuredVenue venue;
+  transport::NodeLayout layout(projectors);
+  transport::BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
+  compensation::MeasuredVenue venue;
   for (std::size_t row = 0; row < cameras.count(); ++row) {
     const Pixel place = pixelAt(cameras.size(0), row);
     const bool empty = place.x > 25;
     venue.usable.push_back(!empty || row % 2 == 0);
     if (empty) continue;
     Random random{seed, row};
-    ColourBlock mixing;
+    transport::ColourBlock mixing;
     for (int i = 0; i < 9; ++i)
       mixing.data()[i] = (0.3f + 0.4f * random.uniformFloat()) * (i % 4 == 0 ? 1.0f : 0.1f);
     int cx = place.x * 29 / 37, cy = place.y * 31 / 23;
@@ -96,7 +96,7 @@ inline MeasuredVenue holes(std::uint64_t seed) {
         builder.add(row, layout.index({0, 0, x, y}), ((x == cx && y == cy ? 0.5f : 0.05f) * mixing).eval());
     builder.add(row, layout.index({0, 5, 0, 0}), (0.1f * mixing).eval());
   }
-  venue.transport = TransportMatrix(cameras, projectors, builder.build());
+  venue.transport = transport::TransportMatrix(cameras, projectors, builder.build());
   venue.flood = venue.transport.floodlight();
   venue.black.assign(venue.flood.size(), 0.002f);
   return venue;

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "engine/adaptive_range.h"
+#include "relucent/engine/adaptive_range.h"
 
 #include <QtTest>
 #include <cmath>
 #include <limits>
 
-#include "base/random.h"
 #include "core/engine/engine_scenes.h"
-#include "image/colour.h"
+#include "relucent/base/random.h"
+#include "relucent/image/colour.h"
 
 using namespace relucent;
-using namespace relucent::synthetic;
+using namespace relucent::clustering;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::image;
+using namespace relucent::inverse;
+using namespace relucent::linearization;
+using namespace relucent::transport;
 using namespace std::chrono_literals;
+using namespace relucent::synthetic;
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <new>
 
-#include "base/error.h"
 #include "core/engine/engine_backends.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -49,6 +49,13 @@ void operator delete[](void* memory, std::size_t) noexcept {
 #endif
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::image;
+using namespace relucent::inverse;
+using namespace relucent::linearization;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

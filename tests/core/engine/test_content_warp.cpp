@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/content_warp.h"
+#include "relucent/engine/content_warp.h"
 
 #include <QtTest>
 #include <cmath>
@@ -7,6 +7,9 @@
 #include "core/inverse/synthetic_transport.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::image;
 using namespace relucent::synthetic;
 
 namespace {

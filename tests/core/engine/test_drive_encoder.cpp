@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "engine/drive_encoder.h"
+#include "relucent/engine/drive_encoder.h"
 
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/random.h"
-#include "engine/blue_noise.h"
+#include "relucent/base/random.h"
+#include "relucent/engine/blue_noise.h"
 
 using namespace relucent;
+using namespace relucent::engine;
+using namespace relucent::hdr;
+using namespace relucent::linearization;
 
 namespace {
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/error.h"
 #include "core/engine/engine_backends.h"
-#include "engine/fallback_backend.h"
+#include "relucent/base/error.h"
+#include "relucent/engine/fallback_backend.h"
 
 using namespace relucent;
+using namespace relucent::engine;
+using namespace relucent::image;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/packed_transport.h"
+#include "relucent/engine/packed_transport.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -9,6 +9,9 @@
 #include "core/engine/engine_scenes.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "engine/patch_sums.h"
+#include "relucent/engine/patch_sums.h"
 
 #include <QtTest>
 #include <algorithm>
 #include <limits>
 
-#include "base/random.h"
 #include "core/engine/engine_scenes.h"
+#include "relucent/base/random.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 class TestPatchSums : public QObject {

@@ -3,9 +3,11 @@
 #include <map>
 
 #include "core/engine/engine_scenes.h"
-#include "engine/opengl/sliced_transport.h"
+#include "relucent/engine/opengl/sliced_transport.h"
 
 using namespace relucent;
+using namespace relucent::engine;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "engine/step_budget.h"
+#include "relucent/engine/step_budget.h"
 
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::engine;
 using namespace std::chrono_literals;
 
 namespace {

@@ -2,11 +2,15 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/random.h"
-#include "hdr/hdr.h"
+#include "relucent/base/random.h"
+#include "relucent/hdr/hdr.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

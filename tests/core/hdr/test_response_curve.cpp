@@ -3,12 +3,13 @@
 #include <cmath>
 #include <functional>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "hdr/isotonic.h"
-#include "hdr/response_curve.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/hdr/isotonic.h"
+#include "relucent/hdr/response_curve.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
 
 namespace {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/random.h"
-#include "image/colour.h"
+#include "relucent/base/random.h"
+#include "relucent/image/colour.h"
 
 using namespace relucent;
+using namespace relucent::image;
 
 namespace {
 

@@ -11,14 +11,15 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/random.h"
-#include "image/exr.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/random.h"
+#include "relucent/image/exr.h"
 #include "shared_data.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::image;
 namespace fs = std::filesystem;
 
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
 
-#include "base/random.h"
-#include "image/colour.h"
-#include "image/metrics.h"
+#include "relucent/base/random.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/metrics.h"
 
 using namespace relucent;
+using namespace relucent::image;
 
 namespace {
 

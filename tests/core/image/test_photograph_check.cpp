@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "image/photograph_check.h"
+#include "relucent/image/photograph_check.h"
 
 #include <QtTest>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "base/random.h"
-#include "image/resample.h"
+#include "relucent/base/random.h"
+#include "relucent/image/resample.h"
 
 using namespace relucent;
+using namespace relucent::image;
 
 namespace {
 

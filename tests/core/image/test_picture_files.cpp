@@ -5,16 +5,17 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "base/random.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/base/random.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
 #include "shared_data.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::image;
 namespace fs = std::filesystem;
 
 namespace {

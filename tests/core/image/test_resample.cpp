@@ -2,11 +2,12 @@
 #include <QtTest>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "image/resample.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/image/resample.h"
 
 using namespace relucent;
+using namespace relucent::image;
 
 namespace {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "image/stack_files.h"
+#include "relucent/image/stack_files.h"
 
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "image/exr.h"
+#include "relucent/image/exr.h"
 
 using namespace relucent;
+using namespace relucent::image;
 
 class TestStackFiles : public QObject {
   Q_OBJECT

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/video_colour.h"
+#include "relucent/image/video_colour.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "image/colour.h"
+#include "relucent/image/colour.h"
 
 using namespace relucent;
+using namespace relucent::image;
 using Matrix = VideoEncoding::Matrix;
 using Range = VideoEncoding::Range;
 using Transfer = VideoEncoding::Transfer;

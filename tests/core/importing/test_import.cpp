@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "importing/import.h"
+#include "relucent/importing/import.h"
 
 #include <tbb/global_control.h>
 
@@ -7,13 +7,17 @@
 #include <cmath>
 #include <set>
 
-#include "base/error.h"
-#include "base/random.h"
-#include "importing/pattern_plan.h"
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+#include "relucent/importing/pattern_plan.h"
 #include "support/scripted_rig.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::importing;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/random.h"
-#include "image/image.h"
-#include "transport/transport_matrix.h"
+#include "relucent/base/random.h"
+#include "relucent/image/image.h"
+#include "relucent/transport/transport_matrix.h"
 
 namespace relucent::synthetic {
 
@@ -30,7 +30,7 @@ struct SceneSettings {
 };
 
 struct Scene {
-  TransportMatrix transport;
+  transport::TransportMatrix transport;
   Stack black;
   std::vector<std::uint8_t> usable;
 };
@@ -75,16 +75,16 @@ inline std::vector<double> footprint(double a, double b, double sigma, int first
 }
 
 inline Scene makeScene(const SceneSettings& s) {
-  NodeLayout layout{Rasters(s.projector)};
+  transport::NodeLayout layout{Rasters(s.projector)};
   struct Leaf {
     std::size_t row, node;
-    ColourBlock block;
+    transport::ColourBlock block;
   };
   std::vector<Leaf> leaves;
   std::vector<float> fullScale(s.camera.count(), 0.0f);
   Scene scene;
   scene.usable.assign(s.camera.count(), 0);
-  auto add = [&](std::size_t row, std::size_t node, const ColourBlock& block) {
+  auto add = [&](std::size_t row, std::size_t node, const transport::ColourBlock& block) {
     leaves.push_back({row, node, block});
     fullScale[row] = std::max(fullScale[row], block.cwiseAbs().maxCoeff());
   };
@@ -102,7 +102,7 @@ inline Scene makeScene(const SceneSettings& s) {
       return 0.9 * (1.0 - s.texture * (joint ? 0.8 : 0.75 * fine));
     };
     std::array<double, 3> reflectance{at(0), 0.5 * (at(0) + at(1)), 0.5 * (at(0) + at(2))};
-    ColourBlock mixing;
+    transport::ColourBlock mixing;
     for (int c = 0; c < 3; ++c)
       for (int p = 0; p < 3; ++p) {
         double share = c == p ? 1.0 : s.crosstalk * (std::abs(c - p) == 1 ? 1.0 : 0.3);
@@ -157,9 +157,9 @@ inline Scene makeScene(const SceneSettings& s) {
     }
   }
 
-  BlockSparseBuilder builder(layout.count(), fullScale);
+  transport::BlockSparseBuilder builder(layout.count(), fullScale);
   for (const Leaf& leaf : leaves) builder.add(leaf.row, leaf.node, leaf.block);
-  scene.transport = TransportMatrix(s.camera, s.projector, builder.build());
+  scene.transport = transport::TransportMatrix(s.camera, s.projector, builder.build());
   Stack flood = scene.transport.floodlight();
   double mean = 0.0;
   for (float value : flood) mean += value / static_cast<double>(flood.size());
@@ -169,30 +169,30 @@ inline Scene makeScene(const SceneSettings& s) {
 
 /// T as a measurement would give it: every leaf wrong by its own relative error, and by a share of the row's
 /// brightest leaf; rescaled to the true flood image, which is measured well.
-inline TransportMatrix measured(const TransportMatrix& truth, double relative, double absolute,
-                                std::uint64_t seed) {
-  const BlockSparse& leaves = truth.leaves();
+inline transport::TransportMatrix measured(const transport::TransportMatrix& truth, double relative,
+                                           double absolute, std::uint64_t seed) {
+  const transport::BlockSparse& leaves = truth.leaves();
   std::vector<float> fullScale(leaves.rows());
   for (std::size_t row = 0; row < leaves.rows(); ++row) fullScale[row] = 1.5f * 32767.0f * leaves.scale(row);
-  BlockSparseBuilder builder(leaves.columns(), fullScale);
+  transport::BlockSparseBuilder builder(leaves.columns(), fullScale);
   for (std::size_t row = 0; row < leaves.rows(); ++row) {
     Random random({seed, row});
     for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      ColourBlock block = leaves.block(row, entry);
+      transport::ColourBlock block = leaves.block(row, entry);
       for (int i = 0; i < 9; ++i)
         block.data()[i] += static_cast<float>(relative * random.normal()) * block.data()[i] +
                            static_cast<float>(absolute * random.normal()) * fullScale[row] / 1.5f;
       builder.add(row, leaves.column(entry), block);
     }
   }
-  TransportMatrix noisy(truth.cameras(), truth.projectors(), builder.build());
-  return rescaledToFloodlight(noisy, truth.floodlight());
+  transport::TransportMatrix noisy(truth.cameras(), truth.projectors(), builder.build());
+  return transport::rescaledToFloodlight(noisy, truth.floodlight());
 }
 
 enum class Content { natural, text, saturated };
 
-inline Image makeContent(Content kind, Size size, std::uint64_t seed) {
-  Image image(size, 3);
+inline image::Image makeContent(Content kind, Size size, std::uint64_t seed) {
+  image::Image image(size, 3);
   Random random({seed, 77});
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
@@ -204,7 +204,7 @@ inline Image makeContent(Content kind, Size size, std::uint64_t seed) {
     }
   }
   if (kind == Content::natural) return image;
-  if (kind == Content::text) image = Image(size, 3, 0.9f);
+  if (kind == Content::text) image = image::Image(size, 3, 0.9f);
   for (int i = 0; i < 150; ++i) {
     int w = 1 + static_cast<int>(random.below(kind == Content::text ? 6 : 16));
     int h = 1 + static_cast<int>(random.below(kind == Content::text ? 6 : 16));

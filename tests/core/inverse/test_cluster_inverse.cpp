@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/cluster_inverse.h"
+#include "relucent/inverse/cluster_inverse.h"
 
 #include <tbb/global_control.h>
 
@@ -8,11 +8,14 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
-#include "inverse/cluster_solver.h"
+#include "relucent/base/error.h"
+#include "relucent/inverse/cluster_solver.h"
 
 using namespace relucent;
+using namespace relucent::clustering;
+using namespace relucent::inverse;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "inverse/windows.h"
+#include "relucent/inverse/windows.h"
 
 #include <tbb/global_control.h>
 
@@ -8,13 +8,15 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
 #include "core/inverse/synthetic_transport.h"
 #include "core/transport/expanded.h"
-#include "inverse/near_field.h"
+#include "relucent/base/error.h"
+#include "relucent/inverse/near_field.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::inverse;
+using namespace relucent::transport;
 using namespace relucent::synthetic;
 
 namespace {

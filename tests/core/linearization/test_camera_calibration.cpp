@@ -2,14 +2,19 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/message.h"
-#include "linearization/camera_noise.h"
-#include "linearization/camera_response.h"
-#include "linearization/exposure_choice.h"
-#include "linearization/test_light.h"
+#include "relucent/base/message.h"
+#include "relucent/linearization/camera_noise.h"
+#include "relucent/linearization/camera_response.h"
+#include "relucent/linearization/exposure_choice.h"
+#include "relucent/linearization/test_light.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -3,11 +3,15 @@
 #include <cmath>
 #include <map>
 
-#include "base/error.h"
-#include "linearization/linearization.h"
+#include "relucent/base/error.h"
+#include "relucent/linearization/linearization.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

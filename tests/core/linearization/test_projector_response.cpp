@@ -2,11 +2,14 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/random.h"
-#include "hdr/isotonic.h"
-#include "linearization/linearization.h"
+#include "relucent/base/random.h"
+#include "relucent/hdr/isotonic.h"
+#include "relucent/linearization/linearization.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::linearization;
 
 namespace {
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "linearization/ramp_preview.h"
+#include "relucent/linearization/ramp_preview.h"
 
 #include <QtTest>
 #include <cmath>
 #include <limits>
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::rig;
 
 namespace {
 

@@ -2,10 +2,16 @@
 #include <QtTest>
 #include <cmath>
 
-#include "photography/photographer.h"
+#include "relucent/photography/photographer.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::photography;
+using namespace relucent::rig;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -5,20 +5,26 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/error.h"
-#include "devices/raw_photograph.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "pipeline/compensate.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/import.h"
-#include "pipeline/plan.h"
-#include "pipeline/relight.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/raw_photograph.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/import.h"
+#include "relucent/pipeline/plan.h"
+#include "relucent/pipeline/relight.h"
 #include "support/dng.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::image;
+using namespace relucent::importing;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
 using namespace relucent::test;
 namespace fs = std::filesystem;
 

@@ -2,10 +2,14 @@
 #include <QTest>
 #include <limits>
 
-#include "base/message.h"
-#include "pipeline/json.h"
+#include "relucent/base/message.h"
+#include "relucent/pipeline/json.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::pipeline;
 
 /// The documents that scripts rely on: their keys stay.
 class TestJson : public QObject {

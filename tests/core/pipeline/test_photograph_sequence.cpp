@@ -3,10 +3,11 @@
 
 #include <QtTest>
 
-#include "base/message.h"
-#include "pipeline/photograph_sequence.h"
+#include "relucent/base/message.h"
+#include "relucent/pipeline/photograph_sequence.h"
 
 using namespace relucent;
+using namespace relucent::pipeline;
 
 namespace {
 

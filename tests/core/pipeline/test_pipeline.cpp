@@ -6,25 +6,34 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "image/colour.h"
-#include "image/exr.h"
-#include "image/picture_files.h"
-#include "pipeline/acquisition_bench.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/compensate.h"
-#include "pipeline/difference.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/export.h"
-#include "pipeline/prove.h"
-#include "pipeline/relight.h"
-#include "pipeline/separate.h"
-#include "pipeline/standard_images.h"
-#include "pipeline/verify.h"
-#include "transport/files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/acquisition_bench.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/difference.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/export.h"
+#include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/standard_images.h"
+#include "relucent/pipeline/verify.h"
+#include "relucent/transport/files.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::clustering;
+using namespace relucent::compensation;
+using namespace relucent::image;
+using namespace relucent::inverse;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::transport;
+using namespace relucent::venue;
 namespace fs = std::filesystem;
 
 namespace {

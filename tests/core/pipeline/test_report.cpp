@@ -8,16 +8,21 @@
 #include <cmath>
 #include <map>
 
-#include "base/error.h"
-#include "base/file.h"
-#include "calibration/calibration_folder.h"
-#include "calibration/json.h"
-#include "pipeline/report.h"
-#include "pipeline/report_charts.h"
-#include "pipeline/report_pictures.h"
-#include "pipeline/support_bundle.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/json.h"
+#include "relucent/pipeline/report.h"
+#include "relucent/pipeline/report_charts.h"
+#include "relucent/pipeline/report_pictures.h"
+#include "relucent/pipeline/support_bundle.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::pipeline;
 
 namespace {
 
@@ -252,7 +257,7 @@ class TestReport : public QObject {
   void base64() {
     QFETCH(QByteArray, bytes);
     QFETCH(QByteArray, text);
-    QCOMPARE(QByteArray::fromStdString(relucent::base64(bytes.toStdString())), text);
+    QCOMPARE(QByteArray::fromStdString(relucent::pipeline::base64(bytes.toStdString())), text);
   }
 
   /// Law of both maps: brighter with every step, so that they can be read without colours.

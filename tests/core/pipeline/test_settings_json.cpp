@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/settings_json.h"
+#include "relucent/pipeline/settings_json.h"
 
 #include <QTest>
 
-#include "base/error.h"
-#include "calibration/json.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/json.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 namespace {
 

@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Stages one by one, and what somebody decides between them.
-#include "pipeline/stored_settings.h"
+#include "relucent/pipeline/stored_settings.h"
 
 #include <QTemporaryDir>
 #include <QTest>
 
-#include "base/error.h"
-#include "calibration/json.h"
-#include "calibration/results.h"
-#include "calibration/stage_fingerprint.h"
-#include "calibration/stage_progress.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/devices.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/measuring.h"
-#include "pipeline/settings_json.h"
+#include "relucent/base/error.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/settings_json.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::clustering;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::inverse;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::transport;
+using namespace relucent::venue;
 namespace fs = std::filesystem;
 
 namespace {

@@ -5,15 +5,19 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "image/picture_files.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/compensate.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/prove.h"
-#include "pipeline/standard_images.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/standard_images.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::image;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 namespace fs = std::filesystem;
 
 class TestTwoProjectors : public QObject {

@@ -5,14 +5,15 @@
 #include <fstream>
 #include <iterator>
 
-#include "platform/files.h"
-#include "platform/folder_lock.h"
-#include "platform/interruption_signals.h"
-#include "platform/process.h"
-#include "platform/shell.h"
-#include "platform/system_description.h"
+#include "relucent/platform/files.h"
+#include "relucent/platform/folder_lock.h"
+#include "relucent/platform/interruption_signals.h"
+#include "relucent/platform/process.h"
+#include "relucent/platform/shell.h"
+#include "relucent/platform/system_description.h"
 
 using namespace relucent;
+using namespace relucent::platform;
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 

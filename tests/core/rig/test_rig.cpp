@@ -2,11 +2,13 @@
 #include <QtTest>
 #include <limits>
 
-#include "base/error.h"
-#include "rig/rig.h"
+#include "relucent/base/error.h"
+#include "relucent/rig/rig.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

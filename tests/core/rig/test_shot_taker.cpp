@@ -3,11 +3,13 @@
 #include <limits>
 #include <map>
 
-#include "base/error.h"
-#include "rig/shot.h"
+#include "relucent/base/error.h"
+#include "relucent/rig/shot.h"
 #include "support/stopped.h"
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

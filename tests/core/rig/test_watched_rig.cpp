@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "rig/watched_rig.h"
+#include "relucent/rig/watched_rig.h"
 
 #include <QtTest>
 #include <stdexcept>
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

@@ -2,11 +2,16 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/random.h"
-#include "photography/bracket.h"
-#include "sentinels/movement.h"
+#include "relucent/base/random.h"
+#include "relucent/photography/bracket.h"
+#include "relucent/sentinels/movement.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::photography;
+using namespace relucent::rig;
+using namespace relucent::sentinels;
 
 namespace {
 

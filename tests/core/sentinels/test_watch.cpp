@@ -2,11 +2,17 @@
 #include <QtTest>
 #include <numeric>
 
-#include "base/error.h"
-#include "sentinels/watch.h"
+#include "relucent/base/error.h"
+#include "relucent/sentinels/watch.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
+using namespace relucent::hdr;
+using namespace relucent::linearization;
+using namespace relucent::photography;
+using namespace relucent::rig;
+using namespace relucent::sentinels;
+using namespace relucent::transport;
 using namespace relucent::test;
 
 namespace {

@@ -3,20 +3,20 @@
 
 #include <Eigen/Core>
 
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
 namespace relucent {
 
 /// Every row of T expanded to single projector pixels.  Shape: 3 * camera pixels x 3 * projector pixels.
-inline Eigen::MatrixXd expanded(const TransportMatrix& transport) {
-  const NodeLayout& layout = transport.layout();
+inline Eigen::MatrixXd expanded(const transport::TransportMatrix& transport) {
+  const transport::NodeLayout& layout = transport.layout();
   const Rasters& projectors = layout.projectors();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(transport.cameras().count()),
                                                 3 * static_cast<Eigen::Index>(projectors.count()));
   for (std::size_t i = 0; i < transport.leaves().rows(); ++i)
     for (std::size_t e = transport.leaves().rowBegin(i); e < transport.leaves().rowBegin(i + 1); ++e) {
-      Node node = layout.node(transport.leaves().column(e));
-      Block block = layout.block(node);
+      transport::Node node = layout.node(transport.leaves().column(e));
+      transport::Block block = layout.block(node);
       auto device = static_cast<std::size_t>(node.projector);
       for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x) {

@@ -3,18 +3,18 @@
 
 #include <Eigen/Core>
 
-#include "base/random.h"
-#include "transport/block_sparse.h"
+#include "relucent/base/random.h"
+#include "relucent/transport/block_sparse.h"
 
 namespace relucent {
 
 /// A random sparse block matrix and the same as a dense one, both exact: the dense one holds what was stored.
 struct RandomBlocks {
-  BlockSparse sparse;
+  transport::BlockSparse sparse;
   Eigen::MatrixXd dense;
 };
 
-inline Eigen::MatrixXd denseOf(const BlockSparse& blocks) {
+inline Eigen::MatrixXd denseOf(const transport::BlockSparse& blocks) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * blocks.rows()),
                                                 static_cast<Eigen::Index>(3 * blocks.columns()));
   for (std::size_t row = 0; row < blocks.rows(); ++row)
@@ -29,11 +29,11 @@ inline Eigen::MatrixXd denseOf(const BlockSparse& blocks) {
 inline RandomBlocks randomBlocks(std::size_t rows, std::size_t columns, double density, std::uint64_t seed,
                                  float lowest = -0.2f) {
   Random random{seed};
-  BlockSparseBuilder builder(columns, std::vector<float>(rows, 1.0f));
+  transport::BlockSparseBuilder builder(columns, std::vector<float>(rows, 1.0f));
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) {
       if (random.uniform() >= density) continue;
-      ColourBlock block;
+      transport::ColourBlock block;
       for (int i = 0; i < 9; ++i) block.data()[i] = lowest + (1.0f - lowest) * random.uniformFloat();
       builder.add(row, column, block);
     }

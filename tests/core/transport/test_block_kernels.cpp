@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "transport/block_kernels.h"
+#include "relucent/transport/block_kernels.h"
 
 #include <QtTest>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "random_blocks.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

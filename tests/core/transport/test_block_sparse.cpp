@@ -7,6 +7,7 @@
 #include "random_blocks.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

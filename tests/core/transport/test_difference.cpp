@@ -3,11 +3,12 @@
 #include <QTest>
 #include <cmath>
 
-#include "base/random.h"
 #include "core/transport/expanded.h"
-#include "transport/difference.h"
+#include "relucent/base/random.h"
+#include "relucent/transport/difference.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

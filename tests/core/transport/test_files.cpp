@@ -5,12 +5,13 @@
 #include <cmath>
 #include <functional>
 
-#include "base/error.h"
-#include "base/file.h"
 #include "random_blocks.h"
-#include "transport/files.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/transport/files.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 namespace fs = std::filesystem;
 
 namespace {

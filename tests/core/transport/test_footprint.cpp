@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "transport/footprint.h"
+#include "relucent/transport/footprint.h"
 
 #include <QtTest>
 
@@ -7,6 +7,7 @@
 #include "core/transport/random_blocks.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 class TestFootprint : public QObject {
   Q_OBJECT

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "transport/matrix_density.h"
+#include "relucent/transport/matrix_density.h"
 
 #include <QtTest>
 
-#include "base/error.h"
 #include "core/transport/expanded.h"
 #include "core/transport/random_blocks.h"
-#include "transport/footprint.h"
-#include "transport/statistics.h"
+#include "relucent/base/error.h"
+#include "relucent/transport/footprint.h"
+#include "relucent/transport/statistics.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 using Of = MatrixPictures::Of;
 
 namespace {

@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "random_blocks.h"
-#include "transport/node_layout.h"
+#include "relucent/transport/node_layout.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "transport/statistics.h"
+#include "relucent/transport/statistics.h"
 
 #include <tbb/global_control.h>
 
@@ -7,11 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "random_blocks.h"
-#include "transport/cut_estimate.h"
+#include "relucent/base/error.h"
+#include "relucent/transport/cut_estimate.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

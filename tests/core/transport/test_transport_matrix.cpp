@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "random_blocks.h"
-#include "transport/transport_matrix.h"
+#include "relucent/transport/transport_matrix.h"
 
 using namespace relucent;
+using namespace relucent::transport;
 
 namespace {
 

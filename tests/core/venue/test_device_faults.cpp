@@ -2,9 +2,11 @@
 #include <QTest>
 #include <cmath>
 
-#include "venue/device_faults.h"
+#include "relucent/venue/device_faults.h"
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::venue;
 
 namespace {
 

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
-#include "venue/sample_pattern.h"
-#include "venue/scattering.h"
+#include "relucent/base/random.h"
+#include "relucent/venue/sample_pattern.h"
+#include "relucent/venue/scattering.h"
 
 using namespace relucent;
+using namespace relucent::transport;
+using namespace relucent::venue;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
@@ -27,8 +29,9 @@ float meanWeight(const ScatteringPoint& point) {
   SamplePattern samples(4096, 7);
   float sum = 0.0f;
   for (int i = 0; i < samples.count(); ++i)
-    sum += sampleBounce(point, samples.point(i, 0, Vector2f::Zero()), samples.point(i, 1, Vector2f::Zero()).x())
-               .weight.mean();
+    sum +=
+        sampleBounce(point, samples.point(i, 0, Vector2f::Zero()), samples.point(i, 1, Vector2f::Zero()).x())
+            .weight.mean();
   return sum / static_cast<float>(samples.count());
 }
 

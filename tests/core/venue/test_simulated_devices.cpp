@@ -2,12 +2,15 @@
 #include <QTest>
 #include <cmath>
 
-#include "base/random.h"
-#include "venue/projector_model.h"
-#include "venue/sensor_model.h"
-#include "venue/venue.h"
+#include "relucent/base/random.h"
+#include "relucent/venue/projector_model.h"
+#include "relucent/venue/sensor_model.h"
+#include "relucent/venue/venue.h"
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::rig;
+using namespace relucent::venue;
 
 namespace {
 

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "venue/scenes.h"
-#include "venue/traced_transport.h"
-#include "venue/tracer.h"
+#include "relucent/venue/scenes.h"
+#include "relucent/venue/traced_transport.h"
+#include "relucent/venue/tracer.h"
 
 using namespace relucent;
+using namespace relucent::venue;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/file.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/venue/venue.h"
 #include "support/stopped.h"
-#include "venue/venue.h"
 
 using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::rig;
+using namespace relucent::transport;
+using namespace relucent::venue;
 
 namespace {
 

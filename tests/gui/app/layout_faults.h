@@ -18,7 +18,7 @@
 #include "wizard/frame/step_rail.h"
 #include "wizard/venue/tile.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 /// Where a layout gives a widget less room than its text needs.
 class LayoutFaults {
@@ -133,4 +133,4 @@ class LayoutFaults {
   QStringList faults_;
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

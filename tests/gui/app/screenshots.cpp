@@ -12,7 +12,7 @@
 #include <cstdio>
 
 #include "app/wizard_window.h"
-#include "base/message.h"
+#include "relucent/base/message.h"
 #include "theme/theme.h"
 #include "views/map_view.h"
 #include "wizard/acquire/acquire_page.h"
@@ -26,6 +26,12 @@
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 namespace {
 

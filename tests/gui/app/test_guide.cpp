@@ -13,6 +13,7 @@
 #include "guide/guide_html.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

@@ -9,6 +9,8 @@
 #include "app/versions.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
 
 class TestHelpWindow : public QObject {
   Q_OBJECT

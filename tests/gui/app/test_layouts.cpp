@@ -7,8 +7,8 @@
 
 #include "app/help_window.h"
 #include "app/wizard_window.h"
-#include "base/message.h"
 #include "gui/app/layout_faults.h"
+#include "relucent/base/message.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
@@ -20,6 +20,12 @@
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
 
 namespace {
 

@@ -5,6 +5,8 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::engine;
+using namespace relucent::gui;
 
 namespace {
 

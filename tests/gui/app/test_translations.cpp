@@ -8,14 +8,16 @@
 #include <QtTest>
 
 #include "app/language.h"
-#include "base/error.h"
-#include "base/file.h"
-#include "devices/check_verdict.h"
 #include "gui/app/translation_file.h"
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/check_verdict.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::gui;
 
 namespace {
 
@@ -51,9 +53,9 @@ class TestTranslations : public QObject {
     QVERIFY(file.open(QIODevice::WriteOnly));
     QString text = QString::fromLatin1(
         R"(<?xml version="1.0" encoding="utf-8"?><!DOCTYPE TS><TS version="2.1" language="CODE">
-<context><name>relucent::FailureDialog</name><message><source>Close</source>
+<context><name>relucent::gui::FailureDialog</name><message><source>Close</source>
 <translation>CLOSE</translation></message></context>
-<context><name>relucent::AcquirePage</name><message><source>Paused, %1</source>
+<context><name>relucent::gui::AcquirePage</name><message><source>Paused, %1</source>
 <translation>PAUSED</translation></message></context></TS>)");
     file.write(text.replace("CODE", code).replace("CLOSE", close).replace("PAUSED", paused).toUtf8());
     file.close();
@@ -198,11 +200,11 @@ class TestTranslations : public QObject {
     release("de", "Schließen", "Angehalten, %1");
     release("ar", "إغلاق", "%1");
     release("zh_CN", "关闭", "%1");
-    auto close = [] { return QCoreApplication::translate("relucent::FailureDialog", "Close"); };
+    auto close = [] { return QCoreApplication::translate("relucent::gui::FailureDialog", "Close"); };
     Language language("de", own_.path());
     QCOMPARE(language.available(), QStringList({"ar", "de", "zh_CN"}));
     QCOMPARE(close(), QString::fromUtf8("Schließen"));
-    QCOMPARE(QCoreApplication::translate("relucent::AcquirePage", "Paused, %1").arg(1), "Angehalten, 1");
+    QCOMPARE(QCoreApplication::translate("relucent::gui::AcquirePage", "Paused, %1").arg(1), "Angehalten, 1");
     QCOMPARE(language.spoken(), "de");
     QCOMPARE(QLocale().decimalPoint(), ",");
     QVERIFY(QGuiApplication::layoutDirection() == Qt::LeftToRight);

@@ -34,6 +34,12 @@
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::pipeline;
 
 namespace {
 
@@ -263,7 +269,8 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(wizard_->page<AcquirePage>().isPaused());
     press(QKeySequence("Ctrl+P"));
     QTRY_VERIFY(!wizard_->page<AcquirePage>().isPaused());
-    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
+                             patience);
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<AcquirePage>().isMeasuring(), patience);
     QVERIFY(wizard_->page<AcquirePage>().verificationError().has_value());
     QVERIFY(wizard_->session().roomLight().has_value());

@@ -8,7 +8,7 @@
 #include <QStringList>
 #include <QXmlStreamReader>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// One sentence of a file of Qt Linguist.
 struct TranslatedSentence {
@@ -130,4 +130,4 @@ inline QStringList faultsOf(const QList<TranslatedSentence>& language,
   return faults;
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

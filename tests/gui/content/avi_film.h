@@ -8,7 +8,7 @@
 #include <QtEndian>
 #include <functional>
 
-namespace relucent {
+namespace relucent::gui {
 
 /// A film made by the test, frame by frame: an AVI file of unpacked 4:2:0 samples (BT.601, video range) or of
 /// JPEG pictures, with a tone beside it if wanted. Every decoder reads the first bit for bit.
@@ -93,4 +93,4 @@ inline bool write(const QString& path, const QByteArray& content) {
   return file.open(QIODevice::WriteOnly) && file.write(content) == content.size();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

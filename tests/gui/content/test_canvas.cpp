@@ -6,12 +6,15 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
-#include "image/colour.h"
-#include "image/exr.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/exr.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::image;
 
 namespace {
 

@@ -7,6 +7,8 @@
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 
 class TestCharts : public QObject {
   Q_OBJECT
@@ -30,7 +32,7 @@ class TestCharts : public QObject {
   }
 
   void namesNameOne() {
-    for (TestChart chart : allTestCharts) QVERIFY(testChartFromName(nameOf(chart)) == chart);
+    for (TestChart chart : allTestCharts) QVERIFY(testChartFromName(testChartName(chart)) == chart);
     QVERIFY(!testChartFromName("") && !testChartFromName("Grid"));
   }
 

@@ -5,10 +5,12 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
+#include "relucent/base/error.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 
 namespace {
 

@@ -14,6 +14,8 @@
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 
 namespace {
 

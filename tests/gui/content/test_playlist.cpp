@@ -6,11 +6,14 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
-#include "image/colour.h"
+#include "relucent/base/error.h"
+#include "relucent/image/colour.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::image;
 using namespace std::chrono_literals;
 
 namespace {

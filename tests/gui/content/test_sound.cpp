@@ -12,6 +12,8 @@
 #include "content/video.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 using namespace std::chrono_literals;
 
 namespace {

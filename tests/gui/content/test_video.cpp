@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "base/message.h"
 #include "content/video.h"
+#include "relucent/base/message.h"
 
 #include <QElapsedTimer>
 #include <QTemporaryDir>
@@ -10,10 +10,13 @@
 
 #include "avi_film.h"
 #include "content/playlist.h"
-#include "image/colour.h"
+#include "relucent/image/colour.h"
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::image;
 using namespace std::chrono_literals;
 
 namespace {

@@ -9,6 +9,8 @@
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::image;
 using Format = QVideoFrameFormat;
 
 namespace {

@@ -5,6 +5,7 @@
 #include "content/video_follower.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 using namespace std::chrono_literals;
 
 namespace {

@@ -8,6 +8,7 @@
 #include "gui/output/two_screens.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 using State = DisplayPower::State;
 
 class TestDisplayPower : public QObject {

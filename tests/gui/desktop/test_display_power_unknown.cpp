@@ -5,6 +5,7 @@
 #include "desktop/display_power.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestDisplayPowerUnknown : public QObject {
   Q_OBJECT

@@ -5,13 +5,17 @@
 #include <QtTest>
 #include <cmath>
 
-#include "base/error.h"
 #include "handover/report_chart.h"
 #include "handover/report_pdf.h"
-#include "pipeline/report.h"
-#include "pipeline/report_charts.h"
+#include "relucent/base/error.h"
+#include "relucent/pipeline/report.h"
+#include "relucent/pipeline/report_charts.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::pipeline;
 
 namespace {
 

@@ -5,12 +5,16 @@
 #include <QSignalSpy>
 #include <QtTest>
 
-#include "base/error.h"
-#include "devices/screen_proof.h"
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
+#include "relucent/base/error.h"
+#include "relucent/devices/screen_proof.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

@@ -6,6 +6,9 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::rig;
 
 namespace {
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Work that answers soon and then exactly.
-#include "base/message.h"
 #include "jobs/refining.h"
+#include "relucent/base/message.h"
 
 #include <QSemaphore>
 #include <QtTest>
 #include <stdexcept>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
 using namespace std::chrono_literals;
 
 class TestTimeLeft : public QObject {

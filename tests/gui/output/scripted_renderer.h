@@ -4,11 +4,11 @@
 #include <atomic>
 #include <thread>
 
-#include "base/error.h"
 #include "output/frame_renderer.h"
 #include "output/screen_identity.h"
+#include "relucent/base/error.h"
 
-namespace relucent {
+namespace relucent::gui {
 
 inline const ScreenIdentity projector{"DUMMY1", "", "", ""};
 inline constexpr QSize projectorSize{1024, 768};
@@ -17,7 +17,7 @@ inline constexpr QSize projectorSize{1024, 768};
 class ScriptedRenderer : public FrameRenderer {
  public:
   std::vector<QSize> projectors() const override { return {projectorSize}; }
-  Canvas canvas() const override { return {projectorSize, Fit::fill}; }
+  Canvas canvas() const override { return {projectorSize, compensation::Fit::fill}; }
   QString name() const override { return "scripted"; }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override {
@@ -40,4 +40,4 @@ class ScriptedRenderer : public FrameRenderer {
   std::atomic<bool> endless{false};  // pictures that stand, until somebody wants them no longer
 };
 
-}  // namespace relucent
+}  // namespace relucent::gui

@@ -5,6 +5,7 @@
 #include "output/machine_clock.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestDailyHours : public QObject {
   Q_OBJECT

@@ -7,13 +7,19 @@
 #include <cmath>
 #include <filesystem>
 
-#include "calibration/calibration_folder.h"
-#include "image/picture_files.h"
-#include "pipeline/calibrate.h"
-#include "pipeline/compensate.h"
-#include "pipeline/pictures.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/pictures.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::engine;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 namespace fs = std::filesystem;
 
 namespace {

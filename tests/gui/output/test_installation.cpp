@@ -11,6 +11,7 @@
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

@@ -6,10 +6,11 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "base/error.h"
 #include "output/default_picture.h"
+#include "relucent/base/error.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestOutputPlaylist : public QObject {
   Q_OBJECT

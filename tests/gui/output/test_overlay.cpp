@@ -4,6 +4,7 @@
 #include "output/overlay.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestOverlay : public QObject {
   Q_OBJECT

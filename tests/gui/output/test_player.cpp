@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs on two screens that can be unplugged, see tests/support/with-two-screens.
-#include "base/message.h"
 #include "output/player.h"
+#include "relucent/base/message.h"
 
 #include <QSignalSpy>
 #include <QtTest>
@@ -12,6 +12,8 @@
 #include "gui/output/two_screens.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 using namespace std::chrono_literals;
 
 namespace {

@@ -8,6 +8,7 @@
 #include "output/projector_window.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 /// With OpenGL and without: see CMakeLists.txt.
 class TestProjectorWindow : public QObject {

@@ -4,6 +4,7 @@
 #include "output/screen_identity.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestScreenIdentity : public QObject {
   Q_OBJECT

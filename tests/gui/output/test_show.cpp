@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs on two screens that can be unplugged, see tests/support/with-two-screens.
-#include "base/message.h"
 #include "output/show.h"
+#include "relucent/base/message.h"
 
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -14,6 +14,8 @@
 #include "support/sentences.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 
 class TestShow : public QObject {
   Q_OBJECT

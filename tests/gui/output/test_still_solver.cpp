@@ -6,9 +6,13 @@
 #include <thread>
 
 #include "core/engine/engine_scenes.h"
-#include "image/colour.h"
+#include "relucent/image/colour.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::pipeline;
 
 namespace {
 

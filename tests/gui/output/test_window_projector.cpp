@@ -6,12 +6,16 @@
 #include <QtTest>
 #include <atomic>
 
-#include "base/error.h"
-#include "gui/output/two_screens.h"
 #include "desktop/display_power.h"
+#include "gui/output/two_screens.h"
+#include "relucent/base/error.h"
 #include "support/screen_light.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::rig;
 using test::ScreenLight;
 
 namespace {

@@ -10,7 +10,7 @@
 #include <QtTest>
 
 /// The two screens of tests/support/with-two-screens: DUMMY0 is the operator's, DUMMY1 a projector's.
-namespace relucent {
+namespace relucent::gui {
 
 inline QScreen* screenOn(const QString& connector) {
   for (QScreen* screen : QGuiApplication::screens())
@@ -80,4 +80,4 @@ inline bool allBlack(const QImage& image) {
   return !image.isNull();
 }
 
-}  // namespace relucent
+}  // namespace relucent::gui

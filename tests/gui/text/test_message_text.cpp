@@ -4,11 +4,12 @@
 #include <QTranslator>
 #include <QtTest>
 
-#include "base/error.h"
 #include "jobs/failure.h"
+#include "relucent/base/error.h"
 #include "text/local_digits.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

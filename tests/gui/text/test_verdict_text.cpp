@@ -2,11 +2,13 @@
 #include <QTranslator>
 #include <QtTest>
 
-#include "base/message.h"
-#include "devices/check_verdict.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/check_verdict.h"
 #include "text/message_text.h"
 
 using namespace relucent;
+using namespace relucent::devices;
+using namespace relucent::gui;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

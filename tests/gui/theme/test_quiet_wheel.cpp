@@ -13,6 +13,7 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "theme/theme.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

@@ -11,6 +11,8 @@
 #include "views/vtk_view.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::image;
 
 namespace {
 
@@ -129,7 +131,7 @@ class TestMapView : public QObject {
         }
       return false;
     };
-    for (double place : {0.02, 0.5, 0.98}) QVERIFY(has(relucent::colourAt(ColourMap::viridis, place)));
+    for (double place : {0.02, 0.5, 0.98}) QVERIFY(has(relucent::gui::colourAt(ColourMap::viridis, place)));
   }
 
   void aMapRisesAndLiesDownAgain() {

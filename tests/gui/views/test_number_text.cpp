@@ -7,6 +7,7 @@
 #include <limits>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

@@ -18,6 +18,7 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

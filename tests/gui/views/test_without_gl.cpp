@@ -8,6 +8,9 @@
 #include "views/vtk_view.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::transport;
 
 /// On a platform that makes no contexts.
 class TestWithoutGl : public QObject {

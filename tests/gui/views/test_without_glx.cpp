@@ -7,6 +7,7 @@
 #include "views/vtk_view.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 /// On X servers that lack GLX, where Qt opens OpenGL by EGL if that is there: GLEW complains and VTK draws.
 class TestWithoutGlx : public QObject {

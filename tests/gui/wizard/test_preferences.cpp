@@ -10,6 +10,10 @@
 #include "wizard/linearize/linearize_page.h"
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 class TestPreferences : public QObject {
   Q_OBJECT

@@ -12,14 +12,14 @@
 #include <mutex>
 #include <thread>
 
-#include "base/file.h"
-#include "base/message.h"
-#include "devices/camera_registry.h"
 #include "gui/output/two_screens.h"
 #include "output/window_projector.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/measured_venue.h"
-#include "pipeline/measuring.h"
+#include "relucent/base/file.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/measuring.h"
 #include "support/fake_gige_camera.h"
 #include "support/own_network.h"
 #include "support/screen_light.h"
@@ -30,6 +30,17 @@
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::gui;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
+using namespace relucent::transport;
+using namespace relucent::venue;
 using namespace relucent::test;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;

@@ -4,8 +4,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "calibration/results.h"
-#include "calibration/stage_fingerprint.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_fingerprint.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/cluster/cluster_page.h"
 #include "wizard/linearize/linearize_page.h"
@@ -13,6 +13,15 @@
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+using namespace relucent::hdr;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::transport;
+using namespace relucent::venue;
 
 namespace {
 

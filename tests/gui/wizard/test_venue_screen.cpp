@@ -7,15 +7,18 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "calibration/results.h"
-#include "calibration/stage_fingerprint.h"
 #include "gui/output/two_screens.h"
 #include "output/window_projector.h"
-#include "pipeline/stored_settings.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "wizard/output/output_page.h"
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
 
 namespace {
 

@@ -12,6 +12,10 @@
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 namespace {
 

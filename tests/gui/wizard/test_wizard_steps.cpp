@@ -8,6 +8,7 @@
 #include <string>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestWizardSteps : public QObject {
   Q_OBJECT

@@ -6,11 +6,17 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "pipeline/measuring.h"
-#include "venue/venue.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/venue/venue.h"
 #include "wizard/acquire/retrying_observer.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
+using namespace relucent::sentinels;
+using namespace relucent::venue;
 
 namespace {
 

@@ -6,14 +6,21 @@
 #include <QtTest>
 #include <thread>
 
-#include "pipeline/measuring.h"
-#include "pipeline/stored_settings.h"
-#include "venue/device_faults.h"
-#include "venue/venue.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/venue/device_faults.h"
+#include "relucent/venue/venue.h"
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+using namespace relucent::linearization;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
+using namespace relucent::sentinels;
+using namespace relucent::venue;
 
 namespace {
 

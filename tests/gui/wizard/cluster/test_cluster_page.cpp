@@ -8,13 +8,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/results.h"
-#include "calibration/stage_fingerprint.h"
-#include "clustering/grouping.h"
 #include "core/inverse/synthetic_transport.h"
-#include "pipeline/calibrate_settings.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/clustering/grouping.h"
+#include "relucent/pipeline/calibrate_settings.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::clustering;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::transport;
 
 namespace {
 

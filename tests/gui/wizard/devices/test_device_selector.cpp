@@ -7,6 +7,9 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 

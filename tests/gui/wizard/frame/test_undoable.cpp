@@ -5,6 +5,7 @@
 #include <QtTest>
 
 using namespace relucent;
+using namespace relucent::gui;
 using namespace std::chrono_literals;
 
 class TestUndoable : public QObject {

@@ -5,10 +5,13 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "base/file.h"
-#include "image/exr.h"
+#include "relucent/base/file.h"
+#include "relucent/image/exr.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::image;
 
 class TestProofFile : public QObject {
   Q_OBJECT

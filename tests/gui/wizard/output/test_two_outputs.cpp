@@ -5,10 +5,14 @@
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
-#include "pipeline/calibrate.h"
+#include "relucent/pipeline/calibrate.h"
 #include "wizard/output/output_page.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
 
 namespace {
 

@@ -8,6 +8,8 @@
 #include "views/view_tag.h"
 
 using namespace relucent;
+using namespace relucent::compensation;
+using namespace relucent::gui;
 
 Q_DECLARE_METATYPE(Corners)
 

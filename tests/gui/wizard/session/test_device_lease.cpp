@@ -11,11 +11,12 @@
 #include "wizard/session/session.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 namespace {
 
-constexpr StepName camera{"camera", "relucent::CameraPage", "Camera"};
-constexpr StepName acquire{"acquire", "relucent::AcquirePage", "Acquire"};
+constexpr StepName camera{"camera", "relucent::gui::CameraPage", "Camera"};
+constexpr StepName acquire{"acquire", "relucent::gui::AcquirePage", "Acquire"};
 
 /// Every text in capitals.
 class Loud : public QTranslator {

@@ -7,6 +7,7 @@
 #include "wizard/venue/tile.h"
 
 using namespace relucent;
+using namespace relucent::gui;
 
 class TestScreenList : public QObject {
   Q_OBJECT

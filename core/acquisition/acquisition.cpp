@@ -29,15 +29,15 @@ double shareOf(const std::vector<std::uint8_t>& flags) {
 }
 
 /// The images under full red, green and blue, or their variances, of all projectors summed.
-Stack summed(const std::vector<std::vector<transport::ColourBlock>>& roots, std::size_t rows) {
-  Stack sum(3 * rows, 0.0f);
+CameraStack summed(const std::vector<std::vector<transport::ColourBlock>>& roots, std::size_t rows) {
+  CameraStack sum(3 * rows, 0.0f);
   for (const std::vector<transport::ColourBlock>& root : roots)
     for (std::size_t row = 0; row < rows; ++row)
       Eigen::Map<Eigen::Vector3f>(&sum[3 * row]) += root[row].rowwise().sum();
   return sum;
 }
 
-double unresolvedEnergy(const transport::TransportMatrix& transport, const Stack& flood) {
+double unresolvedEnergy(const transport::TransportMatrix& transport, const CameraStack& flood) {
   Stack explained = transport.floodlight();
   double all = 0.0, missing = 0.0;
   for (std::size_t i = 0; i < flood.size(); ++i) {
@@ -71,7 +71,7 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
             "nothing moved or flickered; these pixels are left out of the compensation")
             .with(as::share(flagged, as::decimals(1))));
   for (const auto& [shot, what] : supervision.accepted)
-    findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "put up with before pattern {}: {}")
+    findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "accepted before pattern {}: {}")
                            .with(as::label(shot + 1), what));
   return findings;
 }
@@ -152,11 +152,11 @@ class Measurement {
 
   static VerifiedTransport unverified(Tree& tree, const photography::References& references) {
     std::size_t rows = references.usable.size();
-    Stack leafVariance = leafVarianceOf(tree);
+    CameraStack leafVariance = leafVarianceOf(tree);
     return {
         transport::TransportMatrix(references.cameras, references.projectors, takeLeaves(tree, references)),
-        std::move(leafVariance), std::vector<std::uint8_t>(rows, 0),
-        std::vector<Stack>(verificationSizes, Stack(3 * rows, 0.0f))};
+        std::move(leafVariance), CameraMask(rows, 0),
+        std::vector<CameraStack>(verificationSizes, CameraStack(3 * rows, 0.0f))};
   }
 
   /// Whoever asked to stop and keep waits for the test patterns alone.
@@ -174,7 +174,7 @@ class Measurement {
   transport::Acquisition finished(VerifiedTransport verified, const sentinels::Watch& watch) const {
     const photography::References& references = watch.references();
     std::size_t rows = references.usable.size();
-    Stack flood = summed(references.root, rows);
+    CameraStack flood = summed(references.root, rows);
     double unresolved = unresolvedEnergy(verified.transport, flood);
     double flagged = shareOf(verified.flagged);
     return {

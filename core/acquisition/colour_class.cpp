@@ -50,8 +50,8 @@ float inLight(const transport::ColourBlock& block, std::size_t cameraChannel, co
   return sum;
 }
 
-Stack patternIn(const LitChannels& light, const std::vector<std::uint8_t>& lit) {
-  Stack pattern(3 * lit.size(), 0.0f);
+ProjectorStack patternIn(const LitChannels& light, const std::vector<std::uint8_t>& lit) {
+  ProjectorStack pattern(3 * lit.size(), 0.0f);
   for (std::size_t i = 0; i < lit.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) pattern[3 * i + k] = light[k] ? lit[i] : 0.0f;
   return pattern;
@@ -91,7 +91,7 @@ ClassFrame ColourClass::frame(std::shared_ptr<const LitQuadrant> quadrant, const
   return frame;
 }
 
-sentinels::Interruptible<hdr::HdrFrame> ColourClass::photograph(
+sentinels::Interruptible<hdr::LampLight> ColourClass::photograph(
     const ClassFrame& frame, const Progress& progress, const photography::Meanwhile& meanwhile) const {
   if (frame.demands.empty()) return watch_.lightOfAll(frame.pattern, progress, meanwhile);
   return watch_.light(frame.pattern, frame.demands, progress, meanwhile);
@@ -126,7 +126,7 @@ bool ColourClass::contradictsParents() {
 
 std::vector<photography::Demand> ColourClass::demands(const LitQuadrant& quadrant,
                                                       const LitChannels& light) const {
-  const hdr::HdrFrame& black = watch_.black();
+  const hdr::BlackLevel& black = watch_.black();
   std::vector<photography::Demand> demands(references_.usable.size());
   parallelFor(0, seen_.size(), 1024, [&](std::size_t i) {
     std::size_t row = seen_[i].row;
@@ -147,7 +147,7 @@ std::size_t ColourClass::projectorOf(const LitPair& seen) const {
   return static_cast<std::size_t>(tree_.layout.node(tree_.active.column(seen.pair)).projector);
 }
 
-void ColourClass::extract(const ClassFrame& frame, const hdr::HdrFrame& seen) {
+void ColourClass::extract(const ClassFrame& frame, const hdr::LampLight& seen) {
   const LitChannels& light = frame.light;
   parallelFor(0, seen_.size(), 256, [&](std::size_t i) {
     if (!wanted_[i]) return;

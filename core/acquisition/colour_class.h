@@ -23,7 +23,7 @@ struct LitQuadrant {
 struct ClassFrame {
   std::shared_ptr<const LitQuadrant> quadrant;
   LitChannels light{};
-  Stack pattern;
+  ProjectorStack pattern;
   std::vector<photography::Demand> demands;  // empty: all exposures
 };
 
@@ -38,14 +38,14 @@ class ColourClass {
   std::shared_ptr<const LitQuadrant> lit(int quadrant, std::vector<std::uint8_t> pixels) const;
   ClassFrame frame(std::shared_ptr<const LitQuadrant> quadrant, const LitChannels& light) const;
 
-  sentinels::Interruptible<hdr::HdrFrame> photograph(const ClassFrame& frame, const Progress& progress,
-                                                     const photography::Meanwhile& meanwhile) const;
+  sentinels::Interruptible<hdr::LampLight> photograph(const ClassFrame& frame, const Progress& progress,
+                                                      const photography::Meanwhile& meanwhile) const;
 
   /// What a photograph says about the children.
-  void extract(const ClassFrame& frame, const hdr::HdrFrame& seen);
+  void extract(const ClassFrame& frame, const hdr::LampLight& seen);
 
   /// After all quadrants: whether many camera pixels contradict what their parents sent before, which is what
-  /// a disturbance during some of the photographs looks like. Those are extracted anew from the next frames
+  /// a disturbance during some of the photographs looks like. Those are extracted again from the next frames
   /// of all quadrants, the others keep their values.
   bool contradictsParents();
 

@@ -50,9 +50,9 @@ std::vector<std::uint8_t> litPixels(const Schedule& schedule, const transport::N
 }
 
 std::vector<float> litShares(const std::vector<std::uint8_t>& lit, const transport::NodeLayout& layout) {
-  Stack pattern(3 * lit.size(), 0.0f);
+  ProjectorStack pattern(3 * lit.size(), 0.0f);
   for (std::size_t i = 0; i < lit.size(); ++i) pattern[3 * i] = lit[i];
-  Stack means = layout.means(pattern);
+  transport::NodeStack means = layout.means(pattern);
   std::vector<float> shares(layout.count());
   for (std::size_t node = 0; node < shares.size(); ++node) shares[node] = means[3 * node];
   return shares;

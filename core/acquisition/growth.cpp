@@ -46,7 +46,7 @@ std::optional<sentinels::Interruption> divided(Tree& tree, const LevelPlan& plan
   if (auto interrupted = context.watch.check(part)) return interrupted;
   std::vector<transport::ColourBlock> rounding = tree.rounding;
   std::vector<LeafNoise> leafNoise = tree.leafNoise;
-  std::vector<std::uint8_t> unknown = tree.unknown;
+  CameraMask unknown = tree.unknown;
   std::optional<sentinels::Interruption> interrupted = divide(tree, plan, context, part);
   if (interrupted) {
     tree.rounding = std::move(rounding);
@@ -92,8 +92,8 @@ std::optional<sentinels::Interruption> growTree(Tree& tree, const TreeContext& c
   return interrupted;
 }
 
-Stack leafVarianceOf(const Tree& tree) {
-  Stack variance(3 * tree.leafNoise.size(), 0.0f);
+CameraStack leafVarianceOf(const Tree& tree) {
+  CameraStack variance(3 * tree.leafNoise.size(), 0.0f);
   for (std::size_t row = 0; row < tree.leafNoise.size(); ++row)
     for (std::size_t c = 0; c < 3; ++c)
       variance[3 * row + c] = tree.leafNoise[row].sum[c] / std::max(1.0f, tree.leafNoise[row].leaves);

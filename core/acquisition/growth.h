@@ -17,6 +17,6 @@ namespace relucent::acquisition {
                                                               bool rootsOnly, Progress& progress);
 
 /// Per camera pixel and channel the mean variance of its leaves.
-Stack leafVarianceOf(const Tree& tree);
+CameraStack leafVarianceOf(const Tree& tree);
 
 }  // namespace relucent::acquisition

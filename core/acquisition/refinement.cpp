@@ -107,7 +107,7 @@ class Division {
           blocks_ = prepared.blocks;
           return blocks_->photograph(prepared.frame, progress_, meanwhile);
         },
-        [](const PreparedFrame& prepared, const hdr::HdrFrame& seen) {
+        [](const PreparedFrame& prepared, const hdr::LampLight& seen) {
           prepared.blocks->extract(prepared.frame, seen);
         });
   }

@@ -68,12 +68,12 @@ class Repair {
 
  private:
   std::optional<sentinels::Interruption> repair(int round, Progress& part) {
-    const std::vector<std::uint8_t> flagged = verified_.flagged;
+    const CameraMask flagged = verified_.flagged;
     Tree tree = emptyTree(context_.references(), flagged);
     sentinels::AcquisitionObserver nobody;  // is to hear of the whole tree alone
     if (auto interrupted = growTree(tree, {context_.watch, context_.scheme, nobody}, false, part))
       return interrupted;
-    Stack leafVariance = leafVarianceOf(tree);
+    CameraStack leafVariance = leafVarianceOf(tree);
     transport::BlockSparse again = takeLeaves(tree, context_.references());
     sentinels::Interruptible<Verification> after = verify(
         with(again, flagged), context_, {settings_, flagged, round * settings_.verificationPatterns}, part);

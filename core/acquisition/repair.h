@@ -14,9 +14,9 @@ namespace relucent::acquisition {
 /// T while it is being verified, and what the verification found so far.
 struct VerifiedTransport {
   transport::TransportMatrix transport;
-  Stack leafVariance;                 // see Acquisition
-  std::vector<std::uint8_t> flagged;  // per camera pixel: wrong
-  std::vector<Stack> residual;        // per block size of the test patterns, radiance
+  CameraStack leafVariance;           // see Acquisition
+  CameraMask flagged;                 // per camera pixel: wrong
+  std::vector<CameraStack> residual;  // per block size of the test patterns, radiance
   double error = 0.0;                 // relative, of held-out patterns over all pixels
   int remeasured = 0;                 // camera pixels that were flagged and measured again
 };

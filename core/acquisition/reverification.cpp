@@ -34,22 +34,13 @@ double meanOf(const Stack& stack) {
 
 /// What noise may hide in a frame: as much as while T was measured, a share of the flood image of each pixel,
 /// or of the mean where that is dark.
-std::vector<float> tolerableNoise(const Stack& flood, const AcquisitionSettings& settings) {
+std::vector<float> tolerableNoise(const CameraStack& flood, const AcquisitionSettings& settings) {
   std::vector<float> tolerable(flood.size() / 3);
   auto dimmest = static_cast<float>(settings.dimShare * meanOf(flood));
   auto share = static_cast<float>(settings.relativeThreshold / settings.noiseSigmas);
   for (std::size_t row = 0; row < tolerable.size(); ++row)
     tolerable[row] = share * std::max({dimmest, flood[3 * row], flood[3 * row + 1], flood[3 * row + 2]});
   return tolerable;
-}
-
-hdr::HdrFrame less(hdr::HdrFrame frame, const hdr::HdrFrame& black) {
-  for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
-    frame.radiance[i] -= black.radiance[i];
-    frame.variance[i] += black.variance[i];
-    frame.valid[i] = frame.valid[i] != 0 && black.valid[i] != 0 ? 1 : 0;
-  }
-  return frame;
 }
 
 Residual sumOf(const std::array<Residual, verificationSizes>& bySize) {
@@ -84,14 +75,16 @@ Reverification verifyAgain(const AcquisitionRun& run, const transport::Acquisiti
           "{} camera and {} projector pixels for a T of {} and {}", photographer.cameras().count(),
           photographer.projectors().count(), transport.cameras().count(), transport.projectors().count());
 
-  hdr::HdrFrame black = photographer.takeAll(Stack(3 * transport.projectors().count(), 0.0f), progress);
+  const hdr::BlackLevel black(
+      photographer.takeAll(ProjectorStack(3 * transport.projectors().count(), 0.0f), progress));
   std::vector<std::uint8_t> counted(acquisition.flagged.size());
   for (std::size_t row = 0; row < counted.size(); ++row) counted[row] = acquisition.flagged[row] == 0 ? 1 : 0;
   std::vector<float> tolerable = tolerableNoise(acquisition.flood, run.settings);
+  // As if the lamp were as strong as then: how strong it is follows from these very photographs.
   auto light =
-      [&](const Stack& pattern,
-          const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<hdr::HdrFrame> {
-    return less(photographer.take(pattern, demands, progress), black);
+      [&](const ProjectorStack& pattern,
+          const std::vector<photography::Demand>& demands) -> sentinels::Interruptible<hdr::LampLight> {
+    return hdr::LampLight(hdr::ProjectedLight(photographer.take(pattern, demands, progress), black), 1.0);
   };
   AcquisitionSettings patterns = run.settings;
   patterns.verificationPatterns = std::max(verificationSizes, run.settings.verificationPatterns);
@@ -148,11 +141,12 @@ Message roomChange(double ambient) {
 
 Judgement judge(const Reverification& found, double errorThen) {
   if (!(found.lamp > leastLight))
-    return {Verdict::startAgain,
-            RELUCENT_ENGLISH_MESSAGE("verify.no-light",
-                                     "Start again: next to nothing of the projector's light is seen; look "
-                                     "whether the lens is covered, the projector off or another screen "
-                                     "chosen, and verify once more before you measure everything again.")};
+    return {
+        Verdict::startAgain,
+        RELUCENT_ENGLISH_MESSAGE("verify.no-light",
+                                 "Start again: the camera sees almost none of the projector's light; look "
+                                 "whether the lens is covered, the projector off or another screen "
+                                 "chosen, and verify once more before you measure everything again.")};
   if (found.changedShare > mostlyChanged)
     return {Verdict::startAgain,
             RELUCENT_ENGLISH_MESSAGE("verify.moved",

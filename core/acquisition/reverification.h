@@ -22,9 +22,10 @@ struct Reverification {
   double ambient = 0.0;
   /// Camera pixels that see something else than predicted, the lamp's change taken out: wrong as a share of
   /// their light and beyond their noise. Pixels that were flagged when T was measured do not count.
-  std::vector<std::uint8_t> changed;
-  double changedShare = 0.0;    // of the pixels that count
-  std::vector<Stack> residual;  // per block size: root of the mean square of measured - e - T p, radiance
+  CameraMask changed;
+  double changedShare = 0.0;  // of the pixels that count
+  std::vector<CameraStack>
+      residual;  // per block size: root of the mean square of measured - e - T p, radiance
   int patterns = 0;
   int exposures = 0;
 };

@@ -66,7 +66,7 @@ Tree emptyTree(const photography::References& references, const std::vector<std:
           std::vector<transport::ColourBlock>(count, transport::ColourBlock::Zero()),
           std::vector<LeafNoise>(count),
           rows,
-          std::vector<std::uint8_t>(count, 0)};
+          CameraMask(count, 0)};
 }
 
 void addRoots(Tree& tree, int level, const photography::References& references, const Scheme& scheme) {

@@ -31,9 +31,9 @@ struct Tree {
   // What rounding the row's leaves has left over so far, handed on to the next: many leaves below half a
   // code would otherwise all be lost.
   std::vector<transport::ColourBlock> rounding;
-  std::vector<LeafNoise> leafNoise;   // per row
-  std::vector<std::uint8_t> wanted;   // per row: takes part
-  std::vector<std::uint8_t> unknown;  // per row: some light was too bright for every exposure
+  std::vector<LeafNoise> leafNoise;  // per row
+  std::vector<std::uint8_t> wanted;  // per row: takes part
+  CameraMask unknown;                // per row: some light was too bright for every exposure
 };
 
 /// A tree of no nodes yet for the camera pixels of `rows`.

@@ -18,7 +18,8 @@ struct Prediction {
   float leafNoise = 0.0f;  // times a frame's variance
 };
 
-Prediction predict(const transport::TransportMatrix& transport, std::size_t row, const Stack& means) {
+Prediction predict(const transport::TransportMatrix& transport, std::size_t row,
+                   const transport::NodeStack& means) {
   const transport::BlockSparse& leaves = transport.leaves();
   Prediction prediction;
   for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
@@ -31,9 +32,9 @@ Prediction predict(const transport::TransportMatrix& transport, std::size_t row,
   return prediction;
 }
 
-std::vector<Prediction> predictions(const transport::TransportMatrix& transport, const Stack& pattern,
-                                    const std::vector<std::uint8_t>& rows) {
-  Stack means = transport.layout().means(pattern);
+std::vector<Prediction> predictions(const transport::TransportMatrix& transport,
+                                    const ProjectorStack& pattern, const std::vector<std::uint8_t>& rows) {
+  transport::NodeStack means = transport.layout().means(pattern);
   std::vector<Prediction> predicted(rows.size());
   parallelFor(0, rows.size(), 256, [&](std::size_t row) {
     if (rows[row]) predicted[row] = predict(transport, row, means);
@@ -56,7 +57,7 @@ std::vector<photography::Demand> demandsOf(const Expectation& expected,
 }
 
 /// One pattern's share of the sums; the squares of the differences are added to `map`.
-std::vector<Residual> compared(const hdr::HdrFrame& seen, const std::vector<Prediction>& predicted,
+std::vector<Residual> compared(const hdr::LampLight& seen, const std::vector<Prediction>& predicted,
                                const std::vector<std::uint8_t>& rows, Stack& map) {
   std::vector<Residual> residual(rows.size());
   parallelFor(0, rows.size(), 1024, [&](std::size_t row) {
@@ -78,9 +79,9 @@ std::vector<Residual> compared(const hdr::HdrFrame& seen, const std::vector<Pred
 
 }  // namespace
 
-Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed) {
+ProjectorStack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed) {
   int side = 1 << (number % 4);
-  Stack pattern(3 * projectors.count());
+  ProjectorStack pattern(3 * projectors.count());
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
     Size size = projectors.size(projector);
     parallelFor(0, static_cast<std::size_t>(size.height), 16, [&](std::size_t y) {
@@ -114,13 +115,13 @@ sentinels::Interruptible<Verification> verify(const Expectation& expected, const
   std::size_t count = rows.size();
   Verification verification;
   verification.rows.assign(count, {});
-  verification.residual.assign(verificationSizes, Stack(3 * count, 0.0f));
+  verification.residual.assign(verificationSizes, CameraStack(3 * count, 0.0f));
   std::array<int, verificationSizes> patterns{};
   bool any = std::any_of(rows.begin(), rows.end(), [](std::uint8_t row) { return row != 0; });
   for (int number = task.first; any && number < task.first + wanted; ++number) {
-    Stack pattern = verificationPattern(expected.transport.projectors(), number, task.settings.seed);
+    ProjectorStack pattern = verificationPattern(expected.transport.projectors(), number, task.settings.seed);
     std::vector<Prediction> predicted = predictions(expected.transport, pattern, rows);
-    sentinels::Interruptible<hdr::HdrFrame> seen = light(pattern, demandsOf(expected, predicted, rows));
+    sentinels::Interruptible<hdr::LampLight> seen = light(pattern, demandsOf(expected, predicted, rows));
     if (!seen) return seen.interruption();
 
     auto size = static_cast<std::size_t>(number % verificationSizes);
@@ -145,7 +146,7 @@ sentinels::Interruptible<Verification> verify(const Expectation& expected, const
 sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& transport,
                                               const TreeContext& context, const VerificationTask& task,
                                               Progress& progress) {
-  auto light = [&](const Stack& pattern, const std::vector<photography::Demand>& demands) {
+  auto light = [&](const ProjectorStack& pattern, const std::vector<photography::Demand>& demands) {
     return context.watch.light(pattern, demands, progress);
   };
   return verify({transport, context.watch.black().radiance, context.scheme.tolerable}, light, task, progress);

@@ -39,18 +39,19 @@ double errorOf(const std::vector<Residual>& rows);
 struct Verification {
   std::vector<Residual> rows;                      // per camera pixel; zeros where it did not count
   std::array<Residual, verificationSizes> bySize;  // per block size, all camera pixels
-  std::vector<std::uint8_t> flagged;  // per camera pixel: wrong both relatively and beyond its noise
-  std::vector<Stack> residual;  // per block size: root of the mean square of measured - predicted, radiance
+  CameraMask flagged;  // per camera pixel: wrong both relatively and beyond its noise
+  std::vector<CameraStack>
+      residual;  // per block size: root of the mean square of measured - predicted, radiance
 };
 
 /// The light of a pattern, radiance less e.
-using LightSource = std::function<sentinels::Interruptible<hdr::HdrFrame>(
-    const Stack& pattern, const std::vector<photography::Demand>& demands)>;
+using LightSource = std::function<sentinels::Interruptible<hdr::LampLight>(
+    const ProjectorStack& pattern, const std::vector<photography::Demand>& demands)>;
 
 /// What a held-out photograph is compared with, and how good it has to be.
 struct Expectation {
   const transport::TransportMatrix& transport;
-  const Stack& black;                   // e
+  const CameraStack& black;             // e
   const std::vector<float>& tolerable;  // deviation of a frame that is good enough, per camera pixel
 };
 
@@ -72,6 +73,6 @@ sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& 
                                               Progress& progress);
 
 /// The pattern `number` of those: a projector stack of zeros and ones.
-Stack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed);
+ProjectorStack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed);
 
 }  // namespace relucent::acquisition

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace relucent {
@@ -55,8 +56,29 @@ class Rasters {
   std::vector<std::size_t> offsets_;  // one element more than sizes
 };
 
-/// Values of all pixels of a Rasters, three channels interleaved: value(pixel, c) = stack[3 * pixel + c].
-/// Camera stacks hold radiance, projector stacks hold linear drive.
+/// A std::vector that belongs to something and says to what: T can be applied to the pixels of projectors,
+/// not to those of cameras. No other cost: what is done to values of any kind takes the plain vector.
+template <typename Value, typename Owner>
+class ValuesOf : public std::vector<Value> {
+ public:
+  using std::vector<Value>::vector;
+  ValuesOf() = default;
+  explicit ValuesOf(std::vector<Value> values) : std::vector<Value>(std::move(values)) {}
+  template <typename Other>
+  ValuesOf(const ValuesOf<Value, Other>&) = delete;  // of somebody else
+};
+struct CameraPixels;
+struct ProjectorPixels;
+
+/// Values of all pixels of a Rasters, three channels interleaved: value(pixel, c) = stack[3 * pixel + c]. Of
+/// any devices: for what treats all alike, such as files.
 using Stack = std::vector<float>;
+/// Of all cameras' pixels: radiance, or what of it is wanted or expected.
+using CameraStack = ValuesOf<float, CameraPixels>;
+/// Of all projectors' pixels: linear drive, 0 to 1, or a step of it.
+using ProjectorStack = ValuesOf<float, ProjectorPixels>;
+/// One value a pixel, 0 or 1.
+using CameraMask = ValuesOf<std::uint8_t, CameraPixels>;
+using ProjectorMask = ValuesOf<std::uint8_t, ProjectorPixels>;
 
 }  // namespace relucent

@@ -75,14 +75,14 @@ Rasters rastersFrom(const Json& json) {
   return Rasters(sizesFrom(json));
 }
 
-Stack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
+CameraStack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
   std::vector<image::Image> images;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     fs::path path = fileOf(result, image::stackFileName(map, camera));
     images.push_back(image::readRgbExr(path, cameras.size(camera)));
     image::checkFinite(images.back(), path);
   }
-  return image::stackFromImages(images, cameras);
+  return CameraStack(image::stackFromImages(images, cameras));
 }
 
 /// Calibrations of earlier versions lack some.
@@ -220,7 +220,7 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
       acquisition.leafVariance = readMaps(result, "leaf-variance", cameras);
     for (std::size_t size = 0; hasMap(result, residualName(size)); ++size)
       acquisition.residual.push_back(readMaps(result, residualName(size), cameras));
-    acquisition.flagged = flagsFrom(readMaps(result, "flagged", cameras));
+    acquisition.flagged = CameraMask(flagsFrom(readMaps(result, "flagged", cameras)));
     acquisition.unresolvedEnergy = values.at("unresolved_energy");
     acquisition.verificationError = values.at("verification_error");
     acquisition.patterns = values.at("patterns");

@@ -100,8 +100,8 @@ class NearLeaves {
 };
 
 /// Where each row's connections begin if leaves up to a level carry them. On the way: T 1.
-std::vector<std::size_t> countedStarts(const NearLeaves& near, const std::vector<std::uint8_t>& usable,
-                                       double share, int coarsest, Stack& flood) {
+std::vector<std::size_t> countedStarts(const NearLeaves& near, const CameraMask& usable, double share,
+                                       int coarsest, CameraStack& flood) {
   std::vector<std::size_t> start(usable.size() + 1, 0);
   parallelChunks(0, usable.size(), parts, [&](std::size_t, std::size_t begin, std::size_t end) {
     NearLeaves::Row seen;
@@ -142,8 +142,7 @@ std::vector<Message> problems(const ConnectionGraphSettings& settings) {
   return found;
 }
 
-ConnectionGraph::ConnectionGraph(const transport::TransportMatrix& transport,
-                                 const std::vector<std::uint8_t>& usable,
+ConnectionGraph::ConnectionGraph(const transport::TransportMatrix& transport, const CameraMask& usable,
                                  const ConnectionGraphSettings& settings, Progress& progress)
     : transport_(&transport), nodes_(transport.layout()) {
   if (auto found = problems(settings); !found.empty())

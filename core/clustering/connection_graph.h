@@ -33,7 +33,7 @@ class ConnectionGraph {
  public:
   /// `usable`: per camera pixel, 0 where it must not be relied on.
   /// Throws: Error{usage} for wrong settings; Cancelled.
-  ConnectionGraph(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+  ConnectionGraph(const transport::TransportMatrix& transport, const CameraMask& usable,
                   const ConnectionGraphSettings& settings, Progress& progress);
 
   const transport::TransportMatrix& transport() const { return *transport_; }
@@ -49,7 +49,7 @@ class ConnectionGraph {
   std::size_t places() const { return start_.back(); }
 
   /// T 1, to which rows are scaled.
-  const Stack& flood() const { return flood_; }
+  const CameraStack& flood() const { return flood_; }
   /// |T_i|^2 over all leaves, those without connections too.
   double squaredNorm(std::size_t row) const { return squaredNorm_[row]; }
   /// Whether the row has leaves inside leaves.
@@ -68,7 +68,7 @@ class ConnectionGraph {
   std::vector<std::size_t> start_;
   std::vector<std::uint32_t> length_;
   std::vector<Connection> edges_;
-  Stack flood_;
+  CameraStack flood_;
   std::vector<double> squaredNorm_;
   std::vector<std::uint8_t> nested_;
   std::size_t connections_ = 0;

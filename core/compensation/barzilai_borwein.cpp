@@ -5,11 +5,12 @@ namespace relucent::compensation::detail {
 
 /// Barzilai & Borwein's step lengths along the projected gradient (Birgin, Martinez & Raydan); f is
 /// quadratic, so the best point of every step is known in closed form and f never rises.
-SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const SolverSettings& settings,
-                                 Progress& progress) {
+SolveResult solveBarzilaiBorwein(const Iteration& at, const ProjectorStack& start,
+                                 const SolverSettings& settings, Progress& progress) {
   SolveResult result;
-  Stack x = at.feasible(start), lit = at.light(x);
-  Stack g = at.gradientAt(lit);
+  ProjectorStack x = at.feasible(start);
+  CameraStack lit = at.light(x);
+  ProjectorStack g = at.gradientAt(lit);
   double step = 1.0, firstNorm = 0.0;
   while (!progress.stopAndKeep()) {
     double norm = at.projectedGradient(x, g);
@@ -18,11 +19,14 @@ SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const 
     result.converged = norm <= settings.tolerance;
     if (result.converged || result.iterations == settings.mostIterations) break;
 
-    Stack trial = at.projectedStep(x, g, step), litTrial = at.light(trial);
+    ProjectorStack trial = at.projectedStep(x, g, step);
+    CameraStack litTrial = at.light(trial);
     auto share = static_cast<float>(at.bestShare(x, trial, g, at.energy(litTrial, lit)));
-    Stack next = stackOf(x.size(), [&](std::size_t j) { return x[j] + share * (trial[j] - x[j]); });
-    lit = stackOf(lit.size(), [&](std::size_t i) { return lit[i] + share * (litTrial[i] - lit[i]); });
-    Stack gNext = at.gradientAt(lit);
+    ProjectorStack next =
+        stackOf<ProjectorStack>(x.size(), [&](std::size_t j) { return x[j] + share * (trial[j] - x[j]); });
+    lit = stackOf<CameraStack>(lit.size(),
+                               [&](std::size_t i) { return lit[i] + share * (litTrial[i] - lit[i]); });
+    ProjectorStack gNext = at.gradientAt(lit);
 
     double moved = at.metric(next, x, next, x);
     double bent = sumOf(x.size(), [&](std::size_t j) {

@@ -7,11 +7,11 @@
 
 namespace relucent::compensation::detail {
 
-Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit) {
-  Stack residual = stackOf(lit.size(), [&](std::size_t i) {
+ProjectorStack gradientFrom(const ConstrainedProblem& problem, const CameraStack& lit) {
+  CameraStack residual = stackOf<CameraStack>(lit.size(), [&](std::size_t i) {
     return problem.weight[i / 3] * (lit[i] - problem.wantedLessBlack[i]);
   });
-  Stack g = problem.transport.applyTransposed(residual);
+  ProjectorStack g = problem.transport.applyTransposed(residual);
   parallelFor(0, g.size(), 4096, [&](std::size_t j) {
     if (!problem.free[j / 3]) g[j] = 0.0f;
   });
@@ -23,11 +23,12 @@ Iteration::Iteration(const ConstrainedProblem& problem)
   for (std::uint8_t free : problem.free) freeValues_ += free ? 3 : 0;
 }
 
-Stack Iteration::feasible(const Stack& x) const {
-  return stackOf(x.size(), [&](std::size_t j) { return problem_.free[j / 3] ? clamp01(x[j]) : 0.0f; });
+ProjectorStack Iteration::feasible(const ProjectorStack& x) const {
+  return stackOf<ProjectorStack>(x.size(),
+                                 [&](std::size_t j) { return problem_.free[j / 3] ? clamp01(x[j]) : 0.0f; });
 }
 
-double Iteration::objective(const Stack& lit) const {
+double Iteration::objective(const CameraStack& lit) const {
   double f = sumOf(lit.size(), [&](std::size_t i) {
     double r = static_cast<double>(lit[i]) - static_cast<double>(problem_.wantedLessBlack[i]);
     return 0.5 * static_cast<double>(problem_.weight[i / 3]) * r * r;
@@ -41,12 +42,14 @@ double Iteration::objective(const Stack& lit) const {
   return f;
 }
 
-Stack Iteration::projectedStep(const Stack& x, const Stack& g, double step) const {
+ProjectorStack Iteration::projectedStep(const ProjectorStack& x, const ProjectorStack& g, double step) const {
   auto length = static_cast<float>(step);
-  return stackOf(x.size(), [&](std::size_t j) { return clamp01(x[j] - length * preconditioner_[j] * g[j]); });
+  return stackOf<ProjectorStack>(
+      x.size(), [&](std::size_t j) { return clamp01(x[j] - length * preconditioner_[j] * g[j]); });
 }
 
-double Iteration::metric(const Stack& a, const Stack& b, const Stack& c, const Stack& d) const {
+double Iteration::metric(const ProjectorStack& a, const ProjectorStack& b, const ProjectorStack& c,
+                         const ProjectorStack& d) const {
   return sumOf(a.size(), [&](std::size_t j) {
     if (!(preconditioner_[j] > 0.0f)) return 0.0;
     return static_cast<double>(a[j] - b[j]) * static_cast<double>(c[j] - d[j]) /
@@ -54,15 +57,15 @@ double Iteration::metric(const Stack& a, const Stack& b, const Stack& c, const S
   });
 }
 
-double Iteration::energy(const Stack& a, const Stack& b) const {
+double Iteration::energy(const CameraStack& a, const CameraStack& b) const {
   return sumOf(a.size(), [&](std::size_t i) {
     double difference = static_cast<double>(a[i]) - static_cast<double>(b[i]);
     return static_cast<double>(problem_.weight[i / 3]) * difference * difference;
   });
 }
 
-double Iteration::projectedGradient(const Stack& x, const Stack& g) const {
-  Stack next = projectedStep(x, g, 1.0);
+double Iteration::projectedGradient(const ProjectorStack& x, const ProjectorStack& g) const {
+  ProjectorStack next = projectedStep(x, g, 1.0);
   double sum = sumOf(x.size(), [&](std::size_t j) {
     double change = static_cast<double>(x[j] - next[j]);
     return change * change;
@@ -70,7 +73,8 @@ double Iteration::projectedGradient(const Stack& x, const Stack& g) const {
   return freeValues_ > 0 ? std::sqrt(sum / static_cast<double>(freeValues_)) : 0.0;
 }
 
-double Iteration::bestShare(const Stack& x, const Stack& trial, const Stack& g, double energyOfStep) const {
+double Iteration::bestShare(const ProjectorStack& x, const ProjectorStack& trial, const ProjectorStack& g,
+                            double energyOfStep) const {
   double slope = sumOf(x.size(), [&](std::size_t j) {
     return static_cast<double>(g[j]) * static_cast<double>(trial[j] - x[j]);
   });

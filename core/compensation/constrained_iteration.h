@@ -8,7 +8,7 @@
 namespace relucent::compensation::detail {
 
 /// grad f from T x; 0 on pixels that are not free.
-Stack gradientFrom(const ConstrainedProblem& problem, const Stack& lit);
+ProjectorStack gradientFrom(const ConstrainedProblem& problem, const CameraStack& lit);
 
 /// Products with T and sums that the iterative solvers need, in the metric of the preconditioner C.
 class Iteration {
@@ -16,27 +16,29 @@ class Iteration {
   explicit Iteration(const ConstrainedProblem& problem);
 
   /// x with every value in [0, 1] and the pixels that are not free at 0.
-  Stack feasible(const Stack& x) const;
-  Stack light(const Stack& x) const { return problem_.transport.apply(x); }
+  ProjectorStack feasible(const ProjectorStack& x) const;
+  CameraStack light(const ProjectorStack& x) const { return problem_.transport.apply(x); }
 
   /// f from T x. Throws: Error{numerics} if it is not finite.
-  double objective(const Stack& lit) const;
+  double objective(const CameraStack& lit) const;
   /// grad f from T x.
-  Stack gradientAt(const Stack& lit) const { return gradientFrom(problem_, lit); }
+  ProjectorStack gradientAt(const CameraStack& lit) const { return gradientFrom(problem_, lit); }
   /// clamp01(x - step C g).
-  Stack projectedStep(const Stack& x, const Stack& g, double step) const;
+  ProjectorStack projectedStep(const ProjectorStack& x, const ProjectorStack& g, double step) const;
   /// <a - b, C^-1 (c - d)>.
-  double metric(const Stack& a, const Stack& b, const Stack& c, const Stack& d) const;
+  double metric(const ProjectorStack& a, const ProjectorStack& b, const ProjectorStack& c,
+                const ProjectorStack& d) const;
   /// sum_i w_i |(a - b)_i|^2 of two camera stacks.
-  double energy(const Stack& a, const Stack& b) const;
+  double energy(const CameraStack& a, const CameraStack& b) const;
   /// Root mean square over the free pixels of x - clamp01(x - C g).
-  double projectedGradient(const Stack& x, const Stack& g) const;
+  double projectedGradient(const ProjectorStack& x, const ProjectorStack& g) const;
   /// The optimal share of the step from x to trial, in closed form since f is quadratic.
-  double bestShare(const Stack& x, const Stack& trial, const Stack& g, double energyOfStep) const;
+  double bestShare(const ProjectorStack& x, const ProjectorStack& trial, const ProjectorStack& g,
+                   double energyOfStep) const;
 
  private:
   const ConstrainedProblem& problem_;
-  Stack preconditioner_;
+  ProjectorStack preconditioner_;
   std::size_t freeValues_ = 0;
 };
 
@@ -45,13 +47,13 @@ void reportDescent(Progress& progress, double norm, double firstNorm, int iterat
                    const SolverSettings& settings);
 
 /// One algorithm per file. solveConstrained() fills in `objective` and `projectedGradient` of the result.
-SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings,
+SolveResult solveFista(const Iteration& at, const ProjectorStack& start, const SolverSettings& settings,
                        Progress& progress);
-SolveResult solveBarzilaiBorwein(const Iteration& at, const Stack& start, const SolverSettings& settings,
-                                 Progress& progress);
-SolveResult solveSteepestDescent(const Iteration& at, const Stack& start, const SolverSettings& settings,
-                                 Progress& progress);
-SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
-                       Progress& progress);
+SolveResult solveBarzilaiBorwein(const Iteration& at, const ProjectorStack& start,
+                                 const SolverSettings& settings, Progress& progress);
+SolveResult solveSteepestDescent(const Iteration& at, const ProjectorStack& start,
+                                 const SolverSettings& settings, Progress& progress);
+SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& start,
+                       const SolverSettings& settings, Progress& progress);
 
 }  // namespace relucent::compensation::detail

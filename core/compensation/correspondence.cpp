@@ -10,7 +10,7 @@
 namespace relucent::compensation {
 
 std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
-                                                  const std::vector<std::uint8_t>& usable,
+                                                  const CameraMask& usable,
                                                   const DirectLightSettings& settings) {
   constexpr float leastShare = 0.01f;
   const transport::BlockSparse& leaves = transport.leaves();
@@ -50,8 +50,8 @@ std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatr
   return brightest;
 }
 
-std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
-  std::vector<std::uint8_t> free(brightest.size(), 0);
+ProjectorMask contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
+  ProjectorMask free(brightest.size(), 0);
   for (std::size_t j = 0; j < free.size(); ++j)
     free[j] = brightest[j] >= 0 && target.inside[static_cast<std::size_t>(brightest[j])];
   return free;

@@ -14,10 +14,10 @@ namespace relucent::compensation {
 /// projector pixel sends outside the view returns as indirect light, which cannot be placed. Leaves below 1 %
 /// of their row's brightest do not count.
 std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
-                                                  const std::vector<std::uint8_t>& usable,
+                                                  const CameraMask& usable,
                                                   const DirectLightSettings& settings);
 
 /// Per projector pixel: its brightest camera pixel lies within the content. The others are black.
-std::vector<std::uint8_t> contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
+ProjectorMask contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
 
 }  // namespace relucent::compensation

@@ -29,8 +29,8 @@ std::vector<std::size_t> weightedValues(const ConstrainedProblem& problem) {
 
 }  // namespace
 
-SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, const SolverSettings& settings,
-                       Progress& progress) {
+SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& start,
+                       const SolverSettings& settings, Progress& progress) {
   std::vector<std::size_t> columns = freeValues(problem), rows = weightedValues(problem);
   if (columns.size() > mostUnknowns || columns.size() * rows.size() > mostValues)
     throw Error(ErrorKind::input,
@@ -49,11 +49,11 @@ SolveResult solveDense(const ConstrainedProblem& problem, const Stack& start, co
     b[static_cast<Eigen::Index>(i)] = root(i) * static_cast<double>(problem.wantedLessBlack[rows[i]]);
   Progress assembling = progress.part(
       0.2, RELUCENT_MESSAGE("stage.writing-out-light-transport", "Writing out the light transport"));
-  Stack one(start.size(), 0.0f);
+  ProjectorStack one(start.size(), 0.0f);
   for (std::size_t j = 0; j < columns.size(); ++j) {
     assembling.report(static_cast<double>(j) / static_cast<double>(columns.size()));
     one[columns[j]] = 1.0f;
-    Stack lit = problem.transport.apply(one);
+    CameraStack lit = problem.transport.apply(one);
     one[columns[j]] = 0.0f;
     for (std::size_t i = 0; i < rows.size(); ++i)
       a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =

@@ -75,7 +75,7 @@ transport::TransportMatrix directPart(const transport::TransportMatrix& transpor
                                       const DirectLightSettings& settings, Progress& progress) {
   const transport::BlockSparse& leaves = transport.leaves();
   DirectLeaves rule(transport, settings);
-  std::vector<std::uint8_t> direct(leaves.blocks(), 0);
+  CameraMask direct(leaves.blocks(), 0);
   eachRow(leaves.rows(), progress, [&](std::size_t row) {
     rule.eachDirect(row, [&](std::size_t entry, const transport::Block&) { direct[entry] = 1; });
   });
@@ -90,8 +90,8 @@ std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
   return looks;
 }
 
-std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks, double leastShare) {
-  std::vector<std::uint8_t> lit(looks.size());
+CameraMask directlyLit(const std::vector<DirectLook>& looks, double leastShare) {
+  CameraMask lit(looks.size());
   for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = static_cast<double>(looks[i].share) >= leastShare;
   return lit;
 }

@@ -93,8 +93,7 @@ std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
                                     const DirectLightSettings& settings, Progress& progress);
 
 /// Per look: enough of its light is direct.
-std::vector<std::uint8_t> directlyLit(const std::vector<DirectLook>& looks,
-                                      double leastShare = leastDirectShare);
+CameraMask directlyLit(const std::vector<DirectLook>& looks, double leastShare = leastDirectShare);
 
 /// Transport of a model with defocus but without indirect light: the direct part, every row scaled to the
 /// whole flood image.

@@ -6,21 +6,22 @@
 namespace relucent::compensation::detail {
 
 /// Beck & Teboulle's FISTA in the metric of C, restarted where momentum points uphill (O'Donoghue & Candes).
-SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSettings& settings,
+SolveResult solveFista(const Iteration& at, const ProjectorStack& start, const SolverSettings& settings,
                        Progress& progress) {
   SolveResult result;
-  Stack x = at.feasible(start), lit = at.light(x);
-  Stack y = x, litY = lit;
+  ProjectorStack x = at.feasible(start), y = x;
+  CameraStack lit = at.light(x), litY = lit;
   double t = 1.0, bound = 1.0, firstNorm = 0.0;
   while (result.iterations < settings.mostIterations && !result.converged && !progress.stopAndKeep()) {
-    Stack g = at.gradientAt(litY);
+    ProjectorStack g = at.gradientAt(litY);
     double norm = at.projectedGradient(y, g);
     if (result.iterations == 0) firstNorm = norm;
     result.converged = norm <= settings.tolerance;
 
     // The bound of one holds for transport without negative entries; measured noise may ask for a little
     // more.
-    Stack next, litNext;
+    ProjectorStack next;
+    CameraStack litNext;
     for (;; bound *= 1.5) {
       next = at.projectedStep(y, g, 1.0 / bound);
       litNext = at.light(next);
@@ -29,9 +30,10 @@ SolveResult solveFista(const Iteration& at, const Stack& start, const SolverSett
     bool uphill = at.metric(y, next, next, x) > 0.0;
     double tNext = uphill ? 1.0 : 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     auto momentum = static_cast<float>(uphill ? 0.0 : (t - 1.0) / tNext);
-    y = stackOf(next.size(), [&](std::size_t j) { return next[j] + momentum * (next[j] - x[j]); });
-    litY =
-        stackOf(litNext.size(), [&](std::size_t i) { return litNext[i] + momentum * (litNext[i] - lit[i]); });
+    y = stackOf<ProjectorStack>(next.size(),
+                                [&](std::size_t j) { return next[j] + momentum * (next[j] - x[j]); });
+    litY = stackOf<CameraStack>(litNext.size(),
+                                [&](std::size_t i) { return litNext[i] + momentum * (litNext[i] - lit[i]); });
     x = std::move(next);
     lit = std::move(litNext);
     t = tNext;

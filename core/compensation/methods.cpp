@@ -13,12 +13,12 @@
 namespace relucent::compensation {
 namespace {
 
-Stack difference(const Stack& a, const Stack& b) {
-  return stackOf(a.size(), [&](std::size_t i) { return a[i] - b[i]; });
+CameraStack difference(const CameraStack& a, const CameraStack& b) {
+  return stackOf<CameraStack>(a.size(), [&](std::size_t i) { return a[i] - b[i]; });
 }
 
 /// Clamps, blackens what is not free, and says what share of the free values was cut off.
-double finish(Stack& p, const std::vector<std::uint8_t>& free) {
+double finish(ProjectorStack& p, const ProjectorMask& free) {
   // A value beyond by less than half a code of an 8-bit projector is not visibly cut.
   constexpr float visible = 0.002f;
   std::size_t cut = 0, values = 0;
@@ -67,8 +67,8 @@ Compensator::Compensator(const MeasuredVenue& venue, const inverse::WindowInvers
   require(wrong.empty(), "compensator settings: {}", fmt::join(wrong, "; "));
 }
 
-Stack Compensator::perPixel(Method method, const Target& target) const {
-  Stack p(3 * brightest_.size(), 0.0f);
+ProjectorStack Compensator::perPixel(Method method, const Target& target) const {
+  ProjectorStack p(3 * brightest_.size(), 0.0f);
   parallelFor(0, brightest_.size(), 1024, [&](std::size_t j) {
     if (brightest_[j] < 0) return;
     auto i = static_cast<std::size_t>(brightest_[j]);
@@ -108,11 +108,11 @@ float Compensator::bestBrightness(const Target& target) const {
   return seen > 0.0 ? static_cast<float>(std::clamp(wanted / seen, 0.0, 1.0)) : 1.0f;
 }
 
-Compensation Compensator::sharpened(const Target& target, Compensation mixed,
-                                    const std::vector<std::uint8_t>& free, Progress& progress) const {
+Compensation Compensator::sharpened(const Target& target, Compensation mixed, const ProjectorMask& free,
+                                    Progress& progress) const {
   Progress separating = progress.part(0.3, RELUCENT_MESSAGE("stage.finding-defocus", "Finding the defocus"));
   transport::TransportMatrix defocus = defocusOnly(venue_.transport, settings_.direct, separating);
-  Stack wantedLessBlack = difference(target.wanted, venue_.black);
+  CameraStack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{defocus, wantedLessBlack, target.weight, free};
   Progress solving = progress.part(0.7, RELUCENT_MESSAGE("stage.sharpening", "Sharpening"));
   SolveResult solved = solveConstrained(problem, mixed.projector, settings_.sharpening, solving);
@@ -135,21 +135,21 @@ const inverse::ClusterInverse& Compensator::clusters(Progress& progress) const {
   return clusters_;
 }
 
-Compensation Compensator::byInverse(const std::function<Stack(const Stack&)>& inverse, const Target& target,
-                                    const std::vector<std::uint8_t>& free, const Stack& preconditioner,
-                                    const Progress& progress) const {
+Compensation Compensator::byInverse(const std::function<ProjectorStack(const CameraStack&)>& inverse,
+                                    const Target& target, const ProjectorMask& free,
+                                    const ProjectorStack& preconditioner, const Progress& progress) const {
   // What no projection can reach would be asked of its neighbours too: wanted as nearly as it can be had.
-  Stack wantedLessBlack = stackOf(target.wanted.size(), [&](std::size_t i) {
+  CameraStack wantedLessBlack = stackOf<CameraStack>(target.wanted.size(), [&](std::size_t i) {
     return std::clamp(target.wanted[i] - venue_.black[i], 0.0f, std::max(0.0f, venue_.flood[i]));
   });
   Compensation result;
   result.projector = inverse(wantedLessBlack);
   result.clipped = finish(result.projector, free);
   progress.checkpoint();
-  Stack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
+  CameraStack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
   parallelFor(0, residual.size(), 4096, [&](std::size_t i) { residual[i] *= target.weight[i / 3]; });
-  Stack sharpening = inverse(residual);
-  Stack byAdjoint = venue_.transport.applyTransposed(residual);
+  ProjectorStack sharpening = inverse(residual);
+  ProjectorStack byAdjoint = venue_.transport.applyTransposed(residual);
   parallelFor(0, sharpening.size(), 4096, [&](std::size_t j) {
     result.projector[j] += settings_.correctionByInverse * sharpening[j] +
                            settings_.correctionByAdjoint * preconditioner[j] * byAdjoint[j];
@@ -162,7 +162,7 @@ Compensation Compensator::byInverse(const std::function<Stack(const Stack&)>& in
 Compensation Compensator::solve(Method method, const Target& target, Progress& progress) const {
   require(target.wanted.size() == venue_.black.size() && target.inside.size() == venue_.usable.size(),
           "a target of {} values for {} camera values", target.wanted.size(), venue_.black.size());
-  std::vector<std::uint8_t> free = contentPixels(brightest_, target);
+  ProjectorMask free = contentPixels(brightest_, target);
   Compensation result;
   if (method == Method::none || method == Method::scalar || method == Method::mix ||
       method == Method::sharpen) {
@@ -177,16 +177,16 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
     return result;
   }
 
-  Stack wantedLessBlack = difference(target.wanted, venue_.black);
+  CameraStack wantedLessBlack = difference(target.wanted, venue_.black);
   ConstrainedProblem problem{venue_.transport, wantedLessBlack, target.weight, free};
-  Stack c = diagonalPreconditioner(problem);
-  auto apply = [](const auto& inverse) { return [&](const Stack& r) { return inverse.apply(r); }; };
+  ProjectorStack c = diagonalPreconditioner(problem);
+  auto apply = [](const auto& inverse) { return [&](const CameraStack& r) { return inverse.apply(r); }; };
   result = method == Method::clusters ? byInverse(apply(clusters(progress)), target, free, c, progress)
                                       : byInverse(apply(inverse_), target, free, c, progress);
   if (method == Method::refined) {
     for (float step : settings_.steps) {
       progress.report(result.iterations / (settings_.steps.size() + 1.0));
-      Stack g = gradient(problem, result.projector);
+      ProjectorStack g = gradient(problem, result.projector);
       parallelFor(0, g.size(), 4096, [&](std::size_t j) { result.projector[j] -= step * c[j] * g[j]; });
       result.clipped = finish(result.projector, free);
       ++result.iterations;

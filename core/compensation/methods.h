@@ -37,9 +37,9 @@ std::vector<Message> problems(const CompensatorSettings& settings);
 
 /// What to project.
 struct Compensation {
-  Stack projector;     // linear drive, 0 to 1
-  double clipped = 0;  // share of the content's projector values that the projector's limits cut off
-  int iterations = 0;  // pairs of products with T and T^T
+  ProjectorStack projector;  // linear drive, 0 to 1
+  double clipped = 0;        // share of the content's projector values that the projector's limits cut off
+  int iterations = 0;        // pairs of products with T and T^T
 };
 
 /// Turns targets into projector images. Prepared once for a venue.
@@ -73,16 +73,16 @@ class Compensator {
   const std::vector<std::int32_t>& brightestCameraPixel() const { return brightest_; }
 
  private:
-  Stack perPixel(Method method, const Target& target) const;
+  ProjectorStack perPixel(Method method, const Target& target) const;
   /// Improves the projection of `mix` with the defocus of T.
-  Compensation sharpened(const Target& target, Compensation mixed, const std::vector<std::uint8_t>& free,
+  Compensation sharpened(const Target& target, Compensation mixed, const ProjectorMask& free,
                          Progress& progress) const;
   /// The factor for which flood * content is closest to the wanted image in least squares, at most 1.
   float bestBrightness(const Target& target) const;
   /// Clamped M b, corrected once. `free`: projector pixels of the content; `preconditioner`: C.
-  Compensation byInverse(const std::function<Stack(const Stack&)>& inverse, const Target& target,
-                         const std::vector<std::uint8_t>& free, const Stack& preconditioner,
-                         const Progress& progress) const;
+  Compensation byInverse(const std::function<ProjectorStack(const CameraStack&)>& inverse,
+                         const Target& target, const ProjectorMask& free,
+                         const ProjectorStack& preconditioner, const Progress& progress) const;
   const inverse::ClusterInverse& clusters(Progress& progress) const;
 
   const MeasuredVenue& venue_;

@@ -103,7 +103,7 @@ Eigen::Matrix3d unitSquareFrom(const Corners& corners) {
   return quadFromSquare.inverse();
 }
 
-std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, Size size, double aspect) {
+std::optional<Corners> largestUpright(const CameraMask& usable, Size size, double aspect) {
   require(usable.size() == size.count(), "{} flags for {}x{} pixels", usable.size(), size.width, size.height);
   require(aspect > 0.0, "an aspect of {}", aspect);
   MaskSums sums(usable, size);
@@ -174,7 +174,7 @@ Placed place(const image::Image& content, const Placement& placement, Size view)
   while (crowding(source) > 8.0 && source.width() > 1 && source.height() > 1) source = halved(source);
   int samples = std::clamp(static_cast<int>(std::ceil(2.0 * crowding(source))), 2, 16);
 
-  Placed placed{image::Image(view, content.channels()), std::vector<std::uint8_t>(view.count(), 0)};
+  Placed placed{image::Image(view, content.channels()), CameraMask(view.count(), 0)};
   auto map = [&](double x, double y) {
     Eigen::Vector3d p = contentFromView * Eigen::Vector3d(x, y, 1.0);
     return Eigen::Vector2d(part.x0 + (part.x1 - part.x0) * p[0] / p[2],

@@ -30,7 +30,7 @@ Eigen::Matrix3d unitSquareFrom(const Corners& corners);
 /// do not count: 90 % of the rectangle, and 90 % of a strip along each of its sides, must be usable. Of
 /// equally large ones the one with most usable pixels, then the one nearest to the centre of the view. Empty
 /// if no rectangle at least 4 pixels high fits.
-std::optional<Corners> largestUpright(const std::vector<std::uint8_t>& usable, Size size, double aspect);
+std::optional<Corners> largestUpright(const CameraMask& usable, Size size, double aspect);
 
 /// How content is fitted to a quadrilateral of another aspect ratio.
 enum class Fit {
@@ -64,7 +64,7 @@ Placement fitted(const Corners& quadrilateral, double aspect, Fit fit);
 /// over the area that the pixel covers (at the border the content's edge pixels continue outward).
 struct Placed {
   image::Image image;  // 0 outside
-  std::vector<std::uint8_t> inside;
+  CameraMask inside;
 };
 Placed place(const image::Image& content, const Placement& placement, Size view);
 

@@ -14,7 +14,7 @@
 
 namespace relucent::compensation {
 
-Prediction compared(Stack camera, const Target& target, const Rasters& cameras) {
+Prediction compared(CameraStack camera, const Target& target, const Rasters& cameras) {
   require(target.wanted.size() == 3 * cameras.count() && target.inside.size() == cameras.count() &&
               camera.size() == target.wanted.size(),
           "a target of {} and a picture of {} values for {} camera pixels", target.wanted.size(),
@@ -45,7 +45,7 @@ Prediction compared(Stack camera, const Target& target, const Rasters& cameras) 
 }
 
 Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation) {
-  Stack camera = venue.transport.apply(compensation.projector);
+  CameraStack camera = venue.transport.apply(compensation.projector);
   parallelFor(0, camera.size(), 4096, [&](std::size_t i) { camera[i] += venue.black[i]; });
   Prediction prediction = compared(std::move(camera), target, venue.transport.cameras());
   prediction.clipped = compensation.clipped;

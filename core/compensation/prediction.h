@@ -8,7 +8,7 @@ namespace relucent::compensation {
 
 /// The predicted camera images, and their error.
 struct Prediction {
-  Stack camera;                // T p + e
+  CameraStack camera;          // T p + e
   image::Image deltaE;         // CIEDE2000 of the first camera's pixels; NaN outside the content
   double meanDeltaE = 0.0;     // over the content, as a viewer adapted to its white sees it
   double psnrReachable = 0.0;  // dB over the reachable pixels; infinite without error, NaN if there are none
@@ -18,7 +18,7 @@ struct Prediction {
 
 /// The error of given camera images. `clipped` stays 0.
 /// Shapes: `camera` and `target` of `cameras`. Content that covers no pixel has a mean of 0.
-Prediction compared(Stack camera, const Target& target, const Rasters& cameras);
+Prediction compared(CameraStack camera, const Target& target, const Rasters& cameras);
 
 /// The preview of a compensation, assuming that T is exact.
 /// Shapes: `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.

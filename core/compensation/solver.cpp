@@ -22,7 +22,7 @@ void checkShapes(const ConstrainedProblem& problem) {
 }
 
 SolveResult solveBy(Algorithm algorithm, const detail::Iteration& at, const ConstrainedProblem& problem,
-                    const Stack& start, const SolverSettings& settings, Progress& progress) {
+                    const ProjectorStack& start, const SolverSettings& settings, Progress& progress) {
   switch (algorithm) {
     case Algorithm::barzilaiBorwein:
       return detail::solveBarzilaiBorwein(at, start, settings, progress);
@@ -57,25 +57,26 @@ SolverSettings defaultsOf(SolverSettings::Algorithm algorithm) {
   return settings;
 }
 
-Stack diagonalPreconditioner(const ConstrainedProblem& problem) {
+ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem) {
   checkShapes(problem);
-  Stack lit = problem.transport.apply(
-      stackOf(3 * problem.free.size(), [&](std::size_t j) { return problem.free[j / 3] ? 1.0f : 0.0f; }));
-  Stack row = stackOf(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; });
-  Stack bound = problem.transport.applyTransposed(row);
+  CameraStack lit = problem.transport.apply(stackOf<ProjectorStack>(
+      3 * problem.free.size(), [&](std::size_t j) { return problem.free[j / 3] ? 1.0f : 0.0f; }));
+  CameraStack row =
+      stackOf<CameraStack>(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; });
+  ProjectorStack bound = problem.transport.applyTransposed(row);
   float largest = bound.empty() ? 0.0f : *std::max_element(bound.begin(), bound.end());
   // What sees next to nothing would take steps of any length on rounding errors.
-  return stackOf(bound.size(), [&](std::size_t j) {
+  return stackOf<ProjectorStack>(bound.size(), [&](std::size_t j) {
     return problem.free[j / 3] && bound[j] > 1e-7f * largest ? 1.0f / bound[j] : 0.0f;
   });
 }
 
-Stack gradient(const ConstrainedProblem& problem, const Stack& p) {
+ProjectorStack gradient(const ConstrainedProblem& problem, const ProjectorStack& p) {
   checkShapes(problem);
   return detail::gradientFrom(problem, problem.transport.apply(p));
 }
 
-SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
+SolveResult solveConstrained(const ConstrainedProblem& problem, const ProjectorStack& start,
                              const SolverSettings& settings, Progress& progress) {
   auto wrong = problems(settings);
   require(wrong.empty(), "solver settings: {}", fmt::join(wrong, "; "));
@@ -84,10 +85,10 @@ SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& sta
           start.size(), problem.free.size());
 
   detail::Iteration at(problem);
-  Stack first = at.feasible(start);
+  ProjectorStack first = at.feasible(start);
   double firstObjective = at.objective(at.light(first));
   SolveResult result = solveBy(settings.algorithm, at, problem, start, settings, progress);
-  Stack lit = at.light(result.x);
+  CameraStack lit = at.light(result.x);
   result.objective = at.objective(lit);
   if (result.objective > firstObjective) {
     result.x = std::move(first);

@@ -15,9 +15,9 @@ namespace relucent::compensation {
 ///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= 1,   b = wanted - e.
 struct ConstrainedProblem {
   const transport::TransportMatrix& transport;
-  const Stack& wantedLessBlack;           // b, camera stack
-  const std::vector<float>& weight;       // w per camera pixel
-  const std::vector<std::uint8_t>& free;  // per projector pixel; pixels with 0 are fixed at 0
+  const CameraStack& wantedLessBlack;  // b, camera stack
+  const std::vector<float>& weight;    // w per camera pixel
+  const ProjectorMask& free;           // per projector pixel; pixels with 0 are fixed at 0
 };
 
 struct SolverSettings {
@@ -47,7 +47,7 @@ constexpr EnumNames<SolverSettings::Algorithm> namesOf(SolverSettings::Algorithm
 SolverSettings defaultsOf(SolverSettings::Algorithm algorithm);
 
 struct SolveResult {
-  Stack x;
+  ProjectorStack x;
   int iterations = 0;
   bool converged = false;          // the tolerance was met
   double projectedGradient = 0.0;  // root mean square over the free pixels of p - clamp01(p - C grad f(p))
@@ -58,16 +58,16 @@ struct SolveResult {
 /// non-negative transport, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a
 /// diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
 /// Shapes: projector stack.  Source: core/compensation/README.md.
-Stack diagonalPreconditioner(const ConstrainedProblem& problem);
+ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem);
 
 /// grad f(p) = T^T W (T p - b), 0 on pixels that are not free.
-Stack gradient(const ConstrainedProblem& problem, const Stack& p);
+ProjectorStack gradient(const ConstrainedProblem& problem, const ProjectorStack& p);
 
 /// Solves from `start` (clamped first). The result is never worse than the start. Stop and keep: the best so
 /// far.
 /// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite; Error{input} if the
 /// problem is too large for the dense algorithm.
-SolveResult solveConstrained(const ConstrainedProblem& problem, const Stack& start,
+SolveResult solveConstrained(const ConstrainedProblem& problem, const ProjectorStack& start,
                              const SolverSettings& settings, Progress& progress);
 
 }  // namespace relucent::compensation

@@ -16,9 +16,9 @@ inline float clamp01(float value) {
 }
 
 /// value(i) for every i below `count`.
-template <typename Value>
-Stack stackOf(std::size_t count, const Value& value) {
-  Stack stack(count);
+template <typename Values, typename Value>
+Values stackOf(std::size_t count, const Value& value) {
+  Values stack(count);
   parallelFor(0, count, 4096, [&](std::size_t i) { stack[i] = value(i); });
   return stack;
 }

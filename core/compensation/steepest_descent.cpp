@@ -7,30 +7,31 @@ namespace relucent::compensation::detail {
 namespace {
 
 /// -g without what would leave the box at once.
-Stack feasibleDirection(const Stack& x, const Stack& g) {
-  return stackOf(x.size(), [&](std::size_t j) {
+ProjectorStack feasibleDirection(const ProjectorStack& x, const ProjectorStack& g) {
+  return stackOf<ProjectorStack>(x.size(), [&](std::size_t j) {
     bool leaves = (x[j] <= 0.0f && g[j] > 0.0f) || (x[j] >= 1.0f && g[j] < 0.0f);
     return leaves ? 0.0f : -g[j];
   });
 }
 
 /// The step at which f is least along the direction: |d|^2 / |T d|^2_W.
-float lineMinimum(const Iteration& at, const Stack& direction) {
+float lineMinimum(const Iteration& at, const ProjectorStack& direction) {
   double length = sumOf(direction.size(), [&](std::size_t j) {
     return static_cast<double>(direction[j]) * static_cast<double>(direction[j]);
   });
-  Stack bent = at.light(direction);
-  double curvature = at.energy(bent, Stack(bent.size(), 0.0f));
+  CameraStack bent = at.light(direction);
+  double curvature = at.energy(bent, CameraStack(bent.size(), 0.0f));
   return curvature > 0.0 ? static_cast<float>(length / curvature) : 0.0f;
 }
 
 }  // namespace
 
-SolveResult solveSteepestDescent(const Iteration& at, const Stack& start, const SolverSettings& settings,
-                                 Progress& progress) {
+SolveResult solveSteepestDescent(const Iteration& at, const ProjectorStack& start,
+                                 const SolverSettings& settings, Progress& progress) {
   SolveResult result;
-  Stack x = at.feasible(start), lit = at.light(x);
-  Stack g = at.gradientAt(lit);
+  ProjectorStack x = at.feasible(start);
+  CameraStack lit = at.light(x);
+  ProjectorStack g = at.gradientAt(lit);
   double firstNorm = 0.0;
   while (!progress.stopAndKeep()) {
     double norm = at.projectedGradient(x, g);
@@ -39,12 +40,13 @@ SolveResult solveSteepestDescent(const Iteration& at, const Stack& start, const 
     result.converged = norm <= settings.tolerance;
     if (result.converged || result.iterations == settings.mostIterations) break;
 
-    Stack direction = feasibleDirection(x, g);
+    ProjectorStack direction = feasibleDirection(x, g);
     float step = lineMinimum(at, direction);
-    Stack trial = stackOf(x.size(), [&](std::size_t j) { return clamp01(x[j] + step * direction[j]); });
+    ProjectorStack trial =
+        stackOf<ProjectorStack>(x.size(), [&](std::size_t j) { return clamp01(x[j] + step * direction[j]); });
 
     // Where clamping bent the line, its minimum lies elsewhere, and f might have risen.
-    Stack litTrial = at.light(trial);
+    CameraStack litTrial = at.light(trial);
     auto share = static_cast<float>(at.bestShare(x, trial, g, at.energy(litTrial, lit)));
     parallelFor(0, x.size(), 4096, [&](std::size_t j) { x[j] += share * (trial[j] - x[j]); });
     parallelFor(0, lit.size(), 4096, [&](std::size_t i) { lit[i] += share * (litTrial[i] - lit[i]); });

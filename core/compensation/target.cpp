@@ -83,7 +83,7 @@ Message cornerProblem(const Corners& corners) {
 }
 
 /// The brightest white that all but `percentile` percent of the usable pixels inside can show.
-float whiteLevel(const MeasuredVenue& venue, const std::vector<std::uint8_t>& inside, double percentile) {
+float whiteLevel(const MeasuredVenue& venue, const CameraMask& inside, double percentile) {
   std::vector<float> brightest;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (!inside[i] || !venue.usable[i]) continue;
@@ -131,15 +131,15 @@ std::vector<Message> problems(const TargetSettings& settings) {
   return found;
 }
 
-std::vector<std::uint8_t> seesProjection(const MeasuredVenue& venue) {
-  std::vector<std::uint8_t> pixels(venue.usable.size());
+CameraMask seesProjection(const MeasuredVenue& venue) {
+  CameraMask pixels(venue.usable.size());
   for (std::size_t i = 0; i < pixels.size(); ++i)
     pixels[i] = venue.usable[i] && (venue.direct.empty() || venue.direct[i]);
   return pixels;
 }
 
-std::vector<std::uint8_t> placeable(const MeasuredVenue& venue) {
-  std::vector<std::uint8_t> pixels = seesProjection(venue);
+CameraMask placeable(const MeasuredVenue& venue) {
+  CameraMask pixels = seesProjection(venue);
   pixels.resize(firstCamera(venue).count());
   return pixels;
 }
@@ -172,7 +172,7 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   std::size_t pixels = venue.transport.cameras().count();
   target.inside = std::move(placed.inside);
   target.inside.resize(pixels, 0);
-  target.content = std::move(placed.image.data());
+  target.content = CameraStack(std::move(placed.image.data()));
   target.content.resize(3 * pixels, 0.0f);
 
   float white = whiteLevel(venue, target.inside, settings.reachablePercentile);

@@ -17,17 +17,17 @@ namespace relucent::compensation {
 /// The measured venue, as compensation needs it.
 struct MeasuredVenue {
   transport::TransportMatrix transport;
-  Stack black;                       // e
-  Stack flood;                       // T 1 as photographed, minus e
-  std::vector<std::uint8_t> usable;  // per camera pixel: lit by the projector and not flagged
+  CameraStack black;  // e
+  CameraStack flood;  // T 1 as photographed, minus e
+  CameraMask usable;  // per camera pixel: lit by the projector and not flagged
   /// Per camera pixel: directly lit, see directlyLit(). Empty: all of them.
-  std::vector<std::uint8_t> direct{};
+  CameraMask direct{};
 };
 
 /// Per pixel of all cameras: usable, and directly lit.
-std::vector<std::uint8_t> seesProjection(const MeasuredVenue& venue);
+CameraMask seesProjection(const MeasuredVenue& venue);
 /// The first camera's pixels that content may cover if no corners are given: its seesProjection().
-std::vector<std::uint8_t> placeable(const MeasuredVenue& venue);
+CameraMask placeable(const MeasuredVenue& venue);
 
 struct TargetSettings {
   /// Corners of the content in the first camera's view; none: largestUpright() over placeable().
@@ -41,10 +41,10 @@ std::vector<Message> problems(const TargetSettings& settings);
 
 /// The target image at the cameras.
 struct Target {
-  Stack content;                        // the placed content, 0 to 1; 0 outside
-  Stack wanted;                         // camera signal per second; e outside
-  std::vector<std::uint8_t> inside;     // per camera pixel: the content covers it
-  std::vector<std::uint8_t> reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
+  CameraStack content;           // the placed content, 0 to 1; 0 outside
+  CameraStack wanted;            // camera signal per second; e outside
+  CameraMask inside;             // per camera pixel: the content covers it
+  CameraMask reachable;          // per camera pixel inside: e <= wanted <= T 1 + e in all channels
   std::vector<float> weight;     // per camera pixel: 1 inside, less where unreachable, 0 where unusable
   std::array<float, 3> white{};  // wanted signal of the content's white: the peak for PSNR
   Corners corners{};             // where the content was placed: within the quadrilateral for Fit::fit

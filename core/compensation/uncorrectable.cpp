@@ -22,7 +22,7 @@ class SecondViews {
     const Rasters& cameras = venue_.transport.cameras();
     Size size = cameras.size(camera);
     std::size_t first = cameras.offset(camera);
-    std::vector<std::uint8_t> ofCamera(candidates_.size(), 0);
+    CameraMask ofCamera(candidates_.size(), 0);
     std::copy_n(candidates_.begin() + static_cast<std::ptrdiff_t>(first), size.count(),
                 ofCamera.begin() + static_cast<std::ptrdiff_t>(first));
     std::vector<std::int32_t> brightest =
@@ -90,7 +90,7 @@ std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Ta
 
   Progress looking = progress.part(0.6, RELUCENT_MESSAGE("stage.looking-shadows", "Looking for shadows"));
   std::vector<DirectLook> looks = directLooks(venue.transport, settings.direct, looking);
-  std::vector<std::uint8_t> lit = directlyLit(looks, settings.leastDirectShare), twice(pixels, 0);
+  CameraMask lit = directlyLit(looks, settings.leastDirectShare), twice(pixels, 0);
   for (std::size_t i = 0; i < pixels; ++i) lit[i] = lit[i] && venue.usable[i];
   SecondViews views(venue, looks, lit, settings);
   for (std::size_t camera = 0; camera < venue.transport.cameras().devices(); ++camera) {

@@ -92,8 +92,8 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
       ContentWarp(content, placementOf(engine, content, target.corners), venue.transport.cameras().size(0));
 
   result.free = compensation::contentPixels(engine.brightest, target);
-  Stack lit = compensation::stackOf(3 * result.free.size(),
-                                    [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
+  auto lit = compensation::stackOf<ProjectorStack>(
+      3 * result.free.size(), [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
   result.lit = venue.transport.apply(lit);
   return result;
 }

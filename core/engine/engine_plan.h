@@ -48,8 +48,8 @@ struct EngineContent {
   ContentWarp warp;                 // into the first camera's view
   compensation::Corners corners{};  // where the content was placed
   float white = 0.0f;               // wanted signal of the content's white
-  std::vector<std::uint8_t> free;   // per projector pixel: it belongs to the content; the others are black
-  Stack lit;                        // camera stack: the signal with all free projector pixels at full drive
+  ProjectorMask free;               // per projector pixel: it belongs to the content; the others are black
+  CameraStack lit;                  // camera stack: the signal with all free projector pixels at full drive
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

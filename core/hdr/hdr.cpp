@@ -52,4 +52,20 @@ HdrFrame meanOf(const std::vector<HdrFrame>& frames) {
   return mean;
 }
 
+ProjectedLight::ProjectedLight(HdrFrame frame, const BlackLevel& black) : HdrFrame(std::move(frame)) {
+  parallelFor(0, radiance.size(), 4096, [&](std::size_t i) {
+    radiance[i] -= black.radiance[i];
+    variance[i] += black.variance[i];
+    valid[i] = valid[i] != 0 && black.valid[i] != 0 ? 1 : 0;
+  });
+}
+
+LampLight::LampLight(ProjectedLight light, double power) : HdrFrame(std::move(light)) {
+  auto scale = static_cast<float>(1.0 / power);
+  parallelFor(0, radiance.size(), 4096, [&](std::size_t i) {
+    radiance[i] *= scale;
+    variance[i] *= scale * scale;
+  });
+}
+
 }  // namespace relucent::hdr

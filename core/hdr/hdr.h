@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "relucent/base/raster.h"
@@ -42,9 +43,32 @@ inline double linearVariance(const CameraModel& camera, double linear) {
 
 /// A merged bracket: linear radiance (camera signal per true second) with its variance.
 struct HdrFrame {
-  Stack radiance;
-  Stack variance;
+  CameraStack radiance;
+  CameraStack variance;
   std::vector<std::uint8_t> valid;  // per value; 0 where every exposure was saturated
+};
+
+// Three quantities of the same shape that must not be taken for one another: each is made from the one
+// before.
+
+/// e: the radiance under black projectors, which is the room's light and what the projectors leak.
+struct BlackLevel : HdrFrame {
+  BlackLevel() = default;
+  explicit BlackLevel(HdrFrame frame) : HdrFrame(std::move(frame)) {}
+};
+
+/// Radiance less e: what the projectors add, with a lamp as strong as it was just then.
+struct ProjectedLight : HdrFrame {
+  ProjectedLight() = default;
+  ProjectedLight(HdrFrame frame, const BlackLevel& black);
+};
+
+/// Projected light over the lamp's power: T p, whenever it was photographed. sentinels::Watch knows that
+/// power.
+struct LampLight : HdrFrame {
+  LampLight() = default;
+  /// `power` of the lamp relative to when T's first photograph was taken.
+  LampLight(ProjectedLight light, double power);
 };
 
 /// Inverse-variance weighted mean of the unsaturated exposures,

@@ -218,7 +218,7 @@ HdrFrame mergeBracket(const rig::Shot& shot, const std::vector<CameraModel>& cam
   require(!shot.frames.empty(), "shot {} {} has no exposures", shot.id.stage, shot.id.number);
   require(cameras.size() == rasters.devices(), "{} camera models for {} cameras", cameras.size(),
           rasters.devices());
-  HdrFrame merged{Stack(3 * rasters.count()), Stack(3 * rasters.count()),
+  HdrFrame merged{CameraStack(3 * rasters.count()), CameraStack(3 * rasters.count()),
                   std::vector<std::uint8_t>(3 * rasters.count())};
   for (std::size_t device = 0; device < cameras.size(); ++device) {
     const CameraModel& camera = cameras[device];

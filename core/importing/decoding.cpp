@@ -133,7 +133,7 @@ namespace {
 /// Tries the places that neighbours in a row's predecessors suggest, and a few around the pixel's own.
 class Propagation {
  public:
-  Propagation(const DecodingInput& input, const std::vector<std::uint8_t>& lit) : input_(input), lit_(lit) {}
+  Propagation(const DecodingInput& input, const CameraMask& lit) : input_(input), lit_(lit) {}
 
   /// Each pixel reads what the last sweep left around it and writes its own place: the same on any number of
   /// threads.
@@ -198,8 +198,8 @@ class Propagation {
 
 }  // namespace
 
-void propagate(const DecodingInput& input, const std::vector<std::uint8_t>& lit,
-               std::vector<Decoded>& decoded, Progress& progress) {
+void propagate(const DecodingInput& input, const CameraMask& lit, std::vector<Decoded>& decoded,
+               Progress& progress) {
   constexpr int sweeps = 4;
   Propagation propagation(input, lit);
   std::vector<Decoded> next = decoded;

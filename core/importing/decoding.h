@@ -34,7 +34,7 @@ std::vector<Decoded> decodePixels(const DecodingInput& input, const std::vector<
 /// Neighbours help each other: a pixel takes the place next to which a neighbour found its own, where that
 /// explains its sequence better. Finds what the coarse levels cannot tell:
 /// patterns without wide structures.  Source: PatchMatch, Barnes et al. 2009.
-void propagate(const DecodingInput& input, const std::vector<std::uint8_t>& lit,
-               std::vector<Decoded>& decoded, Progress& progress);
+void propagate(const DecodingInput& input, const CameraMask& lit, std::vector<Decoded>& decoded,
+               Progress& progress);
 
 }  // namespace relucent::importing

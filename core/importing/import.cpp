@@ -287,7 +287,7 @@ class Importing {
   transport::ColourBlock mixing_ = transport::ColourBlock::Identity();
   FootprintPrior prior_;
   SequencePyramid pyramid_;
-  std::vector<std::uint8_t> lit_;
+  CameraMask lit_;
   std::vector<std::uint32_t> litPixels_;
   std::vector<Decoded> decoded_;
   std::vector<Footprint> footprint_;

@@ -20,8 +20,8 @@ struct Squares {
   }
 };
 
-Stack linearPattern(const PictureSequence& patterns, int frame, const DriveTable& drive) {
-  Stack stack(3 * patterns.size().count());
+ProjectorStack linearPattern(const PictureSequence& patterns, int frame, const DriveTable& drive) {
+  ProjectorStack stack(3 * patterns.size().count());
   for (std::size_t i = 0; i < stack.size(); ++i) {
     int c = static_cast<int>(i % 3);
     stack[i] = drive(patterns.code(i / 3, frame, c), c);
@@ -55,8 +55,8 @@ HeldOutScore scoreHeldOut(const HeldOutInput& input, const transport::Acquisitio
   Squares all;
   for (std::size_t k = 0; k < input.frames.heldOut.size(); ++k) {
     int frame = input.frames.heldOut[k];
-    Stack pattern = linearPattern(input.patterns, frame, drive);
-    Stack predicted = acquisition.transport.apply(pattern);
+    ProjectorStack pattern = linearPattern(input.patterns, frame, drive);
+    CameraStack predicted = acquisition.transport.apply(pattern);
     std::vector<Squares> parts(chunks);
     parallelChunks(0, input.lit.size(), chunks, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
       for (std::size_t pixel = begin; pixel < end; ++pixel) {

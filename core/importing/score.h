@@ -12,7 +12,7 @@ struct HeldOutInput {
   const PictureSequence& patterns;
   const PictureSequence& photographs;
   const ImportFrames& frames;
-  const std::vector<std::uint8_t>& lit;
+  const CameraMask& lit;
   const std::vector<Decoded>& decoded;
   const std::vector<PixelColour>& oneToOne;
   const std::vector<PixelColour>& mix;

@@ -160,7 +160,7 @@ void readSequence(const PictureSequence& photographs, const ImportFrames& frames
   }
 }
 
-std::vector<std::uint8_t> litPixels(const PictureSequence& photographs, const ImportFrames& frames) {
+CameraMask litPixels(const PictureSequence& photographs, const ImportFrames& frames) {
   constexpr float leastShare = 0.1f;
   std::size_t pixels = photographs.size().count();
   std::vector<float> span(pixels);
@@ -176,7 +176,7 @@ std::vector<std::uint8_t> litPixels(const PictureSequence& photographs, const Im
   std::vector<float> sorted = span;
   auto p95 = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 95 / 100);
   std::nth_element(sorted.begin(), p95, sorted.end());
-  std::vector<std::uint8_t> lit(pixels);
+  CameraMask lit(pixels);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
     lit[pixel] = span[pixel] > 0.0f && span[pixel] >= leastShare * *p95;
   return lit;

@@ -79,7 +79,7 @@ void readSequence(const PictureSequence& photographs, const ImportFrames& frames
 
 /// Camera pixels whose light changes with the patterns: by a tenth or more of what the 95th percentile
 /// changes by.
-std::vector<std::uint8_t> litPixels(const PictureSequence& photographs, const ImportFrames& frames);
+CameraMask litPixels(const PictureSequence& photographs, const ImportFrames& frames);
 
 /// Signals at or above this are taken to be cut off. Full scale is 1.
 inline constexpr float importSaturation = 0.995f;

@@ -27,9 +27,9 @@ std::size_t ClusterInverse::bytes() const {
          (row_.size() + pixel_.size()) * sizeof(std::uint32_t) + weight_.size() * sizeof(std::int16_t);
 }
 
-Stack ClusterInverse::apply(const Stack& cameraResidual) const {
-  Stack light = unmixed(unmix_, cameraResidual);
-  Stack projector(3 * projectors_.count(), 0.0f);
+ProjectorStack ClusterInverse::apply(const CameraStack& cameraResidual) const {
+  CameraStack light = unmixed(unmix_, cameraResidual);
+  ProjectorStack projector(3 * projectors_.count(), 0.0f);
   parallelFor(0, scale_.size(), 16, [&](std::size_t cluster) {
     constexpr std::size_t lanes = 32;  // pixels at once: what stays in registers and the first cache
     std::size_t pixels = pixelStart_[cluster + 1] - pixelStart_[cluster];

@@ -47,7 +47,7 @@ class ClusterInverse {
   /// p = T+ r, not clamped. Same bits for every number of threads.
   /// Shapes: 3 * cameras().count() -> 3 * projectors().count().
   /// Units: camera signal per second -> linear drive. Projector pixels in no cluster stay 0.
-  Stack apply(const Stack& cameraResidual) const;
+  ProjectorStack apply(const CameraStack& cameraResidual) const;
 
   /// The whole operator for other programs, U included: rows = projector pixels, columns = camera pixels.
   transport::BlockSparse matrix() const;
@@ -74,8 +74,7 @@ class ClusterInverse {
 /// pixel gets the weighted mean of the camera pixels that see it instead. `usable`: per camera pixel, 0 where
 /// it is unreliable. Throws: Error{usage} for wrong settings; Error{memory} if a cluster is too large to be
 /// inverted; Error{numerics} if one cannot be factored; Cancelled.
-ClusterInverse computeClusterInverse(const clustering::Clustering& clustering,
-                                     const std::vector<std::uint8_t>& usable,
+ClusterInverse computeClusterInverse(const clustering::Clustering& clustering, const CameraMask& usable,
                                      const ClusterInverseSettings& settings, Progress& progress);
 
 }  // namespace relucent::inverse

@@ -38,7 +38,7 @@ void sortIntoGroups(const std::vector<std::uint32_t>& groupOf, const std::vector
 /// Fills a ClusterInverse.
 class ClusterInverter {
  public:
-  ClusterInverter(const clustering::Clustering& clustering, const std::vector<std::uint8_t>& usable,
+  ClusterInverter(const clustering::Clustering& clustering, const CameraMask& usable,
                   const ClusterInverseSettings& settings)
       : leaves_(clustering.transport.leaves()), settings_(settings) {
     inverse_.cameras_ = clustering.transport.cameras();
@@ -91,7 +91,7 @@ class ClusterInverter {
   }
 
   /// Takes each camera pixel to the common scale.
-  void unmix(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
+  void unmix(const transport::TransportMatrix& transport, const CameraMask& usable) {
     std::vector<transport::ColourBlock> mixing = transport.rowSums();
     inverse_.unmix_.assign(9 * mixing.size(), 0.0f);
     parallelFor(0, mixing.size(), 256, [&](std::size_t row) {
@@ -173,8 +173,7 @@ class ClusterInverter {
   ClusterInverse inverse_;
 };
 
-ClusterInverse computeClusterInverse(const clustering::Clustering& clustering,
-                                     const std::vector<std::uint8_t>& usable,
+ClusterInverse computeClusterInverse(const clustering::Clustering& clustering, const CameraMask& usable,
                                      const ClusterInverseSettings& settings, Progress& progress) {
   if (auto found = problems(settings); !found.empty())
     throw Error(ErrorKind::usage, found.front(),

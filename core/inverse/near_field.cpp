@@ -29,7 +29,7 @@ NearField::Value unmixed(const transport::ColourBlock& unmix, const transport::C
 
 }  // namespace
 
-NearField nearFieldOf(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable) {
+NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraMask& usable) {
   const transport::BlockSparse& leaves = transport.leaves();
   require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
           leaves.rows());

@@ -24,6 +24,6 @@ struct NearField {
   std::vector<Value> value;
 };
 
-NearField nearFieldOf(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable);
+NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraMask& usable);
 
 }  // namespace relucent::inverse

@@ -169,9 +169,8 @@ class WindowBuilder {
   WindowInverse result_;
 };
 
-PreparedWindows::PreparedWindows(const transport::TransportMatrix& transport,
-                                 const std::vector<std::uint8_t>& usable, const WindowSettings& settings,
-                                 Progress& progress)
+PreparedWindows::PreparedWindows(const transport::TransportMatrix& transport, const CameraMask& usable,
+                                 const WindowSettings& settings, Progress& progress)
     : layout_(transport.layout()) {
   auto wrong = problems(settings);
   require(wrong.empty(), "window settings: {}", fmt::join(wrong, "; "));
@@ -185,9 +184,8 @@ WindowInverse PreparedWindows::inverse(double ridge, Progress& progress) const {
   return WindowBuilder(near_, layout_, ridge, without_).build(progress);
 }
 
-WindowInverse computeWindows(const transport::TransportMatrix& transport,
-                             const std::vector<std::uint8_t>& usable, const WindowSettings& settings,
-                             Progress& progress) {
+WindowInverse computeWindows(const transport::TransportMatrix& transport, const CameraMask& usable,
+                             const WindowSettings& settings, Progress& progress) {
   Progress preparing = progress.part(0.4, progress.stage());
   PreparedWindows prepared(transport, usable, settings, preparing);
   Progress solving = progress.part(0.6, progress.stage());

@@ -15,7 +15,7 @@ namespace relucent::inverse {
 class PreparedWindows {
  public:
   /// `settings.ridge` is ignored.
-  PreparedWindows(const transport::TransportMatrix& transport, const std::vector<std::uint8_t>& usable,
+  PreparedWindows(const transport::TransportMatrix& transport, const CameraMask& usable,
                   const WindowSettings& settings, Progress& progress);
 
   /// Steps 4 and 5. Same bits as computeWindows() with that ridge.

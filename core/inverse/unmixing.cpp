@@ -17,10 +17,10 @@ transport::ColourBlock regularisedUnmixing(const transport::ColourBlock& mixing,
   return (normal.inverse() * b.transpose() / static_cast<double>(norm)).cast<float>();
 }
 
-Stack unmixed(const std::vector<float>& unmixing, const Stack& camera) {
+CameraStack unmixed(const std::vector<float>& unmixing, const CameraStack& camera) {
   require(unmixing.size() == 3 * camera.size(), "{} values for {} camera pixels", camera.size(),
           unmixing.size() / 9);
-  Stack result(camera.size());
+  CameraStack result(camera.size());
   parallelFor(0, camera.size() / 3, 1024, [&](std::size_t row) {
     const float* u = &unmixing[9 * row];
     const float* in = &camera[3 * row];

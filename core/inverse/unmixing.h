@@ -16,6 +16,6 @@ transport::ColourBlock regularisedUnmixing(const transport::ColourBlock& mixing,
 
 /// U_i y_i of every camera pixel.  Shapes: 9 floats a camera pixel, row-major; 3 values a camera pixel.
 /// Throws: std::logic_error if the shapes differ.
-Stack unmixed(const std::vector<float>& unmixing, const Stack& camera);
+CameraStack unmixed(const std::vector<float>& unmixing, const CameraStack& camera);
 
 }  // namespace relucent::inverse

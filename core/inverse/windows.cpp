@@ -30,9 +30,9 @@ WindowArrays WindowInverse::view() const {
   return {&tiles_, tile_, unmix_.data(), tileStart_.data(), row_.data(), weight_.data(), scale_.data()};
 }
 
-Stack WindowInverse::apply(const Stack& cameraResidual) const {
-  Stack light = unmixed(unmix_, cameraResidual);
-  Stack projector(3 * projectors_.count());
+ProjectorStack WindowInverse::apply(const CameraStack& cameraResidual) const {
+  CameraStack light = unmixed(unmix_, cameraResidual);
+  ProjectorStack projector(3 * projectors_.count());
   for (std::size_t device = 0; device < projectors_.devices(); ++device) {
     Size size = projectors_.size(device);
     Size grid = tiles_.size(device);

@@ -47,7 +47,7 @@ class WindowInverse {
   /// p = M r, not clamped. Same bits for every number of threads.
   /// Shapes: 3 * cameras().count() -> 3 * projectors().count().
   /// Units: camera signal per second -> linear drive. Projector pixels that no camera pixel sees stay 0.
-  Stack apply(const Stack& cameraResidual) const;
+  ProjectorStack apply(const CameraStack& cameraResidual) const;
 
   WindowArrays view() const;
 
@@ -81,8 +81,7 @@ class WindowInverse {
 /// `usable`: per camera pixel, 0 where it is unreliable. A thresholded T should have been rescaled to the
 /// flood image before.  Source: core/inverse/README.md.
 /// Throws: Error{numerics} if a G is not positive definite; Cancelled.
-WindowInverse computeWindows(const transport::TransportMatrix& transport,
-                             const std::vector<std::uint8_t>& usable, const WindowSettings& settings,
-                             Progress& progress);
+WindowInverse computeWindows(const transport::TransportMatrix& transport, const CameraMask& usable,
+                             const WindowSettings& settings, Progress& progress);
 
 }  // namespace relucent::inverse

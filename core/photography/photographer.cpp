@@ -130,7 +130,7 @@ bool Photographer::needsShorter(const hdr::HdrFrame& frame, const std::vector<De
   return false;
 }
 
-hdr::HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>& demands,
+hdr::HdrFrame Photographer::take(const ProjectorStack& pattern, const std::vector<Demand>& demands,
                                  const Progress& progress, const Meanwhile& meanwhile) {
   require(demands.size() == cameras_.count(), "{} demands for {} camera pixels", demands.size(),
           cameras_.count());
@@ -155,7 +155,7 @@ hdr::HdrFrame Photographer::take(const Stack& pattern, const std::vector<Demand>
   return frame;
 }
 
-hdr::HdrFrame Photographer::takeAll(const Stack& pattern, const Progress& progress,
+hdr::HdrFrame Photographer::takeAll(const ProjectorStack& pattern, const Progress& progress,
                                     const Meanwhile& meanwhile) {
   std::vector<image::Image> encoded;
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)

@@ -32,10 +32,11 @@ class Photographer {
   /// Merged radiance under linear binary patterns (a projector stack of zeros and ones: full drive needs no
   /// projector curve). Demands: one per camera pixel. Pixels with a demand that stay invalid are saturated
   /// at the shortest exposure. `meanwhile` is done, besides, when this returns.
-  hdr::HdrFrame take(const Stack& pattern, const std::vector<Demand>& demands, const Progress& progress,
-                     const Meanwhile& meanwhile = {});
+  hdr::HdrFrame take(const ProjectorStack& pattern, const std::vector<Demand>& demands,
+                     const Progress& progress, const Meanwhile& meanwhile = {});
   /// With every exposure there is.
-  hdr::HdrFrame takeAll(const Stack& pattern, const Progress& progress, const Meanwhile& meanwhile = {});
+  hdr::HdrFrame takeAll(const ProjectorStack& pattern, const Progress& progress,
+                        const Meanwhile& meanwhile = {});
 
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }

@@ -14,8 +14,8 @@ namespace {
 constexpr float headroom = 1.25f;
 constexpr float headroomSigmas = 16.0f;
 
-Stack floodPattern(const Rasters& projectors, std::size_t projector, std::size_t channel) {
-  Stack pattern(3 * projectors.count(), 0.0f);
+ProjectorStack floodPattern(const Rasters& projectors, std::size_t projector, std::size_t channel) {
+  ProjectorStack pattern(3 * projectors.count(), 0.0f);
   std::size_t begin = projectors.offset(projector);
   for (std::size_t i = begin; i < begin + projectors.size(projector).count(); ++i)
     pattern[3 * i + channel] = 1.0f;
@@ -103,8 +103,8 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   std::size_t total = static_cast<std::size_t>(rounds) * frames.size(), done = 0;
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
-      Stack pattern =
-          i == 0 ? Stack(3 * projectors.count(), 0.0f) : floodPattern(projectors, (i - 1) / 3, (i - 1) % 3);
+      ProjectorStack pattern = i == 0 ? ProjectorStack(3 * projectors.count(), 0.0f)
+                                      : floodPattern(projectors, (i - 1) / 3, (i - 1) % 3);
       frames[i].push_back(photographer.takeAll(pattern, progress));
       progress.report(static_cast<double>(++done) / static_cast<double>(total));
     }
@@ -113,7 +113,7 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   References references;
   references.cameras = photographer.cameras();
   references.projectors = projectors;
-  references.black = hdr::meanOf(frames[0]);
+  references.black = hdr::BlackLevel(hdr::meanOf(frames[0]));
   references.usable.assign(rows, 1);
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t c = 0; c < 3; ++c)

@@ -12,11 +12,11 @@ namespace relucent::photography {
 /// are the root of its tree. It stays as it was measured; what becomes of e is followed by sentinels/watch.h.
 struct References {
   Rasters cameras, projectors;  // rows and columns of T
-  hdr::HdrFrame black;          // e
+  hdr::BlackLevel black;        // e
   std::vector<std::vector<transport::ColourBlock>>
       root;  // [projector][row]: flood less e, camera x projector channel
   std::vector<std::vector<transport::ColourBlock>> rootVariance;
-  std::vector<std::uint8_t> usable;  // per row: 0 where even the shortest exposure was saturated
+  CameraMask usable;  // per row: 0 where even the shortest exposure was saturated
   std::vector<float>
       strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest
   double flicker = 0.0;  // deviation of equal patterns' total light, relative, drift taken out

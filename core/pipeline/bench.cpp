@@ -136,11 +136,11 @@ BenchResult bench(const std::string& name, Progress& progress) {
   auto cameraValues = transport.cameras().count() * 3;
   auto projectorValues = transport.projectors().count() * 3;
   auto nodeValues = transport.layout().count() * 3;
-  Stack camera = randomStack(cameraValues, 1);
-  Stack projector = randomStack(projectorValues, 2);
+  CameraStack camera(randomStack(cameraValues, 1));
+  ProjectorStack projector(randomStack(projectorValues, 2));
   inverse::WindowInverse windows;
   auto prepareWindows = [&] {
-    std::vector<std::uint8_t> usable(transport.cameras().count(), 1);
+    CameraMask usable(transport.cameras().count(), 1);
     Progress silent;
     windows = inverse::computeWindows(transport, usable, inverse::WindowSettings{}, silent);
   };
@@ -158,8 +158,8 @@ BenchResult bench(const std::string& name, Progress& progress) {
       {"windows/choose-ridge", leaves,
        [&] {
          Progress silent;
-         compensation::MeasuredVenue venue{transport, Stack(cameraValues, 0.0f), transport.floodlight(),
-                                           std::vector<std::uint8_t>(transport.cameras().count(), 1)};
+         compensation::MeasuredVenue venue{transport, CameraStack(cameraValues, 0.0f), transport.floodlight(),
+                                           CameraMask(transport.cameras().count(), 1)};
          windows = chooseRidge(venue, inverse::WindowSettings{}, silent).inverse;
        }},
       {"windows/apply", 0.0, [&] { windows.apply(camera); }},

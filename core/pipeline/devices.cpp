@@ -118,7 +118,7 @@ rig::Rig& RigSource::open(const RigSettings& settings, const transport::Transpor
                 RELUCENT_ENGLISH_MESSAGE("calibration.devices-other-sizes-than-calibrated",
                                          "the devices have other sizes than those that were calibrated"),
                 RELUCENT_ENGLISH_MESSAGE("calibration.set-projector-camera-they-calibrate",
-                                         "set projector and camera as they were, or calibrate anew"),
+                                         "set projector and camera as they were, or calibrate again"),
                 calibration.string());
   return rig;
 }

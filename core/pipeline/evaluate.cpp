@@ -23,7 +23,7 @@ namespace {
 
 /// |T p - R p| / |R p|
 double relightError(const transport::TransportMatrix& transport, const transport::TransportMatrix& reference,
-                    const Stack& pattern) {
+                    const ProjectorStack& pattern) {
   Stack relit = transport.apply(pattern);
   Stack truth = reference.apply(pattern);
   double apart = 0.0;
@@ -43,8 +43,8 @@ double sumOf(const Stack& stack) {
 TransportScore scoreOf(const transport::TransportMatrix& transport, const venue::SimulatedVenue& venue) {
   const transport::TransportMatrix& truth = venue.trueTransport();
   transport::TransportDifference apart = transport::difference(transport, truth);
-  Stack natural = patternFrom(standardImages().front().linear, transport.projectors());
-  Stack binary(natural.size());
+  ProjectorStack natural(patternFrom(standardImages().front().linear, transport.projectors()));
+  ProjectorStack binary(natural.size());
   Random random{20071028, 2};
   for (float& value : binary) value = random.uniform() < 0.5 ? 0.0f : 1.0f;
   return {apart.frobenius,
@@ -71,14 +71,14 @@ class Judge {
  public:
   Judge(const MeasuredCalibration& measured, const venue::SimulatedVenue& venue)
       : measured_(measured), venue_(venue), rasters_(measured.venue.transport.cameras()) {
-    Stack white(measured.venue.transport.projectors().count() * 3, 1.0f);
+    ProjectorStack white(measured.venue.transport.projectors().count() * 3, 1.0f);
     brightest_ = venue.trueTransport().apply(white);
     for (std::size_t i = 0; i < brightest_.size(); ++i) brightest_[i] += venue.trueBlack()[i];
   }
 
   /// Pixels inside the target that the true venue can reach: e <= wanted <= T 1 + e in all channels.
-  std::vector<std::uint8_t> reachable(const compensation::Target& target) const {
-    std::vector<std::uint8_t> reachable = target.inside;
+  CameraMask reachable(const compensation::Target& target) const {
+    CameraMask reachable = target.inside;
     for (std::size_t i = 0; i < target.wanted.size(); ++i)
       if (target.wanted[i] < venue_.trueBlack()[i] || target.wanted[i] > brightest_[i]) reachable[i / 3] = 0;
     return reachable;
@@ -165,7 +165,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
     compensation::Target target = fitTarget(image.linear, measured.venue, settings.target);
-    std::vector<std::uint8_t> reachable = judge.reachable(target);
+    CameraMask reachable = judge.reachable(target);
     ImageScore score{image.name, shareOf(reachable, target.inside), {}};
     std::size_t pixels = venue.settings().camera.count();
     EvaluatedPictures pictures{image.name,   judge.wanted(target), {},

@@ -21,7 +21,7 @@ struct EvaluatedPictures {
   image::Image wanted;
   std::map<compensation::Method, image::Image> seen;  // camera signal per second
   std::array<float, 3> white{};
-  std::vector<std::uint8_t> inside;  // per pixel of the first camera
+  CameraMask inside;  // per pixel of the first camera
   double reachable = 0.0;
 };
 

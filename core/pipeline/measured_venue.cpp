@@ -41,7 +41,7 @@ MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folde
 
 }  // namespace
 
-std::vector<std::uint8_t> usablePixels(const transport::Acquisition& acquisition) {
+CameraMask usablePixels(const transport::Acquisition& acquisition) {
   // Below this share of the venue's bright pixels, compensating would ask for many times the projector's
   // power; and a pixel has to stand out of its own noise before it can be relied on.
   constexpr float leastShare = 0.02f;
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> usablePixels(const transport::Acquisition& acquisition
   std::nth_element(sorted.begin(), p95, sorted.end());
   float least = leastShare * *p95;
 
-  std::vector<std::uint8_t> usable(pixels);
+  CameraMask usable(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     float variance = std::max({acquisition.floodVariance[3 * i], acquisition.floodVariance[3 * i + 1],
                                acquisition.floodVariance[3 * i + 2]});

@@ -14,8 +14,8 @@ namespace relucent::pipeline {
 
 /// What is told of an acquisition once its T has become a venue: all but what a venue holds.
 struct AcquisitionFigures {
-  std::vector<std::uint8_t> flagged;
-  Stack floodVariance;
+  CameraMask flagged;
+  CameraStack floodVariance;
   double unresolvedEnergy = 0.0;
   double verificationError = 0.0;
   std::vector<Message> findings;
@@ -35,7 +35,7 @@ struct MeasuredCalibration {
 
 /// Which camera pixels compensation may rely on: lit by the projectors well above noise and black in every
 /// channel, and not flagged by the verification.
-std::vector<std::uint8_t> usablePixels(const transport::Acquisition& acquisition);
+CameraMask usablePixels(const transport::Acquisition& acquisition);
 
 /// What compensation needs to know, out of what acquisition measured: T thresholded and rescaled to the flood
 /// image. A second T: whoever has no more use for the first lets go of the acquisition.
@@ -54,7 +54,7 @@ compensation::RidgeChoice invert(const compensation::MeasuredVenue& venue, const
 calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choice,
                                            const calibration::StageCost& cost);
 
-/// Reads a finished calibration. The inverse operator is made anew: quicker than reading it.
+/// Reads a finished calibration. The inverse operator is made again: quicker than reading it.
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
 MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress);
 

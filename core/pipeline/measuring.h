@@ -35,7 +35,7 @@ void measureInverse(calibration::CalibrationFolder& folder, const compensation::
                     Progress& progress);
 
 /// Takes a stage's photographs out of the journal into a folder beside it, so that running the stage again
-/// measures anew. Its results stay. Throws: Error{disk}.
+/// measures again. Its results stay. Throws: Error{disk}.
 void setShotsAside(const calibration::CalibrationFolder& folder, calibration::Stage stage);
 
 }  // namespace relucent::pipeline

@@ -6,7 +6,7 @@
 
 namespace relucent::pipeline {
 
-std::vector<image::Image> encodedDrive(const Stack& linear, const Rasters& projectors,
+std::vector<image::Image> encodedDrive(const ProjectorStack& linear, const Rasters& projectors,
                                        const linearization::Linearization& linearization) {
   require(linearization.projectors.size() == projectors.devices(), "{} responses for {} projectors",
           linearization.projectors.size(), projectors.devices());

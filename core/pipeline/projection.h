@@ -10,7 +10,7 @@
 namespace relucent::pipeline {
 
 /// The drive values that make the projectors emit a linear stack: per projector, through its response.
-std::vector<image::Image> encodedDrive(const Stack& linear, const Rasters& projectors,
+std::vector<image::Image> encodedDrive(const ProjectorStack& linear, const Rasters& projectors,
                                        const linearization::Linearization& linearization);
 
 /// Content brought to every projector's size and stacked: a pattern for relighting.

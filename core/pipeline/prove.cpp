@@ -28,7 +28,7 @@ constexpr int gap = 4;                    // pixels between the pictures of the 
 
 struct Photographed {
   ProvedProjection error;
-  Stack camera;  // radiance
+  CameraStack camera;  // radiance
   image::Image deltaE;
 };
 
@@ -36,7 +36,8 @@ PictureError errorOf(const compensation::Prediction& seen) {
   return {seen.psnrReachable, seen.meanDeltaE};
 }
 
-double surpriseOf(const Stack& measured, const Stack& predicted, const compensation::Target& target) {
+double surpriseOf(const CameraStack& measured, const CameraStack& predicted,
+                  const compensation::Target& target) {
   double apart = 0.0, light = 0.0;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (!target.inside[i / 3]) continue;
@@ -93,7 +94,7 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
     light.push_back(measured.linearization.projectors[projector].decode(drive));
     result.drive.push_back(std::move(drive));
   }
-  result.light.projector = image::stackFromImages(light, projectors);
+  result.light.projector = ProjectorStack(image::stackFromImages(light, projectors));
   return result;
 }
 
@@ -101,7 +102,8 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
                         compensation::Target target, const Projection& projection, const Progress& progress) {
   const Rasters& cameras = measured.venue.transport.cameras();
   const Rasters& projectors = measured.venue.transport.projectors();
-  hdr::HdrFrame frame = photographer.takeAll(image::stackFromImages(projection.drive, projectors), progress);
+  hdr::HdrFrame frame =
+      photographer.takeAll(ProjectorStack(image::stackFromImages(projection.drive, projectors)), progress);
   leaveOut(target, frame);
   compensation::Prediction predicted = compensation::predict(measured.venue, target, projection.light);
   Photographed result;

@@ -38,8 +38,8 @@ WrittenFiles relight(const fs::path& path, const RelightSettings& settings, Prog
   auto [content, venue] = opened(path, settings, progress);
 
   const Rasters& projectors = venue.transport.projectors();
-  Stack pattern(projectors.count() * 3, 1.0f);
-  if (content) pattern = patternFrom(*content, projectors);
+  ProjectorStack pattern(projectors.count() * 3, 1.0f);
+  if (content) pattern = ProjectorStack(patternFrom(*content, projectors));
   for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
   Stack relit = venue.transport.apply(pattern);
   for (std::size_t i = 0; i < relit.size(); ++i) relit[i] += venue.black[i];
@@ -50,8 +50,8 @@ WrittenFiles dual(const fs::path& path, const RelightSettings& settings, Progres
   auto [content, venue] = opened(path, settings, progress);
 
   const Rasters& cameras = venue.transport.cameras();
-  Stack light(cameras.count() * 3, 1.0f);
-  if (content) light = patternFrom(*content, cameras);
+  CameraStack light(cameras.count() * 3, 1.0f);
+  if (content) light = CameraStack(patternFrom(*content, cameras));
   return writePictures(settings.out, venue.transport.applyTransposed(light), venue.transport.projectors(),
                        "camera signal per second and linear projector drive");
 }

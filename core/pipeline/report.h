@@ -27,10 +27,10 @@ struct ReportComparison {
   image::Image wanted;
   image::Image uncompensated;
   image::Image compensated;
-  std::array<float, 3> white{};      // signal of the content's white
-  std::vector<std::uint8_t> inside;  // per pixel: the content covers it; empty: everywhere
-  double reachable = 0.0;            // share of the content's pixels
-  bool truth = false;                // through a simulated venue's true transport; else predicted from T
+  std::array<float, 3> white{};  // signal of the content's white
+  CameraMask inside;             // per pixel: the content covers it; empty: everywhere
+  double reachable = 0.0;        // share of the content's pixels
+  bool truth = false;            // through a simulated venue's true transport; else predicted from T
 };
 
 /// The newest verification photograph: the content, projected as it is and compensated. To look at.
@@ -55,7 +55,7 @@ struct ReportData {
   std::vector<double> exposures;                            // seconds
   image::Image flood;                                       // T 1, less e: camera signal per second
   image::Image black;                                       // e
-  std::vector<std::uint8_t> flagged;                        // per camera pixel
+  CameraMask flagged;                                       // per camera pixel
   std::vector<std::uint64_t> leavesPerLevel;                // level 0 first: single pixels, then 2x2, ...
   std::vector<compensation::RidgeTrial> ridgeCurve;  // how the inverse's ridge was found, and which it is
   double ridge = 0.0;

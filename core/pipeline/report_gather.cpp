@@ -56,13 +56,12 @@ ReportComparison predictedComparison(const NamedImage& image, const MeasuredCali
   compensation::Compensator compensator(venue, measured.inverse);
   const Rasters& cameras = venue.transport.cameras();
   auto predicted = [&](compensation::Method method) {
-    Stack seen = venue.transport.apply(compensator.solve(method, target, progress).projector);
+    CameraStack seen = venue.transport.apply(compensator.solve(method, target, progress).projector);
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += venue.black[i];
     return image::imageFromStack(seen, cameras, 0);
   };
   std::size_t pixels = cameras.size(0).count();
-  std::vector<std::uint8_t> inside(target.inside.begin(),
-                                   target.inside.begin() + static_cast<std::ptrdiff_t>(pixels));
+  CameraMask inside(target.inside.begin(), target.inside.begin() + static_cast<std::ptrdiff_t>(pixels));
   double covered = 0.0;
   double reachable = 0.0;
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -60,7 +60,7 @@ image::Image painted(const image::Image& values, ColorMap map, double low, doubl
 }
 
 image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,
-                       const std::vector<std::uint8_t>& inside) {
+                       const CameraMask& inside) {
   require(a.size() == b.size() && a.channels() == 3 && b.channels() == 3, "images of one size are compared");
   return deltaEMap(image::viewed(a, white), image::viewed(b, white), inside);
 }

@@ -20,7 +20,7 @@ image::Image painted(const image::Image& values, ColorMap map, double low, doubl
 
 /// CIEDE2000 of every pixel as a viewer adapted to `white` sees them; NaN where `inside` is 0.
 image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,
-                       const std::vector<std::uint8_t>& inside);
+                       const CameraMask& inside);
 
 /// The brightest that each pixel can get, as a multiple of white: min over channels of (flood + black) /
 /// white.

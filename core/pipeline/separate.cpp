@@ -56,13 +56,13 @@ SeparateResult separate(const fs::path& path, const SeparateSettings& settings, 
   compensation::MeasuredVenue venue = loadMeasuredVenue(folder, loading);
 
   const Rasters &projectors = venue.transport.projectors(), &cameras = venue.transport.cameras();
-  Stack pattern(3 * projectors.count(), 1.0f);
-  if (content) pattern = patternFrom(*content, projectors);
+  ProjectorStack pattern(3 * projectors.count(), 1.0f);
+  if (content) pattern = ProjectorStack(patternFrom(*content, projectors));
   for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
   Progress separating = progress.part(0.2, RELUCENT_MESSAGE("stage.separating-direct-indirect-light",
                                                             "Separating direct and indirect light"));
-  Stack direct = compensation::directPart(venue.transport, settings.direct, separating).apply(pattern);
-  Stack indirect = venue.transport.apply(pattern);
+  CameraStack direct = compensation::directPart(venue.transport, settings.direct, separating).apply(pattern);
+  CameraStack indirect = venue.transport.apply(pattern);
   double whole = 0.0, directLight = 0.0;
   for (std::size_t i = 0; i < direct.size(); ++i) {
     whole += static_cast<double>(indirect[i]);

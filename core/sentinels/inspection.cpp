@@ -28,7 +28,7 @@ struct Sum {
   bool isSignificant() const { return std::abs(value) > sigmas * std::sqrt(variance); }
 };
 
-Sum sumOf(const Stack& values, const Stack& variance, const photography::References& references) {
+Sum sumOf(const Stack& values, const CameraStack& variance, const photography::References& references) {
   Sum sum;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!references.usable[i / 3]) continue;
@@ -46,7 +46,7 @@ Alarm alarm(AlarmKind kind, Message what, Message advice) {
 
 std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline, double power) {
   if (power > darkShare) return std::nullopt;
-  Stack seen = now.light.radiance;
+  CameraStack seen = now.light.radiance;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += now.black.radiance[i];
   Sum black = sumOf(baseline.black.radiance, baseline.black.variance, baseline.references);
   Sum all = sumOf(seen, now.light.variance, baseline.references);
@@ -63,7 +63,7 @@ std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline,
 }
 
 /// In units of the typical flood.
-double roomLight(const hdr::HdrFrame& black, const photography::References& references) {
+double roomLight(const hdr::BlackLevel& black, const photography::References& references) {
   double light = sumOf(black.radiance, black.variance, references).value;
   double whole = static_cast<double>(references.typical) * static_cast<double>(black.radiance.size());
   return whole > 0.0 ? light / whole : 0.0;
@@ -98,7 +98,7 @@ struct Views {
 Views viewsOf(std::size_t camera, const Check& now, const Baseline& baseline, double power) {
   const photography::References& references = baseline.references;
   const Rasters& cameras = references.cameras;
-  const hdr::HdrFrame& first = baseline.first.light;
+  const hdr::LampLight& first = baseline.first.light;
   Size size = cameras.size(camera);
   Views views{image::Image(size, 1), image::Image(size, 1)};
   for (std::size_t i = 0; i < size.count(); ++i) {
@@ -173,8 +173,8 @@ struct Halves {
 
 }  // namespace
 
-Stack referencePattern(const Rasters& projectors, std::size_t projector) {
-  Stack pattern(3 * projectors.count(), 0.0f);
+ProjectorStack referencePattern(const Rasters& projectors, std::size_t projector) {
+  ProjectorStack pattern(3 * projectors.count(), 0.0f);
   Size size = projectors.size(projector);
   int side = std::max(2, std::min(size.width, size.height) / 12);
   for (std::size_t i = 0; i < size.count(); ++i) {
@@ -189,16 +189,16 @@ Stack referencePattern(const Rasters& projectors, std::size_t projector) {
   return pattern;
 }
 
-Stack referencePattern(const Rasters& projectors) {
-  Stack all(3 * projectors.count(), 0.0f);
+ProjectorStack referencePattern(const Rasters& projectors) {
+  ProjectorStack all(3 * projectors.count(), 0.0f);
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
-    Stack one = referencePattern(projectors, projector);
+    ProjectorStack one = referencePattern(projectors, projector);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += one[i];
   }
   return all;
 }
 
-double lampPower(const Check& now, const Check& first, const photography::References& references) {
+double lampPower(const Check& now, const FirstCheck& first, const photography::References& references) {
   double before = 0.0, after = 0.0;
   for (std::size_t i = 0; i < now.light.radiance.size(); ++i) {
     if (!references.usable[i / 3] || !now.light.valid[i] || !first.light.valid[i]) continue;
@@ -241,7 +241,7 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
   return std::nullopt;
 }
 
-std::optional<Alarm> inspectOrientation(const hdr::HdrFrame& light, std::size_t projector,
+std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,
                                         const photography::References& references, bool mayBeMirrored) {
   const Rasters& cameras = references.cameras;
   Halves leftRight, upperLower;

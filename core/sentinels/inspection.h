@@ -10,26 +10,32 @@ namespace relucent::sentinels {
 
 /// The picture that is repeated to see whether anything has changed: random blocks in red, the left half in
 /// green, the upper half in blue. Its blocks tell shifts, its halves tell which way round it appears.
-Stack referencePattern(const Rasters& projectors);
+ProjectorStack referencePattern(const Rasters& projectors);
 /// The same on one projector, the others dark.
-Stack referencePattern(const Rasters& projectors, std::size_t projector);
+ProjectorStack referencePattern(const Rasters& projectors, std::size_t projector);
 
 /// What two photographs say, black and the reference picture, taken one after the other.
 struct Check {
-  hdr::HdrFrame black;
-  hdr::HdrFrame light;  // the reference picture less black
+  hdr::BlackLevel black;
+  hdr::ProjectedLight light;  // of the reference picture
+};
+
+/// What checks are compared with: the first one's light or, where a changed view was accepted, a later one's.
+struct FirstCheck {
+  hdr::BlackLevel black;
+  hdr::LampLight light;
 };
 
 /// What a check is compared with.
 struct Baseline {
   const photography::References& references;
-  const hdr::HdrFrame& black;  // e as it was followed so far
-  const Check& first;          // its light that of a later check whose view was accepted
-  double power = 1.0;          // of the lamp, continued from the checks before
+  const hdr::BlackLevel& black;  // e as it was followed so far
+  const FirstCheck& first;
+  double power = 1.0;  // of the lamp, continued from the checks before
 };
 
 /// Total light of a check relative to the first one.
-double lampPower(const Check& now, const Check& first, const photography::References& references);
+double lampPower(const Check& now, const FirstCheck& first, const photography::References& references);
 
 /// A check in numbers, its shot, flicker and alarm left open: as inspect() compares them.
 Reading readingOf(const Check& now, const Baseline& baseline);
@@ -39,7 +45,7 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 
 /// Whether the reference picture on one projector appears at all, and the right way round. Its colours are
 /// unmixed per camera pixel by the floods; the halves' centres of light span a frame, whose handedness tells.
-std::optional<Alarm> inspectOrientation(const hdr::HdrFrame& light, std::size_t projector,
+std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,
                                         const photography::References& references, bool mayBeMirrored);
 
 }  // namespace relucent::sentinels

@@ -19,29 +19,11 @@ constexpr double roundsLimit = 0.01;
 // models are right to 10 or 20 %.
 constexpr double changedBlack = 1.4;
 
-Stack black(const Rasters& projectors) {
-  return Stack(3 * projectors.count(), 0.0f);
+ProjectorStack black(const Rasters& projectors) {
+  return ProjectorStack(3 * projectors.count(), 0.0f);
 }
 
-hdr::HdrFrame lessBlack(hdr::HdrFrame frame, const hdr::HdrFrame& black) {
-  parallelFor(0, frame.radiance.size(), 4096, [&](std::size_t i) {
-    frame.radiance[i] -= black.radiance[i];
-    frame.variance[i] += black.variance[i];
-    frame.valid[i] = frame.valid[i] != 0 && black.valid[i] != 0 ? 1 : 0;
-  });
-  return frame;
-}
-
-hdr::HdrFrame brightenedBy(double factor, hdr::HdrFrame frame) {
-  auto scale = static_cast<float>(factor);
-  parallelFor(0, frame.radiance.size(), 4096, [&](std::size_t i) {
-    frame.radiance[i] *= scale;
-    frame.variance[i] *= scale * scale;
-  });
-  return frame;
-}
-
-double deviation(const hdr::HdrFrame& a, const hdr::HdrFrame& b) {
+double deviation(const hdr::BlackLevel& a, const hdr::BlackLevel& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.radiance.size(); ++i) {
     double apart = static_cast<double>(a.radiance[i] - b.radiance[i]);
@@ -67,7 +49,7 @@ constexpr auto safeBeforeCheck =
     RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the check before is safe");
 
 /// The mean of two estimates of the same, weighted by their variances.
-void join(hdr::HdrFrame& into, const hdr::HdrFrame& other) {
+void join(hdr::BlackLevel& into, const hdr::BlackLevel& other) {
   parallelFor(0, into.radiance.size(), 4096, [&](std::size_t i) {
     float sum = into.variance[i] + other.variance[i];
     if (!(sum > 0.0f) || !other.valid[i]) return;
@@ -101,13 +83,15 @@ Interruptible<Check> Watch::photographCheck(const Progress& progress) {
   if (!black) return black.interruption();
   auto light = photographed([&] { return photographer_.takeAll(referencePattern(projectors), progress); });
   if (!light) return light.interruption();
-  return Check{*black, lessBlack(*std::move(light), *black)};
+  hdr::BlackLevel level(*std::move(black));
+  hdr::ProjectedLight projected(*std::move(light), level);
+  return Check{std::move(level), std::move(projected)};
 }
 
 std::optional<Interruption> Watch::inspectProjectors(const Progress& progress) {
   for (std::size_t projector = 0; projector < references_.projectors.devices(); ++projector) {
-    Stack pattern = referencePattern(references_.projectors, projector);
-    hdr::HdrFrame light = lessBlack(photographer_.takeAll(pattern, progress), black_);
+    ProjectorStack pattern = referencePattern(references_.projectors, projector);
+    hdr::ProjectedLight light(photographer_.takeAll(pattern, progress), black_);
     std::optional<Alarm> alarm = inspectOrientation(light, projector, references_, settings_.mayBeMirrored);
     if (!alarm) continue;
     if (auto interrupted = handle(*alarm, 0)) return interrupted;
@@ -124,10 +108,10 @@ std::optional<Interruption> Watch::begin(const Progress& progress) {
   if (auto interrupted = inspectProjectors(progress)) return interrupted;
   Interruptible<Check> check = photographCheck(progress);
   if (!check) return check.interruption();
-  first_ = *std::move(check);
+  first_ = {check->black, hdr::LampLight(check->light, 1.0)};
   last_ = beforeLast_ = {shots_.shots(), 1.0};
-  if (auto interrupted = inspectCheck(first_, 1.0, 0)) return interrupted;
-  follow(first_);
+  if (auto interrupted = inspectCheck(*check, 1.0, 0)) return interrupted;
+  follow(*check);
   trusted_ = shots_.shots();
   return std::nullopt;
 }
@@ -155,8 +139,7 @@ std::optional<Interruption> Watch::inspectCheck(const Check& now, double expecte
   if (!alarm) return std::nullopt;
   if (auto interrupted = handle(*alarm, doubtful)) return interrupted;
   if (alarm->kind == AlarmKind::moved || alarm->kind == AlarmKind::localChange)
-    first_.light = brightenedBy(1.0 / expectedPower,
-                                now.light);  // the view changed, not the lamp
+    first_.light = hdr::LampLight(now.light, expectedPower);  // the view changed, not the lamp
   return std::nullopt;
 }
 
@@ -208,18 +191,19 @@ void Watch::follow(const Check& check) {
   last_ = {shots_.shots(), lampPower(check, first_, references_)};
 }
 
-Interruptible<hdr::HdrFrame> Watch::lightOf(const Photograph& photograph, const Progress& progress) {
+Interruptible<hdr::LampLight> Watch::lightOf(const Photograph& photograph, const Progress& progress) {
   if (shots_.shots() - trusted_ >= settings_.checkInterval)
     if (auto interrupted = check(progress)) return *interrupted;
   photographedBefore_ = shots_.times().shots;
   Interruptible<hdr::HdrFrame> frame = photographed(photograph);
-  if (!frame) return frame;
-  return brightenedBy(1.0 / power(), lessBlack(*std::move(frame), black_));
+  if (!frame) return frame.interruption();
+  return hdr::LampLight(hdr::ProjectedLight(*std::move(frame), black_), power());
 }
 
-Interruptible<hdr::HdrFrame> Watch::light(const Stack& pattern,
-                                          const std::vector<photography::Demand>& demands,
-                                          const Progress& progress, const photography::Meanwhile& meanwhile) {
+Interruptible<hdr::LampLight> Watch::light(const ProjectorStack& pattern,
+                                           const std::vector<photography::Demand>& demands,
+                                           const Progress& progress,
+                                           const photography::Meanwhile& meanwhile) {
   auto take = [&] {
     int shot = shots();
     hdr::HdrFrame frame = photographer_.take(pattern, demands, progress, meanwhile);
@@ -230,8 +214,8 @@ Interruptible<hdr::HdrFrame> Watch::light(const Stack& pattern,
   return lightOf(take, progress);
 }
 
-Interruptible<hdr::HdrFrame> Watch::lightOfAll(const Stack& pattern, const Progress& progress,
-                                               const photography::Meanwhile& meanwhile) {
+Interruptible<hdr::LampLight> Watch::lightOfAll(const ProjectorStack& pattern, const Progress& progress,
+                                                const photography::Meanwhile& meanwhile) {
   return lightOf([&] { return photographer_.takeAll(pattern, progress, meanwhile); }, progress);
 }
 

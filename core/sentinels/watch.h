@@ -44,7 +44,7 @@ class Watch {
   /// As they were measured.
   const photography::References& references() const { return references_; }
   /// e as it is now. Changes in checks alone.
-  const hdr::HdrFrame& black() const { return black_; }
+  const hdr::BlackLevel& black() const { return black_; }
   /// Power of the lamp now, relative to the first check.
   double power() const;
 
@@ -56,10 +56,11 @@ class Watch {
 
   /// Light of a pattern, see Photographer::take. `meanwhile` goes on during that photograph, not during a
   /// check that is due before it: e does not change under its hands. Throws: as check().
-  Interruptible<hdr::HdrFrame> light(const Stack& pattern, const std::vector<photography::Demand>& demands,
-                                     const Progress& progress, const photography::Meanwhile& meanwhile = {});
-  Interruptible<hdr::HdrFrame> lightOfAll(const Stack& pattern, const Progress& progress,
-                                          const photography::Meanwhile& meanwhile = {});
+  Interruptible<hdr::LampLight> light(const ProjectorStack& pattern,
+                                      const std::vector<photography::Demand>& demands,
+                                      const Progress& progress, const photography::Meanwhile& meanwhile = {});
+  Interruptible<hdr::LampLight> lightOfAll(const ProjectorStack& pattern, const Progress& progress,
+                                           const photography::Meanwhile& meanwhile = {});
 
   /// The next one's number.
   int shots() const { return shots_.shots(); }
@@ -74,7 +75,7 @@ class Watch {
   using Photograph = std::function<hdr::HdrFrame()>;
   /// A photograph whose exposures agree, or are accepted though they do not.
   Interruptible<hdr::HdrFrame> photographed(const Photograph& photograph);
-  Interruptible<hdr::HdrFrame> lightOf(const Photograph& photograph, const Progress& progress);
+  Interruptible<hdr::LampLight> lightOf(const Photograph& photograph, const Progress& progress);
   Interruptible<Check> photographCheck(const Progress& progress);
   std::optional<Interruption> inspectProjectors(const Progress& progress);
   /// Looks at a check, tells the observer, and handles what it found wrong with the shots from `doubtful` on.
@@ -92,9 +93,8 @@ class Watch {
   const photography::References& references_;
   WatchSettings settings_;
   Supervision& supervision_;
-  hdr::HdrFrame black_;  // e as it is now
-  // Its light is that of a later one whose view was accepted, at the power of the first one's lamp.
-  Check first_;
+  hdr::BlackLevel black_;  // e as it is now
+  FirstCheck first_;
   Power last_, beforeLast_;
   int trusted_ = 0;             // shots before this one have been confirmed by a check
   int photographedBefore_ = 0;  // the last photograph, of those not read from the log

@@ -13,13 +13,14 @@ namespace relucent::transport {
 /// The light transport of a venue, measured there or estimated from pictures of it, with what is known of its
 /// errors. Finished where it is made; nothing of it changes afterwards.
 struct Acquisition {
-  TransportMatrix transport;          // signed leaves; the projector's black level is in `black`
-  Stack black, blackVariance;         // e: the image under a black projector
-  Stack flood, floodVariance;         // the images under full red, green and blue, less e, summed
-  std::vector<std::uint8_t> flagged;  // per camera pixel: the verification found it wrong
-  std::vector<Stack> residual;  // verification, blocks of 1, 2, 4, 8 pixels: root mean square error, radiance
-  Stack leafVariance;           // of each row's leaves, per camera channel, mean
-  int remeasured = 0;           // camera pixels that were flagged and measured again
+  TransportMatrix transport;         // signed leaves; the projector's black level is in `black`
+  CameraStack black, blackVariance;  // e: the image under a black projector
+  CameraStack flood, floodVariance;  // the images under full red, green and blue, less e, summed
+  CameraMask flagged;                // per camera pixel: the verification found it wrong
+  std::vector<CameraStack>
+      residual;              // verification, blocks of 1, 2, 4, 8 pixels: root mean square error, radiance
+  CameraStack leafVariance;  // of each row's leaves, per camera channel, mean
+  int remeasured = 0;        // camera pixels that were flagged and measured again
   double unresolvedEnergy = 0.0;   // share of the flood image's energy that no leaf explains
   double verificationError = 0.0;  // relative error of held-out patterns over all pixels
   int patterns = 0;

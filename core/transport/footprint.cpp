@@ -29,10 +29,10 @@ double lightNear(const std::vector<float>& luminance, const Rasters& projectors,
 
 PixelFootprint footprintOf(const TransportMatrix& transport, std::size_t row, double near) {
   require(row < transport.cameras().count(), "row {} of {}", row, transport.cameras().count());
-  Stack eye(3 * transport.cameras().count(), 0.0f);
+  CameraStack eye(3 * transport.cameras().count(), 0.0f);
   for (std::size_t channel = 0; channel < 3; ++channel)
     eye[3 * row + channel] = image::luminanceWeights[channel];
-  Stack seen = transport.applyTransposed(eye);
+  ProjectorStack seen = transport.applyTransposed(eye);
 
   PixelFootprint footprint;
   footprint.luminance.resize(transport.projectors().count());
@@ -70,9 +70,9 @@ std::size_t deviceOfPixel(const Rasters& rasters, std::size_t index) {
 
 std::vector<float> lightOfPixel(const TransportMatrix& transport, std::size_t pixel) {
   require(pixel < transport.projectors().count(), "pixel {} of {}", pixel, transport.projectors().count());
-  Stack white(3 * transport.projectors().count(), 0.0f);
+  ProjectorStack white(3 * transport.projectors().count(), 0.0f);
   for (std::size_t channel = 0; channel < 3; ++channel) white[3 * pixel + channel] = 1.0f;
-  Stack seen = transport.apply(white);
+  CameraStack seen = transport.apply(white);
   std::vector<float> luminance(transport.cameras().count());
   for (std::size_t i = 0; i < luminance.size(); ++i)
     luminance[i] = image::luminanceOf(seen[3 * i], seen[3 * i + 1], seen[3 * i + 2]);

@@ -25,6 +25,9 @@ struct Block {
   int count() const { return (x1 - x0) * (y1 - y0); }
 };
 
+/// One value a colour of every node, as they are numbered by a NodeLayout.
+using NodeStack = ValuesOf<float, Node>;
+
 /// Numbers the nodes of all projectors' mean pyramids. All pixels of all projectors come first, in the
 /// order of Rasters (node index of a pixel = its pixel index), then level 1 of all projectors, and so on.
 /// Level l of a w x h projector has ceil(w / 2^l) x ceil(h / 2^l) nodes; the last level is one node.
@@ -56,9 +59,9 @@ class NodeLayout {
 
   /// Mean of a pattern over every node: v = A p. Each pixel of a clipped block counts once.
   /// Shapes: 3 * projectors().count() -> 3 * count().
-  Stack means(const Stack& pattern) const;
+  NodeStack means(const ProjectorStack& pattern) const;
   /// The adjoint A^T: spreads every node's value evenly over its pixels, into the given memory.
-  Stack meansAdjoint(Stack nodeValues) const;
+  ProjectorStack meansAdjoint(NodeStack nodeValues) const;
 
   /// The same in place, for loops that must not allocate: computes the values of all coarser nodes from those
   /// of the pixels, which come first; or adds the values of all nodes to the pixels, after which the coarser

@@ -82,10 +82,10 @@ void spreadRow(const Cuts& columns, const Cuts& rows, int y, bool upper, const f
 
 }  // namespace
 
-Stack NodeLayout::means(const Stack& pattern) const {
+NodeStack NodeLayout::means(const ProjectorStack& pattern) const {
   require(pattern.size() == 3 * projectors_.count(), "a pattern of {} values for {} projector pixels",
           pattern.size(), projectors_.count());
-  Stack values;
+  NodeStack values;
   values.reserve(3 * count_);
   values.assign(pattern.begin(), pattern.end());
   values.resize(3 * count_);
@@ -113,11 +113,11 @@ void NodeLayout::fillMeans(std::span<float> values) const {
   }
 }
 
-Stack NodeLayout::meansAdjoint(Stack nodeValues) const {
+ProjectorStack NodeLayout::meansAdjoint(NodeStack nodeValues) const {
   require(nodeValues.size() == 3 * count_, "{} values for {} nodes", nodeValues.size(), count_);
   gatherMeansAdjoint(nodeValues);
   nodeValues.resize(3 * projectors_.count());
-  return nodeValues;
+  return ProjectorStack(static_cast<Stack&&>(nodeValues));
 }
 
 void NodeLayout::gatherMeansAdjoint(std::span<float> nodeValues) const {

@@ -96,7 +96,7 @@ std::vector<float> thresholdLimits(const TransportMatrix& transport, const Thres
 }
 
 TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
-                            const Stack& flood) {
+                            const CameraStack& flood) {
   std::vector<float> limit = thresholdLimits(transport, settings);
   NodeTable nodes(transport.layout());
   BlockSparse kept = transport.leaves().filtered([&](std::size_t row, std::size_t entry) {

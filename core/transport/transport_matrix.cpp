@@ -15,16 +15,16 @@ TransportMatrix::TransportMatrix(Rasters cameras, Rasters projectors, BlockSpars
           cameras_.count(), layout_.count());
 }
 
-Stack TransportMatrix::apply(const Stack& projector) const {
-  return leaves_.multiply(layout_.means(projector));
+CameraStack TransportMatrix::apply(const ProjectorStack& projector) const {
+  return CameraStack(leaves_.multiply(layout_.means(projector)));
 }
 
-Stack TransportMatrix::applyTransposed(const Stack& camera) const {
-  return layout_.meansAdjoint(leaves_.multiplyTransposed(camera));
+ProjectorStack TransportMatrix::applyTransposed(const CameraStack& camera) const {
+  return layout_.meansAdjoint(NodeStack(leaves_.multiplyTransposed(camera)));
 }
 
-Stack TransportMatrix::floodlight() const {
-  return leaves_.multiply(Stack(3 * layout_.count(), 1.0f));
+CameraStack TransportMatrix::floodlight() const {
+  return CameraStack(leaves_.multiply(Stack(3 * layout_.count(), 1.0f)));
 }
 
 std::vector<ColourBlock> TransportMatrix::rowSums() const {
@@ -36,7 +36,8 @@ std::vector<ColourBlock> TransportMatrix::rowSums() const {
   return sums;
 }
 
-TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood, float floor) {
+TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const CameraStack& flood,
+                                     float floor) {
   Stack now = transport.floodlight();
   require(flood.size() == now.size(), "a flood image of {} values for {}", flood.size(), now.size());
   Stack factor(now.size(), 1.0f);

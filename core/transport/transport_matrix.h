@@ -30,11 +30,11 @@ class TransportMatrix {
   const BlockSparse& leaves() const { return leaves_; }
 
   /// Relighting, without e: what the cameras see under linear patterns. Shapes: projector -> camera stack.
-  Stack apply(const Stack& projector) const;
+  CameraStack apply(const ProjectorStack& projector) const;
   /// Dual photography: the projectors' view under light from the cameras. Shapes: camera -> projector stack.
-  Stack applyTransposed(const Stack& camera) const;
+  ProjectorStack applyTransposed(const CameraStack& camera) const;
   /// T 1: the flood image, with every projector pixel at full drive.
-  Stack floodlight() const;
+  CameraStack floodlight() const;
   /// 3x3 colour mixing of each camera pixel, the sum over its leaves.
   std::vector<ColourBlock> rowSums() const;
 
@@ -46,7 +46,7 @@ class TransportMatrix {
 
 /// Rows scaled, per camera channel, so that T 1 equals `flood`: what a threshold removed is restored in
 /// proportion (paper, Algorithm 1, line 21). Channels where T 1 is at most `floor` are left unchanged.
-TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Stack& flood,
+TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const CameraStack& flood,
                                      float floor = 0.0f);
 
 /// Thresholding settings. A leaf's strength is the largest magnitude in its 3x3 block per projector pixel of
@@ -66,6 +66,6 @@ std::vector<float> thresholdLimits(const TransportMatrix& transport, const Thres
 /// Drops weak leaves, then rescales to `flood`.
 /// Law: never adds energy beyond the flood image.  Throws: Error{usage} for wrong settings.
 TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
-                            const Stack& flood);
+                            const CameraStack& flood);
 
 }  // namespace relucent::transport

@@ -36,10 +36,10 @@ double ProjectorModel::response(std::size_t channel, double drive) const {
   return (1.0 - bend[channel]) * power + bend[channel] * s;
 }
 
-Stack ProjectorModel::light(const image::Image& encodedDrive) const {
+CameraStack ProjectorModel::light(const image::Image& encodedDrive) const {
   require(encodedDrive.channels() == 3, "a picture of {} channels for a projector of 3",
           encodedDrive.channels());
-  Stack light(encodedDrive.data().size());
+  CameraStack light(encodedDrive.data().size());
   float top = static_cast<float>((1 << bits_) - 1);
   std::size_t width = 3 * static_cast<std::size_t>(encodedDrive.width());
   parallelFor(0, static_cast<std::size_t>(encodedDrive.height()), 32, [&](std::size_t y) {

@@ -16,7 +16,7 @@ class ProjectorModel {
 
   int bits() const { return bits_; }
   /// Relative linear light per channel, 0 to 1, for drive in [0, 1] rounded to codes. Three channels each.
-  Stack light(const image::Image& encodedDrive) const;
+  CameraStack light(const image::Image& encodedDrive) const;
   /// The response of one channel, strictly increasing from 0 at 0 to 1 at 1; no pure power law.
   double response(std::size_t channel, double drive) const;
   /// What every channel emits at code 0, relative to full drive.

@@ -64,7 +64,7 @@ double SensorModel::lampPower(const rig::CaptureRequest& request) const {
   return std::max(0.0, power);
 }
 
-rig::RawFrame SensorModel::expose(const Stack& radiance, Size size,
+rig::RawFrame SensorModel::expose(const CameraStack& radiance, Size size,
                                   const rig::CaptureRequest& request) const {
   require(radiance.size() == 3 * size.count(), "{} values for {} pixels", radiance.size(), size.count());
   rig::RawFrame frame{image::Image(size, 3), settings_.cameraBits, granted(request.seconds)};

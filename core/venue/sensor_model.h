@@ -16,7 +16,7 @@ class SensorModel {
 
   /// The photograph that `request` asks for. The noise depends on the request and the seed alone.
   /// Shapes: radiance of size.count() pixels, three channels.
-  rig::RawFrame expose(const Stack& radiance, Size size, const rig::CaptureRequest& request) const;
+  rig::RawFrame expose(const CameraStack& radiance, Size size, const rig::CaptureRequest& request) const;
 
   /// Relative power of the lamp while `request` is exposed: drift and flicker.
   double lampPower(const rig::CaptureRequest& request) const;

@@ -25,7 +25,7 @@ class Stage {
   /// Mean radiance at full light.
   double full() {
     std::call_once(fullMade_, [&] {
-      Stack flood = light_->transport().floodlight();
+      CameraStack flood = light_->transport().floodlight();
       for (float value : flood) full_ += static_cast<double>(value) / static_cast<double>(flood.size());
     });
     return full_;
@@ -34,7 +34,7 @@ class Stage {
     return faults_ ? faults_->during(shot) : std::vector<DeviceFault>{};
   }
   /// What the camera would see of the projectors' pictures, had they these faults.
-  Stack lightOfFaultyProjectors(const std::vector<DeviceFault>& faults) {
+  CameraStack lightOfFaultyProjectors(const std::vector<DeviceFault>& faults) {
     std::vector<image::Image> shown;
     for (const image::Image& picture : shown_) shown.push_back(withFaults(picture, faults));
     return light_->fromProjectors(shown);
@@ -47,9 +47,9 @@ class Stage {
     current_ = nullptr;
   }
 
-  std::shared_ptr<const Stack> fromProjectors() {
+  std::shared_ptr<const CameraStack> fromProjectors() {
     std::lock_guard lock(mutex_);
-    if (!current_) current_ = std::make_shared<Stack>(light_->fromProjectors(shown_));
+    if (!current_) current_ = std::make_shared<const CameraStack>(light_->fromProjectors(shown_));
     return current_;
   }
 
@@ -60,7 +60,7 @@ class Stage {
   double full_ = 0.0;
   std::mutex mutex_;
   std::vector<image::Image> shown_;
-  std::shared_ptr<const Stack> current_;
+  std::shared_ptr<const CameraStack> current_;
 };
 
 class SimulatedProjector : public rig::Projector {
@@ -93,12 +93,12 @@ class SimulatedCamera : public rig::Camera {
   Size size() const override { return stage_->light().settings().camera; }
   rig::ExposureRange exposures() const override { return SensorModel::exposures(); }
   rig::RawFrame capture(const rig::CaptureRequest& request) override {
-    std::shared_ptr<const Stack> fromProjectors = stage_->fromProjectors();
-    const Stack& ambient = stage_->light().ambient();
+    std::shared_ptr<const CameraStack> fromProjectors = stage_->fromProjectors();
+    const CameraStack& ambient = stage_->light().ambient();
     float power = static_cast<float>(sensor_.lampPower(request));
     std::vector<DeviceFault> faults = stage_->faultsDuring(request.shot);
     if (!faults.empty()) return faulty(request, power, faults);
-    Stack radiance(ambient.size());
+    CameraStack radiance(ambient.size());
     for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = power * (*fromProjectors)[i] + ambient[i];
     return sensor_.expose(radiance, size(), request);
   }
@@ -106,10 +106,10 @@ class SimulatedCamera : public rig::Camera {
  private:
   rig::RawFrame faulty(const rig::CaptureRequest& request, float power,
                        const std::vector<DeviceFault>& faults) {
-    Stack light = stage_->lightOfFaultyProjectors(faults);
+    CameraStack light = stage_->lightOfFaultyProjectors(faults);
     for (float& value : light) value *= power;
-    Stack view = withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
-                            request.exposure, faults);
+    CameraStack view(withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
+                                request.exposure, faults));
     return sensor_.expose(view, size(), request);
   }
 

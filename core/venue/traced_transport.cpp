@@ -21,7 +21,7 @@ struct Line {
   std::vector<std::uint32_t> node;
   std::vector<std::array<std::int16_t, 9>> code;
   std::vector<float> scale;  // per pixel
-  Stack flood, roomLight;
+  CameraStack flood, roomLight;
 };
 
 void appendRow(const TransportRow& row, const transport::NodeLayout& layout, Line& line) {

@@ -16,7 +16,7 @@ struct TracedTransport {
   /// exactly.
   std::vector<float> fullScale;
   /// The camera's picture under room light, white = 1. Shape: 3 * camera pixels.
-  Stack roomLight;
+  CameraStack roomLight;
 };
 
 /// Traces every camera pixel, then scales everything so that the flood image's bright pixels (its 99th

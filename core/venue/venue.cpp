@@ -138,12 +138,12 @@ const transport::TransportMatrix& SimulatedVenue::trueTransport() const {
   return light_->transport();
 }
 
-const Stack& SimulatedVenue::trueBlack() const {
+const CameraStack& SimulatedVenue::trueBlack() const {
   return light_->black();
 }
 
-Stack SimulatedVenue::trueRadiance(const std::vector<image::Image>& encodedDrive) const {
-  Stack radiance = light_->fromProjectors(encodedDrive);
+CameraStack SimulatedVenue::trueRadiance(const std::vector<image::Image>& encodedDrive) const {
+  CameraStack radiance = light_->fromProjectors(encodedDrive);
   for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] += light_->ambient()[i];
   return radiance;
 }

@@ -75,9 +75,9 @@ class SimulatedVenue {
   /// the response curves, the white segment and the black level are not.
   const transport::TransportMatrix& trueTransport() const;
   /// e: the projectors' black level and the ambient light, camera signal per second.
-  const Stack& trueBlack() const;
+  const CameraStack& trueBlack() const;
   /// Camera signal per second under encoded drive, rounded to codes as the projectors do, free of noise.
-  Stack trueRadiance(const std::vector<image::Image>& encodedDrive) const;
+  CameraStack trueRadiance(const std::vector<image::Image>& encodedDrive) const;
 
  private:
   std::shared_ptr<const VenueLight> light_;

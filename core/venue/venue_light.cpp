@@ -20,9 +20,9 @@ VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layo
       projectorModel_(settings.devices),
       cameraByNode_(std::move(traced.cameraByNode)),
       ambient_(std::move(traced.roomLight)) {
-  Stack white(3 * layout_.projectors().count(), 1.0f), leak = white;
+  ProjectorStack white(3 * layout_.projectors().count(), 1.0f), leak = white;
   for (std::size_t i = 0; i < leak.size(); ++i) leak[i] = projectorModel_.black()[i % 3];
-  projectorBlack_ = cameraByNode_.multiplyTransposed(layout_.means(leak));
+  projectorBlack_ = CameraStack(cameraByNode_.multiplyTransposed(layout_.means(leak)));
 
   double flood = mean(cameraByNode_.multiplyTransposed(layout_.means(white)));
   double roomLight = mean(ambient_);
@@ -34,11 +34,11 @@ VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layo
   }
 }
 
-Stack VenueLight::fromProjectors(const std::vector<image::Image>& encodedDrive) const {
+CameraStack VenueLight::fromProjectors(const std::vector<image::Image>& encodedDrive) const {
   const Rasters& projectors = layout_.projectors();
   require(encodedDrive.size() == projectors.devices(), "{} pictures for {} projectors", encodedDrive.size(),
           projectors.devices());
-  Stack drive;
+  ProjectorStack drive;
   drive.reserve(3 * projectors.count());
   for (std::size_t i = 0; i < encodedDrive.size(); ++i) {
     require(encodedDrive[i].size() == projectors.size(i), "a picture of {}x{} pixels for projector {}",
@@ -46,7 +46,7 @@ Stack VenueLight::fromProjectors(const std::vector<image::Image>& encodedDrive) 
     Stack light = projectorModel_.light(encodedDrive[i]);
     drive.insert(drive.end(), light.begin(), light.end());
   }
-  Stack seen = cameraByNode_.multiplyTransposed(layout_.means(drive));
+  CameraStack seen(cameraByNode_.multiplyTransposed(layout_.means(drive)));
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += projectorBlack_[i];
   return seen;
 }

@@ -19,10 +19,10 @@ class VenueLight {
   const ProjectorModel& projectorModel() const { return projectorModel_; }
 
   /// Light from the projectors: their pictures and their black level.
-  Stack fromProjectors(const std::vector<image::Image>& encodedDrive) const;
-  const Stack& ambient() const { return ambient_; }
+  CameraStack fromProjectors(const std::vector<image::Image>& encodedDrive) const;
+  const CameraStack& ambient() const { return ambient_; }
   /// e: the projectors' black level and the ambient light.
-  const Stack& black() const { return black_; }
+  const CameraStack& black() const { return black_; }
   /// T in row order, computed on first use.
   const transport::TransportMatrix& transport() const;
 
@@ -31,7 +31,7 @@ class VenueLight {
   transport::NodeLayout layout_;
   ProjectorModel projectorModel_;
   transport::BlockSparse cameraByNode_;
-  Stack projectorBlack_, ambient_, black_;
+  CameraStack projectorBlack_, ambient_, black_;
   mutable std::once_flag transportMade_;
   mutable transport::TransportMatrix transport_;
 };

@@ -24,8 +24,8 @@ const transport::TransportMatrix& venue() {
   return venue;
 }
 
-const std::vector<std::uint8_t>& usable() {
-  static const std::vector<std::uint8_t> usable(venue().cameras().count(), 1);
+const CameraMask& usable() {
+  static const CameraMask usable(venue().cameras().count(), 1);
   return usable;
 }
 
@@ -51,7 +51,7 @@ double mebibytes(const std::string& name) {
   return 0.0;
 }
 
-/// From here on the most memory held counts anew.
+/// From here on the most memory held counts again.
 double forgetPeak() {
   std::ofstream("/proc/self/clear_refs") << "5";
   return mebibytes("VmRSS");
@@ -72,7 +72,7 @@ void announceThreshold(benchmark::State& state) {
 }
 
 void applyThreshold(benchmark::State& state) {
-  Stack flood = venue().floodlight();
+  CameraStack flood = venue().floodlight();
   for (auto _ : state) benchmark::DoNotOptimize(transport::thresholded(venue(), {0.0f, 0.01f, 1.0}, flood));
 }
 
@@ -185,7 +185,7 @@ void windows(benchmark::State& state) {
 void applyInverse(benchmark::State& state) {
   clustering::Clustering result = clustering::clustered(graph(), capped(256), quiet);
   inverse::ClusterInverse inverse = inverse::computeClusterInverse(result, usable(), {}, quiet);
-  Stack residual = venue().floodlight();
+  CameraStack residual = venue().floodlight();
   for (auto _ : state) benchmark::DoNotOptimize(inverse.apply(residual));
 }
 

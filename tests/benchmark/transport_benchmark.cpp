@@ -89,7 +89,7 @@ void oneThread(benchmark::internal::Benchmark* benchmark) {
 
 void multiply(benchmark::State& state) {
   const transport::BlockSparse& matrix = leaves();
-  Stack x = randomStack(matrix.columns(), 1);
+  ProjectorStack x(randomStack(matrix.columns(), 1));
   Measured measured(state);
   for (auto _ : state) benchmark::DoNotOptimize(matrix.multiply(x));
   measured.finish(matrix.bytes() + (x.size() + 3 * matrix.rows()) * sizeof(float));
@@ -109,7 +109,7 @@ BENCHMARK(multiplyTransposed)->Apply(everyNumberOfThreads);
 /// predictions.
 void multiplyDarkPattern(benchmark::State& state) {
   static const transport::BlockSparse byColumns = leaves().transposed();
-  Stack pattern(3 * byColumns.rows(), 0.0f);
+  ProjectorStack pattern(3 * byColumns.rows(), 0.0f);
   std::size_t lit = 0;
   for (std::size_t pixel = 0; pixel < SyntheticSettings{}.projector.count(); pixel += 64) {
     pattern[3 * pixel] = 1.0f;
@@ -123,7 +123,7 @@ void multiplyDarkPattern(benchmark::State& state) {
 BENCHMARK(multiplyDarkPattern)->Apply(everyNumberOfThreads);
 
 void means(benchmark::State& state) {
-  Stack pattern = randomStack(layout().projectors().count(), 3);
+  ProjectorStack pattern(randomStack(layout().projectors().count(), 3));
   Measured measured(state);
   for (auto _ : state) benchmark::DoNotOptimize(layout().means(pattern));
   measured.finish((pattern.size() + 3 * layout().count()) * sizeof(float));
@@ -131,7 +131,7 @@ void means(benchmark::State& state) {
 BENCHMARK(means)->Apply(everyNumberOfThreads);
 
 void meansAdjoint(benchmark::State& state) {
-  Stack values = randomStack(layout().count(), 4);
+  transport::NodeStack values(randomStack(layout().count(), 4));
   Measured measured(state);
   for (auto _ : state) benchmark::DoNotOptimize(layout().meansAdjoint(values));
   measured.finish((values.size() + 3 * layout().projectors().count()) * sizeof(float));

@@ -31,7 +31,7 @@ Curve sCurve(double strength) {
 
 struct ScriptedVenue::State {
   transport::TransportMatrix transport;
-  Stack black;
+  CameraStack black;
   ScriptedSettings settings;
   std::vector<image::Image> shown;  // per projector
   Stack lamp;                       // radiance of what is shown, at full lamp power; empty: to be computed
@@ -40,11 +40,11 @@ struct ScriptedVenue::State {
   const ScriptedProjector& projector(std::size_t index) const { return pick(settings.projectors, index); }
   const ScriptedCamera& camera(std::size_t index) const { return pick(settings.cameras, index); }
 
-  Stack linearDrive(const std::vector<image::Image>& patterns, bool withWhiteSegment) const {
+  ProjectorStack linearDrive(const std::vector<image::Image>& patterns, bool withWhiteSegment) const {
     const Rasters& rasters = transport.projectors();
     require(patterns.size() == rasters.devices(), "{} patterns for {} projectors", patterns.size(),
             rasters.devices());
-    Stack linear = image::stackFromImages(patterns, rasters);
+    ProjectorStack linear(image::stackFromImages(patterns, rasters));
     for (std::size_t index = 0; index < rasters.devices(); ++index) {
       const ScriptedProjector& model = projector(index);
       std::array<std::vector<float>, 3> table;
@@ -67,8 +67,8 @@ struct ScriptedVenue::State {
     return linear;
   }
 
-  Stack lampRadiance(const std::vector<image::Image>& patterns) const {
-    Stack light = transport.apply(linearDrive(patterns, true));
+  CameraStack lampRadiance(const std::vector<image::Image>& patterns) const {
+    CameraStack light = transport.apply(linearDrive(patterns, true));
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += black.empty() ? 0.0f : black[i];
     return light;
   }
@@ -163,7 +163,8 @@ class CameraOfScript : public rig::Camera {
 
 }  // namespace
 
-ScriptedVenue::ScriptedVenue(transport::TransportMatrix transport, Stack black, ScriptedSettings settings)
+ScriptedVenue::ScriptedVenue(transport::TransportMatrix transport, CameraStack black,
+                             ScriptedSettings settings)
     : state_(std::make_shared<State>()) {
   require(black.empty() || black.size() == 3 * transport.cameras().count(), "{} black values for {} pixels",
           black.size(), transport.cameras().count());
@@ -186,20 +187,20 @@ const transport::TransportMatrix& ScriptedVenue::transport() const {
   return state_->transport;
 }
 
-Stack ScriptedVenue::black() const {
-  Stack black(3 * state_->transport.cameras().count(), 0.0f);
+CameraStack ScriptedVenue::black() const {
+  CameraStack black(3 * state_->transport.cameras().count(), 0.0f);
   for (std::size_t i = 0; i < black.size(); ++i)
     black[i] = (state_->black.empty() ? 0.0f : state_->black[i]) +
                (state_->settings.ambient.empty() ? 0.0f : state_->settings.ambient[i]);
   return black;
 }
 
-Stack ScriptedVenue::linearDrive(const std::vector<image::Image>& encodedPatterns) const {
+ProjectorStack ScriptedVenue::linearDrive(const std::vector<image::Image>& encodedPatterns) const {
   return state_->linearDrive(encodedPatterns, false);
 }
 
-Stack ScriptedVenue::radiance(const std::vector<image::Image>& encodedPatterns) const {
-  Stack light = state_->lampRadiance(encodedPatterns);
+CameraStack ScriptedVenue::radiance(const std::vector<image::Image>& encodedPatterns) const {
+  CameraStack light = state_->lampRadiance(encodedPatterns);
   for (std::size_t i = 0; i < light.size(); ++i)
     light[i] += state_->settings.ambient.empty() ? 0.0f : state_->settings.ambient[i];
   return light;
@@ -374,8 +375,8 @@ transport::TransportMatrix syntheticTransport(const SyntheticSettings& settings)
   return Builder(settings).build();
 }
 
-Stack syntheticBlack(const transport::TransportMatrix& transport, double share) {
-  Stack flood = transport.floodlight();
+CameraStack syntheticBlack(const transport::TransportMatrix& transport, double share) {
+  CameraStack flood = transport.floodlight();
   double mean = 0.0;
   for (float value : flood) mean += value;
   mean /= static_cast<double>(flood.size());

@@ -40,7 +40,7 @@ struct ScriptedCamera {
 struct ScriptedSettings {
   std::vector<ScriptedProjector> projectors;  // the last stands for all that follow; empty: defaults
   std::vector<ScriptedCamera> cameras;        // likewise
-  Stack ambient;                              // radiance that no projector makes; empty: none
+  CameraStack ambient;                        // radiance that no projector makes; empty: none
   double drift = 0.0;                         // relative change of lamp power over 1000 shots
   double flicker = 0.0;                       // relative deviation of lamp power between exposures
   std::uint64_t seed = 1;                     // of all noise
@@ -54,18 +54,18 @@ struct ScriptedSettings {
 class ScriptedVenue {
  public:
   /// `black`: radiance of the projectors' black levels at full lamp power; empty: none.
-  ScriptedVenue(transport::TransportMatrix transport, Stack black, ScriptedSettings settings = {});
+  ScriptedVenue(transport::TransportMatrix transport, CameraStack black, ScriptedSettings settings = {});
 
   /// Devices that share this venue's data and may outlive it.
   rig::Rig rig() const;
 
   const transport::TransportMatrix& transport() const;
   /// Radiance without any light from patterns: black + ambient.
-  Stack black() const;
+  CameraStack black() const;
   /// Linear drive that encoded patterns make, rounded to codes, without a white segment.
-  Stack linearDrive(const std::vector<image::Image>& encodedPatterns) const;
+  ProjectorStack linearDrive(const std::vector<image::Image>& encodedPatterns) const;
   /// True radiance, camera signal per second, at full lamp power, free of noise.
-  Stack radiance(const std::vector<image::Image>& encodedPatterns) const;
+  CameraStack radiance(const std::vector<image::Image>& encodedPatterns) const;
   /// Exposures taken so far.
   int captures() const;
 
@@ -94,6 +94,6 @@ struct SyntheticSettings {
 transport::TransportMatrix syntheticTransport(const SyntheticSettings& settings);
 
 /// An even black level: `share` of the mean flood radiance, slightly textured.
-Stack syntheticBlack(const transport::TransportMatrix& transport, double share = 1e-3);
+CameraStack syntheticBlack(const transport::TransportMatrix& transport, double share = 1e-3);
 
 }  // namespace relucent::test

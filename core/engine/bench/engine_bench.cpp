@@ -156,8 +156,8 @@ Stack randomStack(std::size_t pixels, std::uint64_t seed) {
 
 void timeReferences(Bench& bench, const EngineVenue& engine) {
   const transport::TransportMatrix& transport = engine.venue.transport;
-  const Stack projector = randomStack(transport.projectors().count(), 1);
-  const Stack camera = randomStack(transport.cameras().count(), 2);
+  const ProjectorStack projector(randomStack(transport.projectors().count(), 1));
+  const CameraStack camera(randomStack(transport.cameras().count(), 2));
   bench.time("WindowInverse::apply", static_cast<double>(engine.inverse.bytes()),
              [&] { engine.inverse.apply(camera); });
   bench.time("TransportMatrix: T p and adjoint", 2.0 * static_cast<double>(transport.leaves().bytes()),

@@ -100,8 +100,8 @@ inline double energyOf(const transport::TransportMatrix& transport) {
 }
 
 /// A smooth picture with edges.
-inline Stack naturalPattern(const Rasters& projectors) {
-  Stack pattern(3 * projectors.count());
+inline ProjectorStack naturalPattern(const Rasters& projectors) {
+  ProjectorStack pattern(3 * projectors.count());
   for (std::size_t device = 0; device < projectors.devices(); ++device) {
     Size size = projectors.size(device);
     for (std::size_t i = 0; i < size.count(); ++i) {
@@ -117,9 +117,9 @@ inline Stack naturalPattern(const Rasters& projectors) {
   return pattern;
 }
 
-inline Stack randomPattern(const Rasters& projectors) {
+inline ProjectorStack randomPattern(const Rasters& projectors) {
   Random random{99};
-  Stack pattern(3 * projectors.count());
+  ProjectorStack pattern(3 * projectors.count());
   for (float& value : pattern) value = random.uniformFloat();
   return pattern;
 }

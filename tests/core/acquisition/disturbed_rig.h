@@ -15,7 +15,7 @@
 /// Clocks move only when they are waited for.
 namespace relucent::test {
 
-/// A triggered camera of a network, with frames numbered anew at each connection.
+/// A triggered camera of a network, with frames numbered again at each connection.
 class DisturbedDriver : public devices::CameraDriver {
  public:
   explicit DisturbedDriver(std::shared_ptr<DisturbedVenue> venue) : venue_(std::move(venue)) {}

@@ -73,7 +73,7 @@ class TestAcquisition : public QObject {
     double bound = 0.03 + 30.0 * noise;
     QVERIFY2(difference(a.transport, run.truth).frobenius < bound, qPrintable(shown(a, run.truth)));
     QVERIFY2(a.verificationError < bound, qPrintable(shown(a, run.truth)));
-    for (const Stack& pattern :
+    for (const ProjectorStack& pattern :
          {naturalPattern(run.truth.projectors()), randomPattern(run.truth.projectors())}) {
       double error = relativeError(a.transport.apply(pattern), run.truth.apply(pattern));
       QVERIFY2(error < bound, qPrintable(QString("relighting %1; ").arg(error) + shown(a, run.truth)));

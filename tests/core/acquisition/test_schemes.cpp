@@ -69,7 +69,7 @@ class TestSchemes : public QObject {
     Acquisition adaptive = Run(fine)();
     QVERIFY2(3 * fast.exposures < 2 * adaptive.exposures, qPrintable(shown(fast, run.truth)));
     QCOMPARE(fast.exposures, fast.patterns);
-    Stack pattern = naturalPattern(run.truth.projectors());
+    ProjectorStack pattern(naturalPattern(run.truth.projectors()));
     QVERIFY2(relativeError(fast.transport.apply(pattern), run.truth.apply(pattern)) < 0.05,
              qPrintable(shown(fast, run.truth)));
   }

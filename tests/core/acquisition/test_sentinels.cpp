@@ -326,7 +326,7 @@ class TestSentinels : public QObject {
     QVERIFY(isAcceptable(alarms[0].kind));
     auto names = [&](const Message& finding) {
       const std::string text = english(finding);
-      return text.starts_with("put up with before pattern ") && text.ends_with(english(alarms[0].what));
+      return text.starts_with("accepted before pattern ") && text.ends_with(english(alarms[0].what));
     };
     QCOMPARE(std::count_if(a.findings.begin(), a.findings.end(), names), 1);
     QVERIFY(a.transport.leaves().blocks() > 0);

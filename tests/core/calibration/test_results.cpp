@@ -52,9 +52,9 @@ std::size_t closingBracket(const std::string& text, std::size_t open) {
   return at;
 }
 
-Stack randomStack(std::size_t pixels, std::uint64_t seed) {
+CameraStack randomStack(std::size_t pixels, std::uint64_t seed) {
   Random random{seed};
-  Stack stack(3 * pixels);
+  CameraStack stack(3 * pixels);
   for (float& value : stack) value = static_cast<float>(random.normal());
   return stack;
 }
@@ -142,11 +142,11 @@ class TestResults : public QObject {
     for (std::size_t row = 0; row < cameras.count(); ++row)
       builder.add(row, random.below(layout.count()), ColourBlock::Constant(random.uniformFloat()));
     before.transport = TransportMatrix(cameras, projectors, builder.build());
-    before.black = randomStack(cameras.count(), 1);
-    before.blackVariance = randomStack(cameras.count(), 2);
-    before.flood = randomStack(cameras.count(), 3);
-    before.floodVariance = randomStack(cameras.count(), 4);
-    before.leafVariance = randomStack(cameras.count(), 5);
+    before.black = CameraStack(randomStack(cameras.count(), 1));
+    before.blackVariance = CameraStack(randomStack(cameras.count(), 2));
+    before.flood = CameraStack(randomStack(cameras.count(), 3));
+    before.floodVariance = CameraStack(randomStack(cameras.count(), 4));
+    before.leafVariance = CameraStack(randomStack(cameras.count(), 5));
     for (std::uint64_t seed = 6; seed < 10; ++seed)
       before.residual.push_back(randomStack(cameras.count(), seed));
     before.remeasured = 3;

@@ -33,8 +33,8 @@ inline transport::TransportMatrix pixelTransport(Rasters cameras, Rasters projec
   return {cameras, projectors, builder.build()};
 }
 
-inline std::vector<std::uint8_t> all(const transport::TransportMatrix& transport) {
-  return std::vector<std::uint8_t>(transport.cameras().count(), 1);
+inline CameraMask all(const transport::TransportMatrix& transport) {
+  return CameraMask(transport.cameras().count(), 1);
 }
 
 inline clustering::ConnectionGraph everything(const transport::TransportMatrix& transport) {

@@ -76,7 +76,7 @@ class TestAlgorithmOne : public QObject {
     settings.rescaling = patches ? Rescaling::patches : Rescaling::rows;
     ConnectionGraph graph(made.transport, made.usable, {}, quiet);
     Clustering clustering = clustered(graph, settings, quiet);
-    Stack flood = made.transport.floodlight(), sums = clustering.transport.floodlight();
+    CameraStack flood = made.transport.floodlight(), sums = clustering.transport.floodlight();
     for (std::size_t i = 0; i < flood.size(); ++i) {
       if (!made.usable[i / 3]) continue;
       QVERIFY2(std::abs(sums[i] - flood[i]) <= rounding * flood[i], qPrintable(QString::number(i)));

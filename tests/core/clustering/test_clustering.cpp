@@ -118,7 +118,7 @@ class TestClustering : public QObject {
       writer.endRow();
     }
     TransportMatrix transport(size, size, writer.build());
-    std::vector<std::uint8_t> usable(size.count(), kind == "unusable" ? 0 : 1);
+    CameraMask usable(size.count(), kind == "unusable" ? 0 : 1);
     Clustering clustering = clustered(ConnectionGraph(transport, usable, {}, quiet), {}, quiet);
     verifyPartition(clustering);
     bool lit = kind == "single pixels" || kind == "saturated";

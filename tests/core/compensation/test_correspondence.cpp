@@ -34,8 +34,7 @@ TransportMatrix venueOf(const std::vector<Light>& lights) {
   return TransportMatrix(Size{4, 1}, Size{128, 96}, builder.build());
 }
 
-std::int32_t of(const TransportMatrix& transport, Pixel pixel,
-                std::vector<std::uint8_t> usable = {1, 1, 1, 1}) {
+std::int32_t of(const TransportMatrix& transport, Pixel pixel, CameraMask usable = {1, 1, 1, 1}) {
   return brightestCorrespondence(transport, usable, {})[indexOf({128, 96}, pixel)];
 }
 
@@ -96,7 +95,7 @@ class TestCorrespondence : public QObject {
     s.seed = static_cast<std::uint64_t>(seed);
     Scene scene = makeScene(s);
     const TransportMatrix& t = scene.transport;
-    std::vector<std::uint8_t> usable(t.cameras().count());
+    CameraMask usable(t.cameras().count());
     for (std::size_t i = 0; i < usable.size(); ++i) usable[i] = i % 7 != static_cast<std::size_t>(seed);
 
     TransportMatrix direct = directPart(t, {}, quiet);

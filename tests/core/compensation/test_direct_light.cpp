@@ -19,8 +19,8 @@ namespace {
 Progress quiet;
 
 /// Squares of `side` pixels, every other one lit.
-Stack checkerboard(Size size, int side, int shiftX, int shiftY) {
-  Stack pattern(3 * size.count(), 0.0f);
+ProjectorStack checkerboard(Size size, int side, int shiftX, int shiftY) {
+  ProjectorStack pattern(3 * size.count(), 0.0f);
   for (std::size_t j = 0; j < size.count(); ++j) {
     Pixel pixel = pixelAt(size, j);
     bool lit = (((pixel.x + shiftX) / side + (pixel.y + shiftY) / side) % 2) == 0;
@@ -132,14 +132,14 @@ class TestDirectLight : public QObject {
     Stack brightest(3 * s.camera.count(), 0.0f), darkest(3 * s.camera.count(), 1e9f);
     for (int y = 0; y < 2 * side; y += 2) {
       for (int x = 0; x < 2 * side; x += 2) {
-        Stack lit = scene.transport.apply(checkerboard(s.projector, side, x, y));
+        CameraStack lit = scene.transport.apply(checkerboard(s.projector, side, x, y));
         for (std::size_t i = 0; i < lit.size(); ++i) {
           brightest[i] = std::max(brightest[i], lit[i]);
           darkest[i] = std::min(darkest[i], lit[i]);
         }
       }
     }
-    Stack direct = directPart(scene.transport, {}, quiet).floodlight();
+    CameraStack direct = directPart(scene.transport, {}, quiet).floodlight();
     double error = 0.0, share = 0.0, count = 0.0;
     for (std::size_t i = 0; i < direct.size(); ++i) {
       if (!scene.usable[i / 3]) continue;
@@ -158,7 +158,7 @@ class TestDirectLight : public QObject {
   /// Somebody who knows of no indirect light puts all of it down to direct light.
   void defocusCarriesAllLight() {
     Scene scene = makeScene({});
-    Stack flood = scene.transport.floodlight();
+    CameraStack flood = scene.transport.floodlight();
     TransportMatrix defocus = defocusOnly(scene.transport, {}, quiet);
     Stack through = defocus.floodlight();
     for (std::size_t i = 0; i < flood.size(); ++i) {

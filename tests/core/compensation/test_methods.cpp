@@ -33,8 +33,8 @@ struct Prepared {
 
   /// PSNR over reachable pixels, through the true transport.
   double psnr(Method method, const Target& target, const CompensatorSettings& settings = {}) const {
-    Stack p = Compensator(venue, inverse, settings).solve(method, target, quiet).projector;
-    Stack seen = scene.transport.apply(p);
+    ProjectorStack p = Compensator(venue, inverse, settings).solve(method, target, quiet).projector;
+    CameraStack seen = scene.transport.apply(p);
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (!target.reachable[i / 3]) continue;
@@ -116,8 +116,8 @@ class TestMethods : public QObject {
       builder.add(i, i, ((0.6f + 0.4f * static_cast<float>(i % 5) / 4.0f) * block).eval());
     }
     TransportMatrix transport(size, size, builder.build());
-    MeasuredVenue venue{transport, Stack(3 * size.count(), 0.001f), transport.floodlight(),
-                        std::vector<std::uint8_t>(size.count(), 1)};
+    MeasuredVenue venue{transport, CameraStack(3 * size.count(), 0.001f), transport.floodlight(),
+                        CameraMask(size.count(), 1)};
     WindowSettings sharp;
     sharp.ridge = 1e-3;
     WindowInverse inverse = computeWindows(transport, venue.usable, sharp, quiet);
@@ -125,8 +125,9 @@ class TestMethods : public QObject {
     settings.reachablePercentile = 0.0;
     settings.corners = uprightCorners(0, 0, 12, 8);
     Target target = fitTarget(makeContent(Content::natural, size, 3), venue, settings);
-    Stack p = Compensator(venue, inverse).solve(static_cast<Method>(method), target, quiet).projector;
-    Stack seen = transport.apply(p);
+    ProjectorStack p =
+        Compensator(venue, inverse).solve(static_cast<Method>(method), target, quiet).projector;
+    CameraStack seen = transport.apply(p);
     for (std::size_t i = 0; i < seen.size(); ++i)
       if (target.reachable[i / 3])
         // The windows' unmixing and ridge, and the solver's tolerance: all well below half a percent of

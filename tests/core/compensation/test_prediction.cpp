@@ -28,7 +28,7 @@ class TestPrediction : public QObject {
     Scene scene = makeScene({});
     MeasuredVenue venue = venueOf(scene);
     Target target = fitTarget(Image({40, 30}, 3, 0.5f), venue, {});
-    Compensation all{Stack(3 * scene.transport.projectors().count(), 0.3f), 0.25, 1};
+    Compensation all{ProjectorStack(3 * scene.transport.projectors().count(), 0.3f), 0.25, 1};
     target.wanted = predict(venue, target, all).camera;
     Prediction again = predict(venue, target, all);
     QCOMPARE(again.meanDeltaE, 0.0);
@@ -41,7 +41,7 @@ class TestPrediction : public QObject {
     Scene scene = makeScene({});
     MeasuredVenue venue = venueOf(scene);
     Target target = fitTarget(Image({40, 30}, 3, 1.0f), venue, {});
-    Compensation dark{Stack(3 * scene.transport.projectors().count(), 0.0f), 0.0, 0};
+    Compensation dark{ProjectorStack(3 * scene.transport.projectors().count(), 0.0f), 0.0, 0};
     Prediction prediction = predict(venue, target, dark);
     QVERIFY(prediction.camera == venue.black);
     for (std::size_t i = 0; i < target.inside.size(); ++i) {
@@ -58,7 +58,7 @@ class TestPrediction : public QObject {
     Target target = fitTarget(Image({40, 30}, 3, 1.0f), venue, {});
     std::fill(target.inside.begin(), target.inside.end(), std::uint8_t{0});
     std::fill(target.reachable.begin(), target.reachable.end(), std::uint8_t{0});
-    Compensation dark{Stack(3 * scene.transport.projectors().count(), 0.0f), 0.0, 0};
+    Compensation dark{ProjectorStack(3 * scene.transport.projectors().count(), 0.0f), 0.0, 0};
     Prediction prediction = predict(venue, target, dark);
     QCOMPARE(prediction.meanDeltaE, 0.0);
     QCOMPARE(prediction.reachable, 0.0);

@@ -29,9 +29,9 @@ constexpr Algorithm allAlgorithms[] = {Algorithm::fista, Algorithm::barzilaiBorw
 /// A problem that owns its parts.
 struct Case {
   TransportMatrix transport;
-  Stack wanted;
+  CameraStack wanted;
   std::vector<float> weight;
-  std::vector<std::uint8_t> free;
+  ProjectorMask free;
   ConstrainedProblem problem() const { return {transport, wanted, weight, free}; }
 };
 
@@ -49,8 +49,8 @@ Case smallCase(std::uint64_t seed) {
       builder.add(row, node, block);
     }
   }
-  Case made{TransportMatrix(camera, projector, builder.build()), Stack(3 * camera.count()),
-            std::vector<float>(camera.count()), std::vector<std::uint8_t>(projector.count(), 1)};
+  Case made{TransportMatrix(camera, projector, builder.build()), CameraStack(3 * camera.count()),
+            std::vector<float>(camera.count()), ProjectorMask(projector.count(), 1)};
   for (float& value : made.wanted) value = static_cast<float>(3.0 * random.uniform() - 0.3);
   for (float& value : made.weight) value = static_cast<float>(0.2 + random.uniform());
   return made;
@@ -63,7 +63,7 @@ Case sceneCase(std::uint64_t seed) {
   s.camera = {20, 15};
   Scene scene = makeScene(s);
   Case made{scene.transport, scene.transport.floodlight(), std::vector<float>(scene.usable.size()),
-            std::vector<std::uint8_t>(s.projector.count(), 1)};
+            ProjectorMask(s.projector.count(), 1)};
   Random random({seed, 3});
   for (float& value : made.wanted) value *= static_cast<float>(1.2 * random.uniform());
   for (std::size_t i = 0; i < made.weight.size(); ++i) made.weight[i] = scene.usable[i] ? 1.0f : 0.0f;
@@ -91,10 +91,7 @@ Case scipyCase(const BoxCase& solved) {
     }
     writer.endRow();
   }
-  Case made{TransportMatrix(camera, projector, writer.build()),
-            {},
-            {},
-            std::vector<std::uint8_t>(projector.count(), 1)};
+  Case made{TransportMatrix(camera, projector, writer.build()), {}, {}, ProjectorMask(projector.count(), 1)};
   for (double value : solved.b) made.wanted.push_back(static_cast<float>(value));
   for (double value : numbers(solved.json["weight"])) made.weight.push_back(static_cast<float>(value));
   return made;
@@ -142,7 +139,7 @@ class TestSolver : public QObject {
     QFETCH(int, index);
     BoxCase solved = boxCases(scipyFile(), "transport")[static_cast<std::size_t>(index)];
     Case c = scipyCase(solved);
-    Stack start(static_cast<std::size_t>(solved.x.size()), 0.5f);
+    ProjectorStack start(static_cast<std::size_t>(solved.x.size()), 0.5f);
     SolveResult result = solveConstrained(c.problem(), start, exact(algorithm), quiet);
     QVERIFY2(result.converged, qPrintable(QString::number(result.projectedGradient)));
     // Single precision of T p, and a projected gradient of 1e-5.
@@ -166,7 +163,7 @@ class TestSolver : public QObject {
   void nothingToSolveHasAResult() {
     QFETCH(int, algorithm);
     SolverSettings settings = exact(algorithm);
-    Stack start(12, 0.5f);
+    ProjectorStack start(12, 0.5f);
 
     Case nothingFree = smallCase(1);
     nothingFree.free.assign(4, 0);
@@ -189,22 +186,22 @@ class TestSolver : public QObject {
     // The way out of the box and into it again: a start beyond the limits, some of it not free.
     Case partly = smallCase(2);
     partly.free[1] = 0;
-    SolveResult clamped = solveConstrained(partly.problem(), Stack(12, 7.0f), settings, quiet);
+    SolveResult clamped = solveConstrained(partly.problem(), ProjectorStack(12, 7.0f), settings, quiet);
     QVERIFY(clamped.converged);
     for (std::size_t j = 3; j < 6; ++j) QCOMPARE(clamped.x[j], 0.0f);
   }
 
   void denseRefusesWhatIsTooLarge() {
     Case c = sceneCase(1);
-    QVERIFY_EXCEPTION_THROWN(
-        solveConstrained(c.problem(), Stack(3 * c.free.size(), 0.0f), defaultsOf(Algorithm::dense), quiet),
-        Error);
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), ProjectorStack(3 * c.free.size(), 0.0f),
+                                              defaultsOf(Algorithm::dense), quiet),
+                             Error);
   }
 
   void denseTakesPartOfAScene() {
     Case c = sceneCase(2);
     for (std::size_t j = 0; j < c.free.size(); ++j) c.free[j] = j % 32 < 8 && j / 32 < 8;
-    Stack start(3 * c.free.size(), 0.0f);
+    ProjectorStack start(3 * c.free.size(), 0.0f);
     SolveResult dense = solveConstrained(c.problem(), start, defaultsOf(Algorithm::dense), quiet);
     SolveResult fista = solveConstrained(c.problem(), start, exact(0), quiet);
     QVERIFY(dense.converged);
@@ -227,14 +224,14 @@ class TestSolver : public QObject {
   void fiveStepsOfDescentGetMostOfIt() {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       Case c = sceneCase(seed);
-      Stack start(3 * c.free.size(), 0.0f);
+      ProjectorStack start(3 * c.free.size(), 0.0f);
       SolverSettings settings = defaultsOf(Algorithm::steepestDescent);
       QCOMPARE(settings.mostIterations, 5);
       std::vector<double> f;
       for (settings.mostIterations = 1; settings.mostIterations <= 5; ++settings.mostIterations)
         f.push_back(solveConstrained(c.problem(), start, settings, quiet).objective);
       for (std::size_t i = 1; i < f.size(); ++i) QVERIFY(f[i] < f[i - 1]);
-      Stack lit = c.transport.apply(start);
+      CameraStack lit = c.transport.apply(start);
       double black = 0.0;
       for (std::size_t i = 0; i < lit.size(); ++i) black += 0.5 * c.weight[i / 3] * std::pow(c.wanted[i], 2);
       double best = solveConstrained(c.problem(), start, exact(0), quiet).objective;
@@ -251,11 +248,12 @@ class TestSolver : public QObject {
     Case c = sceneCase(static_cast<std::uint64_t>(seed));
     SolverSettings settings = exact(algorithm);
     settings.tolerance = 1e-4;
-    SolveResult result = solveConstrained(c.problem(), Stack(3 * c.free.size(), 0.0f), settings, quiet);
+    SolveResult result =
+        solveConstrained(c.problem(), ProjectorStack(3 * c.free.size(), 0.0f), settings, quiet);
     QVERIFY(result.converged);
     QVERIFY2(result.projectedGradient < 3 * settings.tolerance,
              qPrintable(QString::number(result.projectedGradient)));
-    Stack g = gradient(c.problem(), result.x), scale = diagonalPreconditioner(c.problem());
+    ProjectorStack g = gradient(c.problem(), result.x), scale = diagonalPreconditioner(c.problem());
     for (std::size_t j = 0; j < g.size(); ++j) {
       double step = static_cast<double>(g[j]) * static_cast<double>(scale[j]);
       QVERIFY(result.x[j] >= 0.0f && result.x[j] <= 1.0f);
@@ -271,7 +269,7 @@ class TestSolver : public QObject {
     Case c = sceneCase(4);
     SolverSettings settings = exact(0);
     settings.tolerance = 1e-4;
-    Stack start(3 * c.free.size(), 0.3f);
+    ProjectorStack start(3 * c.free.size(), 0.3f);
     double fista = solveConstrained(c.problem(), start, settings, quiet).objective;
     settings.algorithm = Algorithm::barzilaiBorwein;
     double spectral = solveConstrained(c.problem(), start, settings, quiet).objective;
@@ -285,7 +283,8 @@ class TestSolver : public QObject {
   void neverEndsWorseThanItBegan() {
     Case c = sceneCase(5);
     SolverSettings settings = exact(0);
-    SolveResult best = solveConstrained(c.problem(), Stack(3 * c.free.size(), 0.0f), settings, quiet);
+    SolveResult best =
+        solveConstrained(c.problem(), ProjectorStack(3 * c.free.size(), 0.0f), settings, quiet);
     settings.mostIterations = 1;
     SolveResult again = solveConstrained(c.problem(), best.x, settings, quiet);
     QVERIFY(again.objective <= best.objective * (1 + 1e-6));
@@ -300,13 +299,14 @@ class TestSolver : public QObject {
     c.transport = measured(c.transport, 0.3, 0.02, static_cast<std::uint64_t>(seed));
     SolverSettings settings = exact(algorithm);
     settings.tolerance = 3e-4;
-    QVERIFY(solveConstrained(c.problem(), Stack(3 * c.free.size(), 0.0f), settings, quiet).converged);
+    QVERIFY(
+        solveConstrained(c.problem(), ProjectorStack(3 * c.free.size(), 0.0f), settings, quiet).converged);
   }
 
   void sameBitsForEveryNumberOfThreads() {
     Case c = sceneCase(6);
     SolverSettings settings;
-    Stack start(3 * c.free.size(), 0.5f);
+    ProjectorStack start(3 * c.free.size(), 0.5f);
     Stack many = solveConstrained(c.problem(), start, settings, quiet).x;
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     QVERIFY(solveConstrained(c.problem(), start, settings, quiet).x == many);
@@ -318,20 +318,21 @@ class TestSolver : public QObject {
     SolverSettings settings = exact(algorithm);
     Case c = smallCase(7);
     c.wanted[4] = std::nanf("");
-    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), Stack(12, 0.5f), settings, quiet), Error);
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(c.problem(), ProjectorStack(12, 0.5f), settings, quiet), Error);
     Case weights = smallCase(7);
     weights.weight[2] = std::nanf("");
-    QVERIFY_EXCEPTION_THROWN(solveConstrained(weights.problem(), Stack(12, 0.5f), settings, quiet), Error);
-    Case fine = smallCase(7);
-    QVERIFY_EXCEPTION_THROWN(solveConstrained(fine.problem(), Stack(12, std::nanf("")), settings, quiet),
+    QVERIFY_EXCEPTION_THROWN(solveConstrained(weights.problem(), ProjectorStack(12, 0.5f), settings, quiet),
                              Error);
+    Case fine = smallCase(7);
+    QVERIFY_EXCEPTION_THROWN(
+        solveConstrained(fine.problem(), ProjectorStack(12, std::nanf("")), settings, quiet), Error);
   }
 
   void stopsWhenAsked_data() { nothingToSolveHasAResult_data(); }
   void stopsWhenAsked() {
     QFETCH(int, algorithm);
     Case c = smallCase(8);
-    Stack start(12, 0.5f);
+    ProjectorStack start(12, 0.5f);
     SolverSettings settings = defaultsOf(static_cast<Algorithm>(algorithm));
     Stopped kept(StopRequest::Kind::keep);
     SolveResult early = solveConstrained(c.problem(), start, settings, kept);

@@ -41,7 +41,7 @@ class TestTarget : public QObject {
   void largestUprightFillsTheUsablePart() {
     QFETCH(double, aspect);
     Size size{100, 80};
-    std::vector<std::uint8_t> usable = maskWith(size, 20, 10, 84, 58);
+    CameraMask usable(maskWith(size, 20, 10, 84, 58));
     for (std::size_t i = 0; i < usable.size(); i += 37) usable[i] = 0;  // small holes
     std::optional<Corners> found = largestUpright(usable, size, aspect);
     QVERIFY(found.has_value());
@@ -60,16 +60,14 @@ class TestTarget : public QObject {
     Image content({40, 30}, 3, 0.5f);
     Corners everywhere = fitTarget(content, venue, {}).corners;
     QCOMPARE(everywhere[2][0] - everywhere[0][0], static_cast<double>(view.width));
-    venue.direct = maskWith(view, 5, 4, 33, 25);
+    venue.direct = CameraMask(maskWith(view, 5, 4, 33, 25));
     Corners placed = fitTarget(content, venue, {}).corners;
     // A strip along each side may be a tenth without: 21 rows and not two more.
     QVERIFY(placed[0][0] >= 4 && placed[0][1] >= 3 && placed[2][0] <= 34 && placed[2][1] <= 26);
     QVERIFY(placed[2][1] - placed[0][1] >= 20);
     QVERIFY(placeable(venue) == venue.direct);
   }
-  void nothingLitHoldsNoPicture() {
-    QVERIFY(!largestUpright(std::vector<std::uint8_t>(100, 0), {10, 10}, 1.0));
-  }
+  void nothingLitHoldsNoPicture() { QVERIFY(!largestUpright(CameraMask(100, 0), {10, 10}, 1.0)); }
 
   void cornersMapToTheUnitSquare() {
     Corners corners{{{3, 4}, {40, 7}, {35, 30}, {1, 26}}};

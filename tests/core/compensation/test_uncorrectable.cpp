@@ -25,8 +25,8 @@ struct Wall {
   NodeLayout layout{Rasters(view)};
   std::vector<std::vector<std::pair<Node, float>>> blocks;
   Target target;
-  Stack black = Stack(3 * view.count(), 0.01f);
-  std::vector<std::uint8_t> usable = std::vector<std::uint8_t>(view.count(), 1);
+  CameraStack black = CameraStack(3 * view.count(), 0.01f);
+  CameraMask usable = CameraMask(view.count(), 1);
 
   Wall() : blocks(view.count()) {
     for (std::size_t i = 0; i < view.count(); ++i) {
@@ -43,7 +43,7 @@ struct Wall {
       for (const auto& [node, light] : blocks[i])
         builder.add(i, layout.index(node), (light * ColourBlock::Identity()).eval());
     TransportMatrix transport(view, view, builder.build());
-    Stack flood = transport.floodlight();
+    CameraStack flood = transport.floodlight();
     return {std::move(transport), black, std::move(flood), usable};
   }
   std::vector<Uncorrectable> map() const { return uncorrectableMap(venue(), target, {}, quiet); }

@@ -66,7 +66,7 @@ Rig rigOf(Way left, Way right, double flicker = 0.0, std::uint64_t seed = 1,
   scripted.flicker = flicker;
   scripted.seed = seed;
   scripted.beforeCapture = std::move(beforeCapture);
-  const Stack black = syntheticBlack(transport);
+  const CameraStack black = syntheticBlack(transport);
   Rig rig = ScriptedVenue(std::move(transport), black, scripted).rig();
   rig.projectors[0] = std::make_unique<WaywardProjector>(std::move(rig.projectors[0]), left, "left");
   rig.projectors[1] = std::make_unique<WaywardProjector>(std::move(rig.projectors[1]), right, "right");

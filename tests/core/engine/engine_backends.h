@@ -107,7 +107,7 @@ inline int codeOf(std::uint32_t word, std::size_t channel, int bits = 8) {
 }
 
 /// The largest difference between 8-bit words and linear drive under a linear response, in codes.
-inline double mostCodesApart(const std::vector<std::uint32_t>& words, const Stack& projector) {
+inline double mostCodesApart(const std::vector<std::uint32_t>& words, const ProjectorStack& projector) {
   double most = 0.0;
   for (std::size_t i = 0; i < projector.size(); ++i)
     most = std::max(most, std::abs(codeOf(words[i / 3], i % 3) - 255.0 * static_cast<double>(projector[i])));

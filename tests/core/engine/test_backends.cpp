@@ -61,8 +61,8 @@ using namespace relucent::synthetic;
 namespace {
 
 /// Mean squared error of what T makes of a projection, over what can be reached.
-double errorSeen(const MeasuredVenue& venue, const Target& target, const Stack& projector) {
-  Stack seen = venue.transport.apply(projector);
+double errorSeen(const MeasuredVenue& venue, const Target& target, const ProjectorStack& projector) {
+  CameraStack seen = venue.transport.apply(projector);
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!target.reachable[i / 3]) continue;
@@ -153,10 +153,10 @@ class TestBackends : public QObject {
     Progress silent;
     CompensatorSettings settings;
     settings.steps.resize(2);
-    Stack expected =
+    ProjectorStack expected =
         Compensator(made.venue, made.inverse, settings).solve(Method::refined, target, silent).projector;
     std::vector<std::uint32_t> words = rendered(*device, engine, frameOf(content), {true, 2, 1.0f, 0.0f});
-    Stack projector(expected.size());
+    ProjectorStack projector(expected.size());
     for (std::size_t i = 0; i < projector.size(); ++i)
       projector[i] = static_cast<float>(codeOf(words[i / 3], i % 3)) / 255.0f;
     // Rounding to codes is part of both.
@@ -177,7 +177,8 @@ class TestBackends : public QObject {
     Image content = makeContent(Content::natural, {40, 30}, 1);
     Target target = fitTarget(content, made.venue, {});
     Progress silent;
-    Stack expected = Compensator(made.venue, made.inverse).solve(Method::none, target, silent).projector;
+    ProjectorStack expected =
+        Compensator(made.venue, made.inverse).solve(Method::none, target, silent).projector;
     std::vector<std::uint32_t> words = rendered(*device, engine, frameOf(content), {false, 2, 1.0f, 0.0f});
     // Half a code for rounding, and weights of 16 bits.
     QVERIFY(mostCodesApart(words, expected) <= 0.6);
@@ -252,7 +253,7 @@ class TestBackends : public QObject {
     for (Size size : {Size{1, 1}, Size{12, 2}, Size{700, 500}, Size{40, 30}}) {
       Image content = makeContent(Content::natural, size, 9);
       Target target = fitTarget(content, made.venue, {});
-      Stack expected = compensator.solve(Method::windows, target, silent).projector;
+      ProjectorStack expected = compensator.solve(Method::windows, target, silent).projector;
       auto words = rendered(*device, engine, frameOf(content), {true, 0, 1.0f, 0.0f});
       QVERIFY2(mostCodesApart(words, expected) <= 1.0,
                qPrintable(QString("%1x%2").arg(size.width).arg(size.height)));

@@ -13,6 +13,12 @@ using namespace relucent::rig;
 using namespace relucent::transport;
 using namespace relucent::test;
 
+// Neither radiance nor what is only less e passes for what T predicts.
+static_assert(!std::is_convertible_v<HdrFrame, LampLight> &&
+              !std::is_convertible_v<ProjectedLight, LampLight>);
+static_assert(!std::is_convertible_v<HdrFrame, BlackLevel> && !std::is_convertible_v<LampLight, BlackLevel>);
+static_assert(!std::is_constructible_v<LampLight, HdrFrame, double>);
+
 namespace {
 
 constexpr Size size{37, 23};
@@ -25,7 +31,7 @@ struct Sensor {
   Curve response;  // linear -> signal
   double noise = 1.0;
 
-  Shot photograph(const Stack& radiance, const std::vector<double>& seconds, std::uint64_t seed,
+  Shot photograph(const CameraStack& radiance, const std::vector<double>& seconds, std::uint64_t seed,
                   double timeError = 0.0) const {
     Shot shot{{"test", static_cast<int>(seed)}, "", {}};
     for (std::size_t k = 0; k < seconds.size(); ++k) {
@@ -54,7 +60,7 @@ struct Sensor {
 };
 
 Stack ladder(double darkest, double brightest) {
-  Stack radiance(3 * size.count());
+  CameraStack radiance(3 * size.count());
   for (std::size_t i = 0; i < radiance.size(); ++i)
     radiance[i] =
         static_cast<float>(darkest * std::pow(brightest / darkest,
@@ -95,7 +101,7 @@ class TestHdr : public QObject {
     Sensor sensor;
     sensor.bits = bits;
     sensor.noise = 0.0;
-    Stack radiance = ladder(0.01, 2.3);
+    CameraStack radiance(ladder(0.01, 2.3));
     Shot shot = sensor.photograph(radiance, {seconds.begin(), seconds.end()}, 1);
     HdrFrame frame = mergeBracket(shot, {sensor.model()}, Rasters(size));
     // Each sample is off by half a code at most, so is their mean, in units of the shortest that counts;
@@ -133,7 +139,7 @@ class TestHdr : public QObject {
       model.response.fill(inverseOf(sensor.response));
     }
     // Down to where the longest exposure stays clear of being cut at zero: 6 sigma of read noise.
-    Stack radiance = ladder(6.0 * readNoise / 1.6 + 0.01, 2.3);
+    CameraStack radiance(ladder(6.0 * readNoise / 1.6 + 0.01, 2.3));
     constexpr int repetitions = 40;
     double chiSquare = 0.0, errors = 0.0, deviations = 0.0;
     std::size_t count = 0;
@@ -168,7 +174,7 @@ class TestHdr : public QObject {
   void weightsDoNotFollowNoise() {
     QFETCH(double, radiance);
     Sensor sensor{14, 2e-3, 5e-4, {}, 1.0};
-    Stack even(3 * size.count(), static_cast<float>(radiance));
+    CameraStack even(3 * size.count(), static_cast<float>(radiance));
     double sum = 0.0, deviation = 0.0, n = 0.0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       HdrFrame frame =
@@ -187,7 +193,7 @@ class TestHdr : public QObject {
 
   void saturationLeavesALowerBound() {
     Sensor sensor;
-    Stack radiance = ladder(0.5, 40.0);
+    CameraStack radiance(ladder(0.5, 40.0));
     HdrFrame frame =
         mergeBracket(sensor.photograph(radiance, {0.4, 0.1}, 1), {sensor.model()}, Rasters(size));
     int saturated = 0;
@@ -206,7 +212,7 @@ class TestHdr : public QObject {
 
   void longerExposuresOnlyHelp() {
     Sensor sensor;
-    Stack radiance = ladder(0.01, 2.3);
+    CameraStack radiance(ladder(0.01, 2.3));
     HdrFrame one = mergeBracket(sensor.photograph(radiance, {0.4}, 1), {sensor.model()}, Rasters(size));
     HdrFrame two = mergeBracket(sensor.photograph(radiance, {0.4, 3.2}, 1), {sensor.model()}, Rasters(size));
     for (std::size_t i = 0; i < radiance.size(); ++i) QVERIFY(two.variance[i] <= one.variance[i] * 1.3f);
@@ -276,7 +282,7 @@ class TestHdr : public QObject {
       model.response.fill(inverseOf(sensor.response));
     }
     std::vector<double> seconds{1.6, 0.1, 0.4};
-    Stack radiance = ladder(0.05, 8.0);
+    CameraStack radiance(ladder(0.05, 8.0));
     // Outliers: a tenth of the pixels changes between the exposures.
     Shot shot = sensor.photograph(radiance, seconds, seed, 0.05);
     for (std::size_t i = 0; i < radiance.size(); i += 10) shot.frames[2][0].signal.data()[i] *= 0.5f;
@@ -292,7 +298,7 @@ class TestHdr : public QObject {
 
   void withoutLightTheReportedTimesStand() {
     Sensor sensor;
-    Shot shot = sensor.photograph(Stack(3 * size.count(), 1e-4f), {1.6, 0.4}, 1);
+    Shot shot = sensor.photograph(CameraStack(3 * size.count(), 1e-4f), {1.6, 0.4}, 1);
     QCOMPARE(exposureRatios(shot, 0, sensor.model()), (std::vector<double>{1.0, 0.25}));
   }
 };

@@ -36,20 +36,20 @@ struct Scene {
     truth = syntheticTransport(synthetic);
     black = syntheticBlack(truth);
   }
-  Stack drive(const Image& pattern) const {
-    Stack linear = pattern.data();
+  ProjectorStack drive(const Image& pattern) const {
+    ProjectorStack linear(pattern.data());
     for (float& value : linear) value = std::pow(value, static_cast<float>(gamma));
     return linear;
   }
   Image photograph(const Image& pattern) const {
-    Stack seen = truth.apply(drive(pattern));
+    CameraStack seen = truth.apply(drive(pattern));
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += black[i];
     return Image(camera, 3, std::move(seen));
   }
 
   double gamma;
   TransportMatrix truth;
-  Stack black;
+  CameraStack black;
 };
 
 PictureSequence sequenceOf(const std::vector<Image>& images) {
@@ -112,8 +112,8 @@ double relightingError(const Scene& scene, const Import& import) {
           double phase = static_cast<double>(seed) + 0.35 * x * (c + 1) / 2.0 + 0.27 * y;
           pattern.at(x, y, c) = static_cast<float>(0.5 + 0.5 * std::sin(phase));
         }
-    Stack seen = scene.truth.apply(pattern.data());
-    Stack predicted = import.acquisition.transport.apply(pattern.data());
+    CameraStack seen = scene.truth.apply(ProjectorStack(pattern.data()));
+    CameraStack predicted = import.acquisition.transport.apply(ProjectorStack(pattern.data()));
     double mean = 0.0;
     for (float value : seen) mean += static_cast<double>(value) / static_cast<double>(seen.size());
     for (std::size_t i = 0; i < seen.size(); ++i) {

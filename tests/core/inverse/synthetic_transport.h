@@ -31,8 +31,8 @@ struct SceneSettings {
 
 struct Scene {
   transport::TransportMatrix transport;
-  Stack black;
-  std::vector<std::uint8_t> usable;
+  CameraStack black;
+  CameraMask usable;
 };
 
 /// Smooth noise in [0, 1]: octaves of interpolated lattice noise, amplitude falling as 1 / frequency.
@@ -160,7 +160,7 @@ inline Scene makeScene(const SceneSettings& s) {
   transport::BlockSparseBuilder builder(layout.count(), fullScale);
   for (const Leaf& leaf : leaves) builder.add(leaf.row, leaf.node, leaf.block);
   scene.transport = transport::TransportMatrix(s.camera, s.projector, builder.build());
-  Stack flood = scene.transport.floodlight();
+  CameraStack flood = scene.transport.floodlight();
   double mean = 0.0;
   for (float value : flood) mean += value / static_cast<double>(flood.size());
   scene.black.assign(flood.size(), static_cast<float>(s.black * mean));
@@ -220,9 +220,10 @@ inline image::Image makeContent(Content kind, Size size, std::uint64_t seed) {
 }
 
 /// `count` values between 0 and 1.
-inline Stack randomStack(std::size_t count, std::uint64_t seed) {
+template <typename Values = Stack>
+Values randomStack(std::size_t count, std::uint64_t seed) {
   Random random({seed});
-  Stack stack(count);
+  Values stack(count);
   for (float& value : stack) value = random.uniformFloat();
   return stack;
 }

@@ -58,8 +58,8 @@ Scene smallGroups(Size projector, std::uint64_t seed) {
       builder.add(i, first + k, (bright * block).eval());
     }
   }
-  return {TransportMatrix(camera, projector, builder.build()), Stack(3 * camera.count(), 0.0f),
-          std::vector<std::uint8_t>(camera.count(), 1)};
+  return {TransportMatrix(camera, projector, builder.build()), CameraStack(3 * camera.count(), 0.0f),
+          CameraMask(camera.count(), 1)};
 }
 
 Clustering everythingKept(const Scene& scene) {
@@ -109,7 +109,7 @@ class TestClusterInverse : public QObject {
         settings.ridge = 1e-6;
         settings.truncation = 0.0;
         ClusterInverse inverse = computeClusterInverse(clustering, scene.usable, settings, quiet);
-        Stack p = randomStack(3 * size.count(), 5);
+        ProjectorStack p(randomStack(3 * size.count(), 5));
         // Unmixing, shared only, is regularised with 0.03^2 of the mixing's energy: up to a percent.
         double allowed = full ? static_cast<double>(fixedPoint) : 0.01;
         QVERIFY(relativeError(inverse.apply(scene.transport.apply(p)), p) < allowed);
@@ -187,7 +187,7 @@ class TestClusterInverse : public QObject {
     ClusterInverseSettings settings = withColour(full);
     if (svd) settings.solver = ClusterSolver::truncatedSvd;
     ClusterInverse inverse = computeClusterInverse(clustering, scene.usable, settings, quiet);
-    Stack white = inverse.apply(scene.transport.floodlight());
+    ProjectorStack white = inverse.apply(scene.transport.floodlight());
     std::size_t seen = 0;
     for (std::size_t i = 0; i < white.size(); ++i) {
       std::uint32_t cluster = clustering.projectorCluster[i / 3];
@@ -208,9 +208,9 @@ class TestClusterInverse : public QObject {
     Scene scene = defocused(1.2, 3);
     ClusterInverse inverse =
         computeClusterInverse(clusteredScene(scene), scene.usable, withColour(full), quiet);
-    Stack r = randomStack(3 * scene.transport.cameras().count(), 1), doubled = r;
+    CameraStack r = randomStack<CameraStack>(3 * scene.transport.cameras().count(), 1), doubled = r;
     for (float& value : doubled) value *= 2.0f;
-    Stack p = inverse.apply(r), twice = inverse.apply(doubled);
+    ProjectorStack p = inverse.apply(r), twice = inverse.apply(doubled);
     for (std::size_t i = 0; i < p.size(); ++i) QCOMPARE(twice[i], 2.0f * p[i]);
     QVERIFY(relativeError(inverse.matrix().multiply(r), p) < 1e-4);  // rounded to 16 bits once more
     QVERIFY(inverse.bytes() > 0);
@@ -221,11 +221,11 @@ class TestClusterInverse : public QObject {
     Scene scene = defocused(1.5, 5);
     Clustering clustering = clusteredScene(scene, 12);
     ClusterInverse inverse = computeClusterInverse(clustering, scene.usable, {}, quiet);
-    Stack r(3 * scene.transport.cameras().count(), 0.0f);
+    CameraStack r(3 * scene.transport.cameras().count(), 0.0f);
     std::size_t row = 0;
     while (clustering.cameraCluster[row] == noCluster) ++row;
     r[3 * row] = r[3 * row + 1] = r[3 * row + 2] = 1.0f;
-    Stack p = inverse.apply(r);
+    ProjectorStack p = inverse.apply(r);
     double lit = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       lit += std::abs(p[i]);
@@ -242,9 +242,11 @@ class TestClusterInverse : public QObject {
     const TransportMatrix& t = scene.transport;
     bright.transport = TransportMatrix(t.cameras(), t.projectors(),
                                        t.leaves().withRowsScaled(Stack(3 * t.cameras().count(), 2.0f)));
-    Stack r = randomStack(3 * t.cameras().count(), 2);
-    Stack p = computeClusterInverse(clusteredScene(scene), scene.usable, withColour(full), quiet).apply(r);
-    Stack q = computeClusterInverse(clusteredScene(bright), scene.usable, withColour(full), quiet).apply(r);
+    CameraStack r = randomStack<CameraStack>(3 * t.cameras().count(), 2);
+    ProjectorStack p =
+        computeClusterInverse(clusteredScene(scene), scene.usable, withColour(full), quiet).apply(r);
+    ProjectorStack q =
+        computeClusterInverse(clusteredScene(bright), scene.usable, withColour(full), quiet).apply(r);
     for (float& value : q) value *= 2.0f;
     QVERIFY(relativeError(q, p) < 1e-5);
   }
@@ -256,9 +258,9 @@ class TestClusterInverse : public QObject {
     QFETCH(bool, full);
     Scene scene = defocused(0.9, 2);
     Clustering clustering = clusteredScene(scene, 128);
-    Stack p = randomStack(3 * scene.transport.projectors().count(), 7);
+    ProjectorStack p(randomStack(3 * scene.transport.projectors().count(), 7));
     for (float& value : p) value = 0.3f + 0.4f * value;
-    Stack wanted = scene.transport.apply(p);
+    CameraStack wanted = scene.transport.apply(p);
     auto errorWith = [&](double ridge) {
       ClusterInverseSettings settings = withColour(full);
       settings.ridge = ridge;
@@ -281,7 +283,7 @@ class TestClusterInverse : public QObject {
     };
     ClusterInverse one = run(1), two = run(2);
     QVERIFY(one == two);
-    Stack r = randomStack(3 * scene.transport.cameras().count(), 3);
+    CameraStack r = randomStack<CameraStack>(3 * scene.transport.cameras().count(), 3);
     QVERIFY(one.apply(r) == two.apply(r));
   }
 
@@ -314,7 +316,7 @@ class TestClusterInverse : public QObject {
       ClusterInverseSettings settings = withColour(full);
       settings.solver = solver;
       ClusterInverse inverse = computeClusterInverse(clustering, scene.usable, settings, quiet);
-      Stack p = inverse.apply(Stack(3 * size.count(), 0.5f));
+      ProjectorStack p = inverse.apply(CameraStack(3 * size.count(), 0.5f));
       bool lit = kind == "single pixels" || kind == "saturated";
       // Rows all alike are singular: the least-squares answer is finite, and positive.
       for (float value : p) QVERIFY(std::isfinite(value) && (lit ? value > 0.0f : value == 0.0f));
@@ -327,7 +329,7 @@ class TestClusterInverse : public QObject {
     Clustering clustering = everythingKept(scene);
     scene.usable[0] = scene.usable[7] = 0;
     ClusterInverse inverse = computeClusterInverse(clustering, scene.usable, {}, quiet);
-    Stack r(3 * scene.usable.size(), 0.0f);
+    CameraStack r(3 * scene.usable.size(), 0.0f);
     r[0] = r[3 * 7 + 1] = 1000.0f;
     for (float value : inverse.apply(r)) QCOMPARE(value, 0.0f);
   }
@@ -363,7 +365,7 @@ class TestClusterInverse : public QObject {
     }
     QVERIFY_EXCEPTION_THROWN(computeClusterInverse(clustering, {1}, {}, quiet), std::logic_error);
     ClusterInverse inverse = computeClusterInverse(clustering, scene.usable, {}, quiet);
-    QVERIFY_EXCEPTION_THROWN(inverse.apply(Stack(3)), std::logic_error);
+    QVERIFY_EXCEPTION_THROWN(inverse.apply(CameraStack(3)), std::logic_error);
   }
 };
 

@@ -41,8 +41,8 @@ Scene oneToOne(Size size) {
     block << 0.8f, 0.1f, 0.02f, 0.1f, 0.7f, 0.1f, 0.02f, 0.1f, 0.9f;
     builder.add(i, i, (static_cast<float>(0.2 + 0.8 * random.uniform()) * block).eval());
   }
-  return {TransportMatrix(size, size, builder.build()), Stack(3 * size.count(), 0.0f),
-          std::vector<std::uint8_t>(size.count(), 1)};
+  return {TransportMatrix(size, size, builder.build()), CameraStack(3 * size.count(), 0.0f),
+          CameraMask(size.count(), 1)};
 }
 
 /// T expanded to pixels, one colour channel after unmixing: what a window's G should be made of.
@@ -81,8 +81,8 @@ class TestWindows : public QObject {
     settings.tile = tile;
     settings.rows = 96;
     settings.ridge = 1e-5;
-    Stack p = randomStack(3 * scene.transport.projectors().count(), 3);
-    Stack back = windowsOf(scene, settings).apply(scene.transport.apply(p));
+    ProjectorStack p(randomStack(3 * scene.transport.projectors().count(), 3));
+    ProjectorStack back = windowsOf(scene, settings).apply(scene.transport.apply(p));
     // The unmixing is regularised with 0.03^2 of the mixing's energy: up to a percent of the value.
     for (std::size_t j = 0; j < p.size(); ++j)
       QVERIFY2(std::abs(back[j] - p[j]) < 0.015f, qPrintable(QString::number(back[j] - p[j])));
@@ -102,7 +102,7 @@ class TestWindows : public QObject {
     Scene scene = makeScene(s);
     WindowSettings settings;
     settings.ridge = ridge;
-    Stack white = windowsOf(scene, settings).apply(scene.transport.floodlight());
+    ProjectorStack white = windowsOf(scene, settings).apply(scene.transport.floodlight());
     std::size_t seen = 0;
     for (float value : white) {
       QVERIFY2(value == 0.0f || std::abs(value - 1.0f) < fixedPoint, qPrintable(QString::number(value)));
@@ -116,12 +116,12 @@ class TestWindows : public QObject {
     Scene brighter = scene;
     std::size_t values = 3 * scene.usable.size();
     brighter.transport = rescaledToFloodlight(scene.transport, [&] {
-      Stack flood = scene.transport.floodlight();
+      CameraStack flood = scene.transport.floodlight();
       for (float& value : flood) value *= 4.0f;  // a power of two: the same codes
       return flood;
     }());
-    Stack r = randomStack(values, 4);
-    Stack once = windowsOf(scene).apply(r), quarter = windowsOf(brighter).apply(r);
+    CameraStack r = randomStack<CameraStack>(values, 4);
+    ProjectorStack once = windowsOf(scene).apply(r), quarter = windowsOf(brighter).apply(r);
     for (float& value : quarter) value *= 4.0f;
     QVERIFY2(relativeError(quarter, once) < 1e-3, qPrintable(QString::number(relativeError(quarter, once))));
   }
@@ -129,9 +129,10 @@ class TestWindows : public QObject {
   void isLinear() {
     Scene scene = makeScene({});
     WindowInverse inverse = windowsOf(scene);
-    Stack a = randomStack(3 * scene.usable.size(), 5), b = randomStack(3 * scene.usable.size(), 6), sum = a;
+    CameraStack a = randomStack<CameraStack>(3 * scene.usable.size(), 5),
+                b = randomStack<CameraStack>(3 * scene.usable.size(), 6), sum = a;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = 2.0f * a[i] - 0.5f * b[i];
-    Stack ofA = inverse.apply(a), ofB = inverse.apply(b), ofSum = inverse.apply(sum);
+    ProjectorStack ofA = inverse.apply(a), ofB = inverse.apply(b), ofSum = inverse.apply(sum);
     for (std::size_t j = 0; j < ofA.size(); ++j) ofA[j] = 2.0f * ofA[j] - 0.5f * ofB[j];
     QVERIFY(relativeError(ofSum, ofA) < 1e-5);  // single precision
   }
@@ -162,9 +163,7 @@ class TestWindows : public QObject {
         }
       }
     }
-    Scene scene{TransportMatrix(camera, projector, builder.build()),
-                {},
-                std::vector<std::uint8_t>(camera.count(), 1)};
+    Scene scene{TransportMatrix(camera, projector, builder.build()), {}, CameraMask(camera.count(), 1)};
     NearField near = nearFieldOf(scene.transport, scene.usable);
     Eigen::MatrixXd t = unmixedChannel(scene.transport, near.unmix, 1);
     WindowSettings settings;
@@ -179,13 +178,13 @@ class TestWindows : public QObject {
     Eigen::VectorXd a = g.inverse() * flood;
     m += (Eigen::VectorXd::Ones(m.rows()) - m * flood) * a.transpose() / flood.dot(a);
 
-    Stack u = randomStack(3 * camera.count(), 11), r(u.size());
+    CameraStack u = randomStack<CameraStack>(3 * camera.count(), 11), r(u.size());
     for (std::size_t i = 0; i < camera.count(); ++i) {
       Eigen::Vector3f mixed =
           Eigen::Matrix3f(near.unmix[i]).inverse() * Eigen::Map<Eigen::Vector3f>(&u[3 * i]);
       std::copy_n(mixed.data(), 3, &r[3 * i]);
     }
-    Stack p = windowsOf(scene, settings).apply(r);
+    ProjectorStack p = windowsOf(scene, settings).apply(r);
     Eigen::VectorXd unmixed(camera.count());
     for (std::size_t i = 0; i < camera.count(); ++i) unmixed[static_cast<Eigen::Index>(i)] = u[3 * i + 1];
     Eigen::VectorXd expected = m * unmixed;
@@ -200,7 +199,7 @@ class TestWindows : public QObject {
     Scene scene = makeScene({});
     for (std::size_t i = 0; i < scene.usable.size(); i += 7) scene.usable[i] = 0;
     WindowInverse inverse = windowsOf(scene);
-    Stack r = randomStack(3 * scene.usable.size(), 7), other = r;
+    CameraStack r = randomStack<CameraStack>(3 * scene.usable.size(), 7), other = r;
     for (std::size_t i = 0; i < r.size(); ++i)
       if (!scene.usable[i / 3]) other[i] = 1e6f;
     QVERIFY(inverse.apply(r) == inverse.apply(other));
@@ -208,9 +207,9 @@ class TestWindows : public QObject {
 
   void sameBitsForEveryNumberOfThreads() {
     Scene scene = makeScene({});
-    Stack r = randomStack(3 * scene.usable.size(), 8);
+    CameraStack r = randomStack<CameraStack>(3 * scene.usable.size(), 8);
     WindowInverse many = windowsOf(scene);
-    Stack ofMany = many.apply(r);
+    ProjectorStack ofMany = many.apply(r);
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     WindowInverse alone = windowsOf(scene);
     QVERIFY(alone == many);
@@ -227,10 +226,9 @@ class TestWindows : public QObject {
       for (int projector = 0; projector < 2; ++projector)
         builder.add(i, layout.index({projector, 0, pixelAt(size, i).x, pixelAt(size, i).y}),
                     ColourBlock::Identity() * 0.5f);
-    Scene scene{
-        TransportMatrix(size, projectors, builder.build()), {}, std::vector<std::uint8_t>(size.count(), 1)};
-    Stack r = randomStack(3 * size.count(), 12);
-    Stack p = windowsOf(scene).apply(r);
+    Scene scene{TransportMatrix(size, projectors, builder.build()), {}, CameraMask(size.count(), 1)};
+    CameraStack r = randomStack<CameraStack>(3 * size.count(), 12);
+    ProjectorStack p = windowsOf(scene).apply(r);
     for (std::size_t j = 0; j < 3 * size.count(); ++j) QCOMPARE(p[j], p[3 * size.count() + j]);
   }
 
@@ -245,7 +243,7 @@ class TestWindows : public QObject {
     WindowSettings settings;
     settings.ridge = 1e-12;
     try {
-      computeWindows(transport, std::vector<std::uint8_t>(16, 1), settings, quiet);
+      computeWindows(transport, CameraMask(16, 1), settings, quiet);
       QFAIL("a singular window was inverted");
     } catch (const Error& error) {
       QVERIFY(error.kind() == ErrorKind::numerics);

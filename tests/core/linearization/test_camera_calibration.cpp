@@ -28,7 +28,7 @@ ScriptedVenue venueWith(ScriptedCamera camera, std::uint64_t seed, double bright
   ScriptedSettings settings;
   settings.cameras = {std::move(camera)};
   settings.seed = seed;
-  Stack black = syntheticBlack(transport);
+  CameraStack black = syntheticBlack(transport);
   return ScriptedVenue(std::move(transport), std::move(black), settings);
 }
 
@@ -268,7 +268,7 @@ class TestCameraCalibration : public QObject {
     std::size_t highlight = 30 * 80 + 40;
     for (std::size_t c = 0; c < 3; ++c) factor[3 * highlight + c] = static_cast<float>(brighter);
     TransportMatrix transport(plain.cameras(), plain.projectors(), plain.leaves().withRowsScaled(factor));
-    Stack black = syntheticBlack(transport);
+    CameraStack black = syntheticBlack(transport);
     ScriptedSettings settings;
     ScriptedCamera camera;
     camera.exposures.shortest = shortest;

@@ -23,7 +23,7 @@ struct Setup {
 
   ScriptedVenue venue() const {
     TransportMatrix transport = syntheticTransport(scene);
-    Stack black = syntheticBlack(transport);
+    CameraStack black = syntheticBlack(transport);
     return ScriptedVenue(std::move(transport), std::move(black), devices);
   }
 };
@@ -231,7 +231,7 @@ class TestLinearization : public QObject {
     QFETCH(double, ambient);
     Setup setup;
     setup.scene.brightness = 1e-7;
-    setup.devices.ambient = Stack(3 * 40 * 30, static_cast<float>(ambient));
+    setup.devices.ambient = CameraStack(Stack(3 * 40 * 30, static_cast<float>(ambient)));
     ScriptedVenue venue = setup.venue();
     try {
       run(venue, setup.settings);

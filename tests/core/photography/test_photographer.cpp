@@ -32,7 +32,7 @@ struct Studio {
     camera.gain = 0.0;
     ScriptedSettings scripted;
     scripted.cameras = {camera};
-    venue = std::make_unique<ScriptedVenue>(transport, Stack{}, scripted);
+    venue = std::make_unique<ScriptedVenue>(transport, CameraStack{}, scripted);
     rig = venue->rig();
     shots = std::make_unique<ShotTaker>(rig, log, "test");
     linearization.cameras.resize(1);
@@ -91,7 +91,7 @@ class TestPhotographer : public QObject {
 
   void whatSaturatesIsTakenAgain() {
     Studio studio(36.0);
-    Stack white(3 * 48, 1.0f);
+    ProjectorStack white(3 * 48, 1.0f);
     HdrFrame frame = studio.photographer->take(white, studio.demands(0.1f, 1e-6f), Progress());
     QCOMPARE(studio.shots->shots(), 3);
     std::vector<Image> patterns{imageFromStack(white, studio.venue->transport().projectors(), 0)};
@@ -105,7 +105,7 @@ class TestPhotographer : public QObject {
   void pixelsThatNobodyNeedsAreNotTakenAgain() {
     Studio studio(12.0);
     std::vector<Demand> demands(48);
-    Stack white(3 * 48, 1.0f);
+    ProjectorStack white(3 * 48, 1.0f);
     std::vector<Image> patterns{imageFromStack(white, studio.venue->transport().projectors(), 0)};
     Stack truth = studio.venue->radiance(patterns);
     std::size_t darkest = 0;
@@ -118,7 +118,8 @@ class TestPhotographer : public QObject {
 
   void whatSaturatesInEveryExposureStaysInvalid() {
     Studio studio(1000.0);
-    HdrFrame frame = studio.photographer->take(Stack(3 * 48, 1.0f), studio.demands(0.1f, 1e-6f), Progress());
+    HdrFrame frame =
+        studio.photographer->take(ProjectorStack(3 * 48, 1.0f), studio.demands(0.1f, 1e-6f), Progress());
     QVERIFY(std::count(frame.valid.begin(), frame.valid.end(), 0) > 0);
     QCOMPARE(studio.shots->exposures(), 3);
   }

@@ -72,7 +72,7 @@ ReportData fullData() {
   data.leavesPerLevel = {2000000, 300000, 40000, 5000, 600};
   data.ridge = 0.4;
   data.ridgeCurve = {{0.2, 24.5}, {0.4, 24.75}, {0.8, 24.1}};
-  std::vector<std::uint8_t> inside(size.count(), 1);
+  CameraMask inside(size.count(), 1);
   inside[0] = 0;
   data.comparisons = {{"Evening",
                        Method::refined,
@@ -275,7 +275,7 @@ class TestReport : public QObject {
   }
 
   void errorMapsAreZeroForEqualPicturesAndEmptyOutside() {
-    std::vector<std::uint8_t> inside(size.count(), 1);
+    CameraMask inside(size.count(), 1);
     inside[5] = 0;
     Image map = deltaEMap(waves(0, 0.5), waves(0, 0.5), {1, 1, 1}, inside);
     for (std::size_t i = 0; i < map.pixels(); ++i)

@@ -53,8 +53,8 @@ class WatchedVenue {
   /// A pattern, and the check after it.
   std::optional<Interruption> checkWith(double roomLight) {
     *roomLight_ = roomLight;
-    Stack white(3 * references_.projectors.count(), 1.0f);
-    Interruptible<HdrFrame> light = watch.lightOfAll(white, progress_);
+    ProjectorStack white(3 * references_.projectors.count(), 1.0f);
+    Interruptible<LampLight> light = watch.lightOfAll(white, progress_);
     if (!light) return light.interruption();
     return watch.check(progress_);
   }
@@ -151,7 +151,7 @@ class TestWatch : public QObject {
   void eIsFollowedAndReferencesStay() {
     WatchedVenue venue({});
     QVERIFY(!venue.begin());
-    const Stack measured = venue.references().black.radiance;
+    const CameraStack measured = venue.references().black.radiance;
     QVERIFY(venue.watch.black().radiance == measured);
     constexpr double rise = 0.01;  // below a two-hundredth of the flood: no alarm
     QVERIFY(!venue.checkWith(rise));

@@ -91,7 +91,7 @@ class TestFiles : public QObject {
     if (!scipyIsThere()) QSKIP("this machine has no SciPy");
     BlockSparse blocks = someBlocks();
     saveBlocks(path(), blocks);
-    Stack x = randomStack(blocks.columns(), 5);
+    ProjectorStack x(randomStack(blocks.columns(), 5));
     Eigen::VectorXd expected = denseOf(blocks) * vectorOf(x);
     QString values;
     for (float value : x) values += QString::number(static_cast<double>(value), 'g', 17) + ",";
@@ -248,9 +248,9 @@ class TestFiles : public QObject {
     TransportMatrix transport = someTransport();
     PixelExpansion expansion = expandedToPixels(transport);
     QCOMPARE(expansion.sampledShare(), 0.0);
-    Stack pattern = randomStack(transport.projectors().count(), 3);
+    ProjectorStack pattern(randomStack(transport.projectors().count(), 3));
     Stack expected = transport.apply(pattern);
-    Stack seen = applied(expansion, pattern);
+    CameraStack seen(applied(expansion, pattern));
     for (std::size_t i = 0; i < seen.size(); ++i) QVERIFY(std::abs(seen[i] - expected[i]) < 1e-4f);
   }
 
@@ -273,7 +273,7 @@ class TestFiles : public QObject {
     QVERIFY(expansion.blocks() <= blocks);
     QVERIFY(expansion.sampledShare() > 0.0 && expansion.sampledShare() < 1.0);
     QVERIFY(QString::fromStdString(english(expansion.summary())).contains("sample"));
-    Stack white(3 * transport.projectors().count(), 1.0f);
+    ProjectorStack white(3 * transport.projectors().count(), 1.0f);
     Stack expected = transport.floodlight(), seen = applied(expansion, white);
     for (std::size_t i = 0; i < seen.size(); ++i) QVERIFY(std::abs(seen[i] - expected[i]) < 1e-4f);
   }
@@ -302,8 +302,8 @@ class TestFiles : public QObject {
   fs::path folder() const { return folder_->path().toStdString(); }
   fs::path path() const { return folder() / "matrix.npz"; }
 
-  static Stack applied(const PixelExpansion& expansion, const Stack& pattern) {
-    Stack seen(3 * expansion.transport().cameras().count(), 0.0f);
+  static Stack applied(const PixelExpansion& expansion, const ProjectorStack& pattern) {
+    CameraStack seen(3 * expansion.transport().cameras().count(), 0.0f);
     std::vector<PixelExpansion::Entry> entries;
     for (std::size_t row = 0; row < seen.size() / 3; ++row) {
       expansion.row(row, entries);

@@ -94,8 +94,8 @@ class TestNodeLayout : public QObject {
     QFETCH(QString, sizes);
     Rasters rasters(sizesOf(sizes));
     NodeLayout layout(rasters);
-    Stack pattern = randomStack(rasters.count(), 7);
-    Stack means = layout.means(pattern);
+    ProjectorStack pattern(randomStack(rasters.count(), 7));
+    NodeStack means = layout.means(pattern);
     QCOMPARE(means.size(), 3 * layout.count());
     for (std::size_t index = 0; index < layout.count(); ++index) {
       Node node = layout.node(index);
@@ -120,8 +120,8 @@ class TestNodeLayout : public QObject {
   void spreadingIsTheAdjointOfMeans() {
     QFETCH(QString, sizes);
     NodeLayout layout((Rasters(sizesOf(sizes))));
-    Stack pattern = randomStack(layout.projectors().count(), 11);
-    Stack values = randomStack(layout.count(), 12);
+    ProjectorStack pattern(randomStack(layout.projectors().count(), 11));
+    NodeStack values(randomStack(layout.count(), 12));
     double left = vectorOf(layout.means(pattern)).dot(vectorOf(values));
     double right = vectorOf(pattern).dot(vectorOf(layout.meansAdjoint(values)));
     QVERIFY2(std::abs(left - right) < rounding * left, qPrintable(QString("%1 and %2").arg(left).arg(right)));
@@ -131,8 +131,8 @@ class TestNodeLayout : public QObject {
     NodeLayout layout((Rasters(Size{4, 4})));
     QVERIFY_EXCEPTION_THROWN(layout.node(layout.count()), std::logic_error);
     QVERIFY_EXCEPTION_THROWN(layout.children({0, 0, 1, 1}), std::logic_error);
-    QVERIFY_EXCEPTION_THROWN(layout.means(Stack(5)), std::logic_error);
-    QVERIFY_EXCEPTION_THROWN(layout.meansAdjoint(Stack(5)), std::logic_error);
+    QVERIFY_EXCEPTION_THROWN(layout.means(ProjectorStack(5)), std::logic_error);
+    QVERIFY_EXCEPTION_THROWN(layout.meansAdjoint(NodeStack(5)), std::logic_error);
   }
 };
 

@@ -8,6 +8,18 @@
 using namespace relucent;
 using namespace relucent::transport;
 
+// What is of cameras cannot be taken for what is of projectors, and costs nothing that a vector does not.
+using Relighting = decltype(&TransportMatrix::apply);
+static_assert(std::is_invocable_v<Relighting, TransportMatrix, ProjectorStack>);
+static_assert(!std::is_invocable_v<Relighting, TransportMatrix, CameraStack>);
+static_assert(!std::is_invocable_v<Relighting, TransportMatrix, NodeStack>);
+static_assert(!std::is_invocable_v<Relighting, TransportMatrix, Stack>);
+static_assert(!std::is_constructible_v<ProjectorStack, CameraStack>);
+static_assert(!std::is_assignable_v<ProjectorStack&, CameraStack>);
+static_assert(!std::is_convertible_v<CameraMask, ProjectorMask>);
+static_assert(sizeof(ProjectorStack) == sizeof(Stack) &&
+              std::is_nothrow_move_constructible_v<ProjectorStack>);
+
 namespace {
 
 // Relative error of products in single floats, some hundred terms.
@@ -49,11 +61,11 @@ class TestTransportMatrix : public QObject {
   void lightSuperposes_data() { rigs_data(); }
   void lightSuperposes() {
     TransportMatrix transport = ofRig(-0.1f);
-    Stack a = randomStack(transport.projectors().count(), 1),
-          b = randomStack(transport.projectors().count(), 2);
-    Stack sum(a.size());
+    ProjectorStack a(randomStack(transport.projectors().count(), 1)),
+        b(randomStack(transport.projectors().count(), 2));
+    ProjectorStack sum(a.size());
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = 2.0f * a[i] + 3.0f * b[i];
-    Stack seenA = transport.apply(a), seenB = transport.apply(b), expected(seenA.size());
+    CameraStack seenA = transport.apply(a), seenB = transport.apply(b), expected(seenA.size());
     for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = 2.0f * seenA[i] + 3.0f * seenB[i];
     QVERIFY(relativeDifference(transport.apply(sum), expected) < rounding);
   }
@@ -62,7 +74,8 @@ class TestTransportMatrix : public QObject {
   void dualPhotographyIsTheAdjoint_data() { rigs_data(); }
   void dualPhotographyIsTheAdjoint() {
     TransportMatrix transport = ofRig(-0.1f);
-    Stack p = randomStack(transport.projectors().count(), 3), c = randomStack(transport.cameras().count(), 4);
+    ProjectorStack p(randomStack(transport.projectors().count(), 3));
+    CameraStack c(randomStack(transport.cameras().count(), 4));
     double left = vectorOf(transport.apply(p)).dot(vectorOf(c));
     double right = vectorOf(p).dot(vectorOf(transport.applyTransposed(c)));
     QVERIFY2(std::abs(left - right) < rounding * left, qPrintable(QString("%1 and %2").arg(left).arg(right)));
@@ -71,9 +84,9 @@ class TestTransportMatrix : public QObject {
   void floodlightIsFullWhiteAndTheSumOfTheRows_data() { rigs_data(); }
   void floodlightIsFullWhiteAndTheSumOfTheRows() {
     TransportMatrix transport = ofRig();
-    Stack flood = transport.floodlight();
-    QVERIFY(relativeDifference(flood, transport.apply(Stack(3 * transport.projectors().count(), 1.0f))) <
-            rounding);
+    CameraStack flood = transport.floodlight();
+    QVERIFY(relativeDifference(
+                flood, transport.apply(ProjectorStack(3 * transport.projectors().count(), 1.0f))) < rounding);
     std::vector<ColourBlock> sums = transport.rowSums();
     for (std::size_t row = 0; row < sums.size(); ++row)
       for (int c = 0; c < 3; ++c)
@@ -85,7 +98,7 @@ class TestTransportMatrix : public QObject {
   void rescaledRowsSumToTheFloodImage_data() { rigs_data(); }
   void rescaledRowsSumToTheFloodImage() {
     TransportMatrix transport = ofRig();
-    Stack flood = randomStack(transport.cameras().count(), 5);
+    CameraStack flood(randomStack(transport.cameras().count(), 5));
     Stack now = transport.floodlight();
     for (std::size_t i = 0; i < flood.size(); ++i) flood[i] = now[i] * (0.5f + flood[i]);
     TransportMatrix rescaled = rescaledToFloodlight(transport, flood);
@@ -102,7 +115,7 @@ class TestTransportMatrix : public QObject {
   void channelsBelowTheFloorAreLeftAlone() {
     TransportMatrix transport = randomTransport(Size{3, 1}, Size{4, 4}, 6);
     Stack now = transport.floodlight();
-    Stack flood(now.size(), 1.0f);
+    CameraStack flood(now.size(), 1.0f);
     TransportMatrix same = rescaledToFloodlight(transport, flood, *std::max_element(now.begin(), now.end()));
     QVERIFY(same.leaves() == transport.leaves());
   }
@@ -121,7 +134,7 @@ class TestTransportMatrix : public QObject {
     QFETCH(double, absolute);
     QFETCH(double, share);
     TransportMatrix transport = randomTransport(Size{9, 5}, Size{13, 7}, 22);
-    Stack flood = transport.floodlight();
+    CameraStack flood = transport.floodlight();
     TransportMatrix cut =
         thresholded(transport, {static_cast<float>(absolute), static_cast<float>(share)}, flood);
     Stack sums = cut.floodlight();

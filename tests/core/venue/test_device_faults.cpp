@@ -22,8 +22,8 @@ Stack view() {
   return view;
 }
 
-Stack seen(const DeviceFault& fault, int exposure = 0) {
-  return withFaults(view(), Stack(3 * size.count(), 0.5f), size, 40.0, exposure, {fault});
+CameraStack seen(const DeviceFault& fault, int exposure = 0) {
+  return CameraStack(withFaults(view(), Stack(3 * size.count(), 0.5f), size, 40.0, exposure, {fault}));
 }
 
 DeviceFault fault(FaultKind kind, double amount = 0.0) {
@@ -61,7 +61,7 @@ class TestDeviceFaults : public QObject {
   }
 
   void lightOfEachFault() {
-    Stack sound = seen(fault(FaultKind::mirroredScreen));
+    CameraStack sound = seen(fault(FaultKind::mirroredScreen));
     for (std::size_t i = 0; i < sound.size(); ++i) {
       QCOMPARE(sound[i], view()[i] + 0.5f);
       QCOMPARE(seen(fault(FaultKind::coveredLens))[i], 0.0f);
@@ -75,7 +75,7 @@ class TestDeviceFaults : public QObject {
   void flashAndHandKeepToTheirPart() {
     DeviceFault hand = fault(FaultKind::hand), flash = fault(FaultKind::flash, 7.0);
     for (DeviceFault* part : {&hand, &flash}) part->x0 = 0.5, part->y1 = 0.25;
-    Stack sound = seen(fault(FaultKind::mirroredScreen)), dark = seen(hand), bright = seen(flash);
+    CameraStack sound = seen(fault(FaultKind::mirroredScreen)), dark = seen(hand), bright = seen(flash);
     for (std::size_t i = 0; i < sound.size(); ++i) {
       Pixel at = pixelAt(size, i / 3);
       bool inside = at.x >= 12 && at.y < 4;
@@ -86,8 +86,8 @@ class TestDeviceFaults : public QObject {
 
   /// A linear picture is interpolated exactly; the border repeats its last pixel.
   void aShiftedCameraSeesTheSameFurtherOn() {
-    Stack sound = seen(fault(FaultKind::mirroredScreen)),
-          shifted = seen(fault(FaultKind::shiftedCamera, 1.5));
+    CameraStack sound = seen(fault(FaultKind::mirroredScreen)),
+                shifted = seen(fault(FaultKind::shiftedCamera, 1.5));
     for (int y = 2; y < size.height; ++y)
       for (int x = 2; x < size.width; ++x)
         QVERIFY(std::abs(shifted[3 * indexOf(size, {x, y})] -

@@ -58,7 +58,7 @@ class TestSimulatedDevices : public QObject {
     DeviceModelSettings settings;
     Size size{256, 256};
     SensorModel sensor(settings, 5);
-    RawFrame frame = sensor.expose(Stack(3 * size.count(), static_cast<float>(light / 0.01)), size,
+    RawFrame frame = sensor.expose(CameraStack(3 * size.count(), static_cast<float>(light / 0.01)), size,
                                    {{"noise", 1}, 0, 0.01});
     double sum = 0.0, square = 0.0, n = static_cast<double>(frame.signal.data().size());
     for (float value : frame.signal.data()) {
@@ -80,9 +80,9 @@ class TestSimulatedDevices : public QObject {
     settings.cameraBits = 8;
     SensorModel sensor(settings, 5);
     Size size{16, 16};
-    RawFrame bright = sensor.expose(Stack(3 * size.count(), 500.0f), size, {{"bright", 0}, 0, 0.01});
+    RawFrame bright = sensor.expose(CameraStack(3 * size.count(), 500.0f), size, {{"bright", 0}, 0, 0.01});
     for (float value : bright.signal.data()) QCOMPARE(value, 1.0f);
-    RawFrame dim = sensor.expose(Stack(3 * size.count(), 30.0f), size, {{"dim", 0}, 0, 0.01});
+    RawFrame dim = sensor.expose(CameraStack(3 * size.count(), 30.0f), size, {{"dim", 0}, 0, 0.01});
     QCOMPARE(dim.bits, 8);
     for (float value : dim.signal.data())
       QVERIFY(std::abs(value * 255.0f - std::round(value * 255.0f)) < 1e-4f);
@@ -90,7 +90,7 @@ class TestSimulatedDevices : public QObject {
 
   void sensorReportsTheExposureItGrants() {
     SensorModel sensor({}, 5);
-    Stack light(3 * 4, 1.0f);
+    CameraStack light(3 * 4, 1.0f);
     QCOMPARE(sensor.expose(light, {2, 2}, {{"x", 0}, 0, 100.0}).seconds, SensorModel::exposures().longest);
     QCOMPARE(sensor.expose(light, {2, 2}, {{"x", 0}, 0, 1e-9}).seconds, SensorModel::exposures().shortest);
     QCOMPARE(sensor.expose(light, {2, 2}, {{"x", 0}, 0, 0.02}).seconds, 0.02);
@@ -101,7 +101,7 @@ class TestSimulatedDevices : public QObject {
     settings.cameraGamma = 2.2;
     settings.readElectrons = 0.0;
     settings.fullWell = 1e9;
-    RawFrame frame = SensorModel(settings, 5).expose(Stack(12, 25.0f), {2, 2}, {{"curve", 0}, 0, 0.01});
+    RawFrame frame = SensorModel(settings, 5).expose(CameraStack(12, 25.0f), {2, 2}, {{"curve", 0}, 0, 0.01});
     QVERIFY(std::abs(static_cast<double>(frame.signal.at(0, 0, 0)) - std::pow(0.25, 1.0 / 2.2)) <
             1.0 / 4095.0);
   }
@@ -180,7 +180,7 @@ class TestSimulatedDevices : public QObject {
 
   void projectorRoundsAndClamps() {
     ProjectorModel model({});
-    Stack light = model.light(filled({1, 1}, 0.5f, 128.0f / 255.0f, std::nanf("")));
+    CameraStack light = model.light(filled({1, 1}, 0.5f, 128.0f / 255.0f, std::nanf("")));
     Stack again = model.light(filled({1, 1}, 128.3f / 255.0f, 127.6f / 255.0f, -3.0f));
     QCOMPARE(light, again);
     QCOMPARE(model.light(filled({1, 1}, 7.0f, 1.0f, 1.0f)), Stack({1.0f, 1.0f, 1.0f}));
@@ -192,11 +192,11 @@ class TestSimulatedDevices : public QObject {
       settings.devices.whiteSegment = whiteSegment;
       SimulatedVenue venue = traced(settings);
       Size size = settings.projector;
-      Stack white = venue.trueRadiance({filled(size, 1, 1, 1)}),
-            red = venue.trueRadiance({filled(size, 1, 0, 0)}),
-            green = venue.trueRadiance({filled(size, 0, 1, 0)}),
-            blue = venue.trueRadiance({filled(size, 0, 0, 1)});
-      const Stack& black = venue.trueBlack();
+      CameraStack white = venue.trueRadiance({filled(size, 1, 1, 1)}),
+                  red = venue.trueRadiance({filled(size, 1, 0, 0)}),
+                  green = venue.trueRadiance({filled(size, 0, 1, 0)}),
+                  blue = venue.trueRadiance({filled(size, 0, 0, 1)});
+      const CameraStack& black = venue.trueBlack();
       double whole = 0.0, parts = 0.0;
       for (std::size_t i = 0; i < white.size(); ++i) {
         whole += static_cast<double>(white[i] - black[i]);

@@ -58,7 +58,7 @@ class TestVenue : public QObject {
     QFETCH(QString, name);
     Progress progress;
     SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
-    Stack seen = venue.trueRadiance(flood(venue));
+    CameraStack seen = venue.trueRadiance(flood(venue));
     for (float value : seen) QVERIFY(std::isfinite(value) && value >= 0.0f);
     std::vector<float> brightest;
     for (std::size_t i = 0; i < seen.size(); i += 3)
@@ -85,8 +85,8 @@ class TestVenue : public QObject {
     QFETCH(QString, name);
     Progress progress;
     SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
-    Stack predicted = venue.trueTransport().floodlight();
-    Stack seen = venue.trueRadiance(flood(venue));
+    CameraStack predicted = venue.trueTransport().floodlight();
+    CameraStack seen = venue.trueRadiance(flood(venue));
     float largest = *std::max_element(seen.begin(), seen.end());
     for (std::size_t i = 0; i < seen.size(); ++i)
       // Both ways of storing T round to 16 bits: some hundred blocks, each within 2e-5 of its row's largest.
@@ -146,7 +146,7 @@ class TestVenue : public QObject {
     settings.devices.contrast = 500.0;
     Progress progress;
     SimulatedVenue venue(settings, {}, progress);
-    Stack white = venue.trueTransport().floodlight();
+    CameraStack white = venue.trueTransport().floodlight();
     double black = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < white.size(); ++i) {
       black += static_cast<double>(venue.trueBlack()[i]);
@@ -162,7 +162,7 @@ class TestVenue : public QObject {
     settings.devices.contrast = 1e9;
     Progress progress;
     SimulatedVenue venue(settings, {}, progress);
-    Stack white = venue.trueTransport().floodlight();
+    CameraStack white = venue.trueTransport().floodlight();
     double black = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < white.size(); ++i) {
       black += static_cast<double>(venue.trueBlack()[i]);

@@ -13,18 +13,24 @@
     </message>
 </context>
 <context>
-    <name>Duration</name>
+    <name>duration.seconds</name>
     <message>
-        <source>%1 s</source>
-        <translation>%1 ث</translation>
+        <source>{} s</source>
+        <translation>{} ث</translation>
     </message>
+</context>
+<context>
+    <name>duration.minutes</name>
     <message>
-        <source>%1 min</source>
-        <translation>%1 د</translation>
+        <source>{} min</source>
+        <translation>{} د</translation>
     </message>
+</context>
+<context>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>%1 h %2 min</source>
-        <translation>%1 س %2 د</translation>
+        <source>{} h {} min</source>
+        <translation>{} س {} د</translation>
     </message>
 </context>
 <context>
@@ -241,7 +247,7 @@
 <context>
     <name>acquisition.alarm-skipped</name>
     <message>
-        <source>put up with before pattern {}: {}</source>
+        <source>accepted before pattern {}: {}</source>
         <translation>قُبل قبل النمط ⁨{}⁩: {}</translation>
     </message>
 </context>
@@ -1825,14 +1831,14 @@
 <context>
     <name>engine.install-driver</name>
     <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>ثبّت برنامج تشغيل بطاقة الرسومات، أو دع المعالج المركزي يتولى العمل</translation>
     </message>
 </context>
 <context>
-    <name>engine.let-processor-do-work</name>
+    <name>engine.compute-on-processor</name>
     <message>
-        <source>let the processor do the work</source>
+        <source>compute on the processor instead</source>
         <translation>دع المعالج المركزي يتولى العمل</translation>
     </message>
 </context>
@@ -2855,7 +2861,7 @@
         <translation>التجمّعات المحفوظة تعود إلى عتبة سابقة</translation>
     </message>
     <message>
-        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <source>What you see here has been grouped again. Going on keeps it.</source>
         <translation>ما تراه هنا جُمّع من جديد. المتابعة تحفظه.</translation>
     </message>
     <message>

@@ -13,18 +13,24 @@
     </message>
 </context>
 <context>
-    <name>Duration</name>
+    <name>duration.seconds</name>
     <message>
-        <source>%1 s</source>
-        <translation>%1 s</translation>
+        <source>{} s</source>
+        <translation>{} s</translation>
     </message>
+</context>
+<context>
+    <name>duration.minutes</name>
     <message>
-        <source>%1 min</source>
-        <translation>%1 min</translation>
+        <source>{} min</source>
+        <translation>{} min</translation>
     </message>
+</context>
+<context>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>%1 h %2 min</source>
-        <translation>%1 h %2 min</translation>
+        <source>{} h {} min</source>
+        <translation>{} h {} min</translation>
     </message>
 </context>
 <context>
@@ -237,7 +243,7 @@
 <context>
     <name>acquisition.alarm-skipped</name>
     <message>
-        <source>put up with before pattern {}: {}</source>
+        <source>accepted before pattern {}: {}</source>
         <translation>vor Muster {} hingenommen: {}</translation>
     </message>
 </context>
@@ -1813,14 +1819,14 @@
 <context>
     <name>engine.install-driver</name>
     <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>installieren Sie den Treiber der Grafikkarte oder lassen Sie den Prozessor rechnen</translation>
     </message>
 </context>
 <context>
-    <name>engine.let-processor-do-work</name>
+    <name>engine.compute-on-processor</name>
     <message>
-        <source>let the processor do the work</source>
+        <source>compute on the processor instead</source>
         <translation>lassen Sie den Prozessor rechnen</translation>
     </message>
 </context>
@@ -2799,7 +2805,7 @@
         <translation>Die gespeicherten Cluster gehören zu einer früheren Schwelle</translation>
     </message>
     <message>
-        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <source>What you see here has been grouped again. Going on keeps it.</source>
         <translation>Was Sie hier sehen, ist neu gruppiert. Beim Weitergehen wird es gespeichert.</translation>
     </message>
     <message>

@@ -13,18 +13,24 @@
     </message>
 </context>
 <context>
-    <name>Duration</name>
+    <name>duration.seconds</name>
     <message>
-        <source>%1 s</source>
-        <translation>%1&#x202f;s</translation>
+        <source>{} s</source>
+        <translation>{}&#x202f;s</translation>
     </message>
+</context>
+<context>
+    <name>duration.minutes</name>
     <message>
-        <source>%1 min</source>
-        <translation>%1&#x202f;min</translation>
+        <source>{} min</source>
+        <translation>{}&#x202f;min</translation>
     </message>
+</context>
+<context>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>%1 h %2 min</source>
-        <translation>%1&#x202f;h %2&#x202f;min</translation>
+        <source>{} h {} min</source>
+        <translation>{}&#x202f;h {}&#x202f;min</translation>
     </message>
 </context>
 <context>
@@ -237,7 +243,7 @@
 <context>
     <name>acquisition.alarm-skipped</name>
     <message>
-        <source>put up with before pattern {}: {}</source>
+        <source>accepted before pattern {}: {}</source>
         <translation>accepté avant le motif {}&#x202f;: {}</translation>
     </message>
 </context>
@@ -1813,14 +1819,14 @@
 <context>
     <name>engine.install-driver</name>
     <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>installez le pilote de la carte graphique, ou confiez le calcul au processeur</translation>
     </message>
 </context>
 <context>
-    <name>engine.let-processor-do-work</name>
+    <name>engine.compute-on-processor</name>
     <message>
-        <source>let the processor do the work</source>
+        <source>compute on the processor instead</source>
         <translation>confiez le calcul au processeur</translation>
     </message>
 </context>
@@ -2799,7 +2805,7 @@
         <translation>Les groupes gardés datent d’un ancien seuil</translation>
     </message>
     <message>
-        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <source>What you see here has been grouped again. Going on keeps it.</source>
         <translation>Ce que vous voyez ici est un nouveau regroupement. Continuer le garde.</translation>
     </message>
     <message>

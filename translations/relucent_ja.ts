@@ -13,18 +13,24 @@
     </message>
 </context>
 <context>
-    <name>Duration</name>
+    <name>duration.seconds</name>
     <message>
-        <source>%1 s</source>
-        <translation>%1 秒</translation>
+        <source>{} s</source>
+        <translation>{} 秒</translation>
     </message>
+</context>
+<context>
+    <name>duration.minutes</name>
     <message>
-        <source>%1 min</source>
-        <translation>%1 分</translation>
+        <source>{} min</source>
+        <translation>{} 分</translation>
     </message>
+</context>
+<context>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>%1 h %2 min</source>
-        <translation>%1 時間 %2 分</translation>
+        <source>{} h {} min</source>
+        <translation>{} 時間 {} 分</translation>
     </message>
 </context>
 <context>
@@ -236,7 +242,7 @@
 <context>
     <name>acquisition.alarm-skipped</name>
     <message>
-        <source>put up with before pattern {}: {}</source>
+        <source>accepted before pattern {}: {}</source>
         <translation>パターン {} の前に許容：{}</translation>
     </message>
 </context>
@@ -1810,14 +1816,14 @@
 <context>
     <name>engine.install-driver</name>
     <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>グラフィックカードのドライバーをインストールするか、CPU で処理してください</translation>
     </message>
 </context>
 <context>
-    <name>engine.let-processor-do-work</name>
+    <name>engine.compute-on-processor</name>
     <message>
-        <source>let the processor do the work</source>
+        <source>compute on the processor instead</source>
         <translation>CPU で処理してください</translation>
     </message>
 </context>
@@ -2785,7 +2791,7 @@
         <translation>保持しているクラスターは以前のしきい値によるものです</translation>
     </message>
     <message>
-        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <source>What you see here has been grouped again. Going on keeps it.</source>
         <translation>ここに見えるのは新しいクラスター分けです。先へ進むと保持されます。</translation>
     </message>
     <message>

@@ -13,18 +13,24 @@
     </message>
 </context>
 <context>
-    <name>Duration</name>
+    <name>duration.seconds</name>
     <message>
-        <source>%1 s</source>
-        <translation>%1 秒</translation>
+        <source>{} s</source>
+        <translation>{} 秒</translation>
     </message>
+</context>
+<context>
+    <name>duration.minutes</name>
     <message>
-        <source>%1 min</source>
-        <translation>%1 分钟</translation>
+        <source>{} min</source>
+        <translation>{} 分钟</translation>
     </message>
+</context>
+<context>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>%1 h %2 min</source>
-        <translation>%1 小时 %2 分钟</translation>
+        <source>{} h {} min</source>
+        <translation>{} 小时 {} 分钟</translation>
     </message>
 </context>
 <context>
@@ -236,7 +242,7 @@
 <context>
     <name>acquisition.alarm-skipped</name>
     <message>
-        <source>put up with before pattern {}: {}</source>
+        <source>accepted before pattern {}: {}</source>
         <translation>在图案 {} 之前接受：{}</translation>
     </message>
 </context>
@@ -1810,14 +1816,14 @@
 <context>
     <name>engine.install-driver</name>
     <message>
-        <source>install the graphics card&apos;s driver, or let the processor do the work</source>
+        <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>请安装显卡驱动程序，或改用 CPU 处理</translation>
     </message>
 </context>
 <context>
-    <name>engine.let-processor-do-work</name>
+    <name>engine.compute-on-processor</name>
     <message>
-        <source>let the processor do the work</source>
+        <source>compute on the processor instead</source>
         <translation>请改用 CPU 处理</translation>
     </message>
 </context>
@@ -2785,7 +2791,7 @@
         <translation>已保存的簇属于以前的阈值</translation>
     </message>
     <message>
-        <source>What you see here is grouped anew. Going on keeps it.</source>
+        <source>What you see here has been grouped again. Going on keeps it.</source>
         <translation>此处显示的是重新聚类的结果。继续即保存。</translation>
     </message>
     <message>

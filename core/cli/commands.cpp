@@ -41,7 +41,7 @@ int statusOf(acquisition::Verdict verdict) {
 }
 
 template <typename Result>
-Outcome outcomeOf(const Result& result) {
+CommandResult outcomeOf(const Result& result) {
   return {toJson(result), textOf(result)};
 }
 
@@ -49,91 +49,91 @@ Outcome outcomeOf(const Result& result) {
 struct Executor {
   Progress& progress;
 
-  Outcome operator()(const PrintText& command) const { return {{}, command.text}; }
+  CommandResult operator()(const PrintText& command) const { return {{}, command.text}; }
 
-  Outcome operator()(const ListVenues&) const {
+  CommandResult operator()(const ListVenues&) const {
     std::string text;
     for (const venue::VenueDescription& venue : venue::venues())
       text += fmt::format("{:<10} {}\n", venue.name, venue.sentence);
     return {pipeline::toJson(venue::venues()), text};
   }
 
-  Outcome operator()(const ListDevices&) const { return outcomeOf(devices::cameraRegistry().list()); }
+  CommandResult operator()(const ListDevices&) const { return outcomeOf(devices::cameraRegistry().list()); }
 
-  Outcome operator()(const CheckRig& command) const {
+  CommandResult operator()(const CheckRig& command) const {
     refuse(problems(command.settings));
     const pipeline::RigCheck found = pipeline::checkRig(command.settings, command.cache, progress);
     return {toJson(found), textOf(found)};
   }
 
-  Outcome operator()(const Calibrate& command) const {
+  CommandResult operator()(const Calibrate& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::calibrate(command.calibration, command.settings, command.cache, progress));
   }
 
-  Outcome operator()(const Resume& command) const {
+  CommandResult operator()(const Resume& command) const {
     return outcomeOf(pipeline::resume(command.calibration, command.cache, progress));
   }
 
-  Outcome operator()(const Verify& command) const {
+  CommandResult operator()(const Verify& command) const {
     refuse(problems(command.settings));
     pipeline::VerifyResult result =
         pipeline::verifyCalibration(command.calibration, command.settings, command.cache, progress);
-    Outcome outcome = outcomeOf(result);
+    CommandResult outcome = outcomeOf(result);
     outcome.status = statusOf(result.judgement.verdict);
     return outcome;
   }
 
-  Outcome operator()(const Prove& command) const {
+  CommandResult operator()(const Prove& command) const {
     refuse(problems(command.settings));
     return outcomeOf(
         pipeline::proveCalibration(command.calibration, command.settings, command.cache, progress));
   }
 
-  Outcome operator()(const ImportPictures& command) const {
+  CommandResult operator()(const ImportPictures& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::importPictures(command.calibration, command.settings, progress));
   }
 
-  Outcome operator()(const Plan& command) const {
+  CommandResult operator()(const Plan& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::exportPlan(command.settings, command.out, progress));
   }
 
-  Outcome operator()(const Compensate& command) const {
+  CommandResult operator()(const Compensate& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::compensate(command.calibration, command.settings, progress));
   }
 
-  Outcome operator()(const Evaluate& command) const {
+  CommandResult operator()(const Evaluate& command) const {
     refuse(problems(command.settings));
     return outcomeOf(evaluate(command.calibration, command.settings, command.cache, progress));
   }
 
-  Outcome operator()(const Export& command) const {
+  CommandResult operator()(const Export& command) const {
     return outcomeOf(pipeline::exportCalibration(command.calibration, command.settings, progress));
   }
 
-  Outcome operator()(const Relight& command) const {
+  CommandResult operator()(const Relight& command) const {
     return outcomeOf(command.dual ? dual(command.calibration, command.settings, progress)
                                   : pipeline::relight(command.calibration, command.settings, progress));
   }
 
-  Outcome operator()(const Separate& command) const {
+  CommandResult operator()(const Separate& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::separate(command.calibration, command.settings, progress));
   }
 
-  Outcome operator()(const Difference& command) const {
+  CommandResult operator()(const Difference& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::pictureDifference(command.settings, progress));
   }
 
-  Outcome operator()(const Report& command) const {
+  CommandResult operator()(const Report& command) const {
     return outcomeOf(report(command.calibration, command.settings, command.cache, progress));
   }
 
-  Outcome operator()(const Bench& command) const {
+  CommandResult operator()(const Bench& command) const {
     switch (command.suite) {
       case BenchSuite::inverse:
         return outcomeOf(pipeline::benchInverse(command.cache, progress));
@@ -178,7 +178,7 @@ int fail(const std::string& sentence, int status) {
   return status;
 }
 
-void print(const Outcome& outcome, bool json) {
+void print(const CommandResult& outcome, bool json) {
   if (json)
     std::cout << outcome.document.dump(2, ' ', false, calibration::Json::error_handler_t::replace) << "\n";
   else
@@ -194,7 +194,7 @@ void print(const Outcome& outcome, bool json) {
 
 }  // namespace
 
-Outcome execute(const Command& command, Progress& progress) {
+CommandResult execute(const Command& command, Progress& progress) {
   return std::visit(Executor{progress}, command);
 }
 
@@ -207,7 +207,7 @@ int runCommandLine(const std::vector<std::string>& arguments) {
   }
 
   try {
-    Outcome outcome;
+    CommandResult outcome;
     {
       Interruption interruption;
       TerminalProgress terminal(TerminalProgress::standardError());

@@ -9,7 +9,7 @@
 namespace relucent::cli {
 
 /// What a command found: the document for programs and the text for people.
-struct Outcome {
+struct CommandResult {
   calibration::Json document;
   std::string text;
   int status = 0;  // of the program
@@ -17,7 +17,7 @@ struct Outcome {
 
 /// Does what the command line asks for.
 /// Throws: Error, Cancelled as the pipeline does; Error{input} for settings that cannot be.
-Outcome execute(const Command& command, Progress& progress);
+CommandResult execute(const Command& command, Progress& progress);
 
 /// The whole program: parses, executes, prints. Returns the exit status, see the README.
 int runCommandLine(const std::vector<std::string>& arguments);

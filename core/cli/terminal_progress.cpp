@@ -11,42 +11,7 @@
 
 namespace relucent::cli {
 
-using Seconds = TimeLeft::Seconds;
-
-void TimeLeft::add(Seconds now, double fraction) {
-  constexpr Seconds apart{1.0};
-  constexpr Seconds window{30.0};
-  // Between two samples only the newest moves, so that there are never more than a few dozen.
-  if (samples_.size() >= 2 && now - samples_[samples_.size() - 2].time < apart)
-    samples_.back() = {now, fraction};
-  else
-    samples_.push_back({now, fraction});
-  while (samples_.size() > 2 && now - samples_[1].time >= window) samples_.pop_front();
-}
-
-void TimeLeft::expect(Seconds now, Seconds left) {
-  expectedEnd_ = now + left;
-}
-
-Seconds TimeLeft::left() const {
-  constexpr Seconds leastTime{3.0};
-  if (samples_.empty()) return Seconds{-1.0};
-  if (expectedEnd_ > samples_.back().time) return expectedEnd_ - samples_.back().time;
-  Seconds time = samples_.back().time - samples_.front().time;
-  double share = samples_.back().fraction - samples_.front().fraction;
-  if (time < leastTime || share <= 0.0) return Seconds{-1.0};
-  return time * ((1.0 - samples_.back().fraction) / share);
-}
-
 namespace {
-
-/// Rounded up: 10 s below a minute, whole minutes above.
-std::string timeOf(double seconds) {
-  if (seconds <= 50.0) return fmt::format("{:.0f} s", std::max(10.0, 10.0 * std::ceil(seconds / 10.0)));
-  double minutes = std::ceil(seconds / 60.0);
-  if (minutes < 60.0) return fmt::format("{:.0f} min", minutes);
-  return fmt::format("{:.0f} h {:02.0f} min", std::floor(minutes / 60.0), std::fmod(minutes, 60.0));
-}
 
 /// Two digits say as much as is known.
 double rounded(double value) {
@@ -63,18 +28,13 @@ std::string bytesOf(std::uint64_t bytes) {
 
 }  // namespace
 
-std::string TimeLeft::sentence() const {
-  double seconds = left().count();
-  return seconds < 0.0 ? std::string() : fmt::format("about {} left", timeOf(seconds));
-}
-
 std::string workSentence(const WorkLeft& work) {
   return fmt::format(
       "About {:.0f} patterns to photograph ({:.0f} to {:.0f}), {:.0f} photographs: about {}, {} on disk, {} "
       "of "
       "memory",
       rounded(work.shots), rounded(work.leastShots), rounded(work.mostShots), rounded(work.exposures),
-      timeOf(work.seconds), bytesOf(work.diskBytes), bytesOf(work.memoryBytes));
+      english(roundedDuration(work.seconds)), bytesOf(work.diskBytes), bytesOf(work.memoryBytes));
 }
 
 std::string barLine(std::string_view stage, double fraction, std::string_view timeLeft, int width) {
@@ -103,8 +63,7 @@ std::string barLine(std::string_view stage, double fraction, std::string_view ti
 }
 
 TerminalProgress::Terminal TerminalProgress::standardError() {
-  auto now = [] { return Seconds(std::chrono::steady_clock::now().time_since_epoch()); };
-  return {&std::cerr, platform::errorTerminalWidth, now};
+  return {&std::cerr, platform::errorTerminalWidth, std::chrono::steady_clock::now};
 }
 
 TerminalProgress::TerminalProgress(Terminal terminal) : terminal_(std::move(terminal)) {}
@@ -114,8 +73,8 @@ TerminalProgress::~TerminalProgress() {
 }
 
 void TerminalProgress::progressed(double fraction, const Message& stage) {
-  constexpr Seconds betweenDrawings{0.1};
-  Seconds now = terminal_.now();
+  constexpr std::chrono::milliseconds betweenDrawings{100};
+  const TimeLeft::Moment now = terminal_.now();
   fraction_ = fraction;
   stage_ = english(stage);
   timeLeft_.add(now, fraction);
@@ -123,22 +82,27 @@ void TerminalProgress::progressed(double fraction, const Message& stage) {
   int width = terminal_.width();
   if (width == 0) {
     printLine();
-  } else if (drawn_.count() < 0.0 || now - drawn_ >= betweenDrawings) {
+  } else if (!drawn_ || now - *drawn_ >= betweenDrawings) {
     drawn_ = now;
     drawBar(width);
   }
 }
 
 void TerminalProgress::expected(const WorkLeft& work) {
-  timeLeft_.expect(terminal_.now(), Seconds{work.seconds});
+  timeLeft_.expect(terminal_.now(), work.seconds);
   if (workIsSaid_) return;
   workIsSaid_ = true;
   finish();
   *terminal_.out << workSentence(work) << "\n" << std::flush;
 }
 
+std::string TerminalProgress::timeLeftSentence() const {
+  const std::optional<double> seconds = timeLeft_.seconds(terminal_.now());
+  return seconds ? fmt::format("about {} left", english(roundedDuration(*seconds))) : std::string();
+}
+
 void TerminalProgress::drawBar(int width) {
-  *terminal_.out << "\r" << barLine(stage_, fraction_, timeLeft_.sentence(), width) << "\x1b[K" << std::flush;
+  *terminal_.out << "\r" << barLine(stage_, fraction_, timeLeftSentence(), width) << "\x1b[K" << std::flush;
   barIsShown_ = true;
 }
 
@@ -146,7 +110,7 @@ void TerminalProgress::printLine() {
   bool newStage = stage_ != printedStage_;
   bool further = fraction_ >= printedFraction_ + 0.1;
   if (stage_.empty() || (!newStage && !further)) return;
-  std::string timeLeft = timeLeft_.sentence();
+  std::string timeLeft = timeLeftSentence();
   *terminal_.out << fmt::format("{:3.0f} %  {}{}{}\n", std::floor(100.0 * fraction_), stage_,
                                 timeLeft.empty() ? "" : ", ", timeLeft)
                  << std::flush;

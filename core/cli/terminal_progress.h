@@ -1,38 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
-#include <deque>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <string>
 
 #include "relucent/base/progress.h"
+#include "relucent/base/time_left.h"
 
 namespace relucent::cli {
-
-/// How much longer, from how fast it went lately: the mean rate of the last half minute, because a stage
-/// that is read from a journal or a cache says nothing about the next one.
-class TimeLeft {
- public:
-  using Seconds = std::chrono::duration<double>;
-
-  void add(Seconds now, double fraction);
-  /// What somebody who knows the work expects; believed until it has passed.
-  void expect(Seconds now, Seconds left);
-  /// Below zero: not known yet.
-  Seconds left() const;
-  /// "about 3 min left", rounded up; empty while it is not known.
-  std::string sentence() const;
-
- private:
-  struct Sample {
-    Seconds time;
-    double fraction;
-  };
-  std::deque<Sample> samples_;
-  Seconds expectedEnd_{-1.0};
-};
 
 /// Progress on a terminal as one line that is redrawn at most ten times a second; elsewhere (a log, a pipe)
 /// as a plain line at each new stage and every ten percent.
@@ -43,7 +20,7 @@ class TerminalProgress : public ProgressSink {
     std::ostream* out = nullptr;
     /// Columns; 0: not a terminal.
     std::function<int()> width;
-    std::function<std::chrono::duration<double>()> now;
+    std::function<TimeLeft::Moment()> now;
   };
   /// Standard error of this program.
   static Terminal standardError();
@@ -58,6 +35,8 @@ class TerminalProgress : public ProgressSink {
   void finish();
 
  private:
+  /// "about 3 min left"; empty while it is not known.
+  std::string timeLeftSentence() const;
   void drawBar(int width);
   void printLine();
 
@@ -65,7 +44,7 @@ class TerminalProgress : public ProgressSink {
   TimeLeft timeLeft_;
   double fraction_ = 0.0;
   std::string stage_;
-  std::chrono::duration<double> drawn_{-1.0};
+  std::optional<TimeLeft::Moment> drawn_;
   bool barIsShown_ = false;
   bool workIsSaid_ = false;
   std::string printedStage_;

@@ -48,7 +48,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
   connect(&job_, &Job::expected, this, [this](const WorkLeft& left) {
     forecast_ = left;
-    left_.expect(left, Clock::now());
+    left_.expect(Clock::now(), left.seconds);
   });
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
   connect(&trace_, &AcquisitionTrace::changed, this, [this] {
@@ -85,7 +85,7 @@ void AcquirePage::makeCommands() {
   retry_ = addCommand(Icon::play, begins);
 }
 
-Command* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
+PageCommand* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
   return addCommand(icon, [this, answer] { question_->give(answer); });
 }
 
@@ -102,7 +102,7 @@ StepStatus AcquirePage::status() const {
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
-                    .arg(durationText(spent->seconds))};
+                    .arg(text(roundedDuration(spent->seconds)))};
       return {StepState::done, tr("Measured")};
     case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
@@ -123,13 +123,13 @@ QString AcquirePage::hint() const {
               secondsLeftToLeave_);
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (isDone())
-    return tr("Measured in %1").arg(durationText(cost().value_or(calibration::StageCost()).seconds));
+    return tr("Measured in %1").arg(text(roundedDuration(cost().value_or(calibration::StageCost()).seconds)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const auto patterns = static_cast<int>(work->shots);
     return groupedText(tr("About %n pattern(s), %1. Leave the room dark and still.", nullptr, patterns),
                        patterns)
-        .arg(durationText(work->seconds));
+        .arg(text(roundedDuration(work->seconds)));
   }
   return tr("Leave the room dark and still, then start.");
 }
@@ -151,12 +151,12 @@ void AcquirePage::updateCommands() {
   retry_->show(tr("Resume"));
 }
 
-Command* AcquirePage::primary() const {
+PageCommand* AcquirePage::primary() const {
   if (isCountingDown()) return startNow_;
   return isMeasuring() || isDone() ? next_ : start_;
 }
 
-std::vector<Command*> AcquirePage::secondary() const {
+std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
   if (!isMeasuring()) return {};
   return {isPaused() ? resume_ : pause_, keep_};
@@ -349,7 +349,7 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm) {
   Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
                   QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
                   AcquisitionTrace::headingOf(alarm.kind)};
-  Command* goOn = sentinels::isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
+  PageCommand* goOn = sentinels::isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
   Q_EMIT failed({failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn});
   Q_EMIT asks();
 }

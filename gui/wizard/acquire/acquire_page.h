@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "jobs/job.h"
-#include "jobs/time_left.h"
 #include "relucent/acquisition/forecast.h"
+#include "relucent/base/time_left.h"
 #include "relucent/linearization/linearization.h"
 #include "wizard/acquire/acquisition_trace.h"
 #include "wizard/acquire/alarm_question.h"
@@ -43,8 +43,8 @@ class AcquirePage : public DevicePage {
   StepStatus status() const override;
   QString hint() const override;
   bool hasRemedy() const override { return !session_.mayMeasure(); }
-  Command* primary() const override;
-  std::vector<Command*> secondary() const override;
+  PageCommand* primary() const override;
+  std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
   void finish() override;
@@ -127,14 +127,14 @@ class AcquirePage : public DevicePage {
   void change(const QString& what, const acquisition::AcquisitionSettings& settings);
   void keep(const acquisition::AcquisitionSettings& settings);
   void askAboutAlarm(const sentinels::Alarm& alarm);
-  Command* answering(Icon icon, sentinels::Answer answer);
+  PageCommand* answering(Icon icon, sentinels::Answer answer);
   void ended();
   void tick();
   void lookAtResponse();
 
-  Command *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_;
-  Command *again_, *goOn_;                                    // of the banner
-  Command *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
+  PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_;
+  PageCommand *again_, *goOn_;                                    // of the banner
+  PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;
   AcquisitionTrace trace_;

@@ -4,8 +4,9 @@
 #include <QComboBox>
 #include <vector>
 
-#include "jobs/time_left.h"
+#include "relucent/base/time_left.h"
 #include "relucent/pipeline/pictures.h"
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
@@ -183,7 +184,8 @@ QWidget* planOf(AcquirePage& model) {
     group->button(static_cast<int>(model.fineness()))->setChecked(true);
     for (Fineness fineness : {Fineness::fast, Fineness::usual, Fineness::fine}) {
       const std::optional<WorkLeft> work = model.expected(fineness);
-      choices[static_cast<std::size_t>(fineness)]->setRemark(work ? durationText(work->seconds) : QString());
+      choices[static_cast<std::size_t>(fineness)]->setRemark(work ? text(roundedDuration(work->seconds))
+                                                                  : QString());
     }
     colour->setCurrent(model.isWhite() ? 1 : 0);
     start->setVisible(!model.isDone());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/acquire/acquire_view.h"
 
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
@@ -86,7 +87,7 @@ QWidget* runOf(AcquirePage& model) {
     if (model.isPaused())
       left->setText(AcquirePage::tr("Paused"));
     else if (auto seconds = model.secondsLeft())
-      left->setText(AcquirePage::tr("About %1 left").arg(durationText(*seconds)));
+      left->setText(AcquirePage::tr("About %1 left").arg(text(roundedDuration(*seconds))));
     else
       left->setText(AcquirePage::tr("Measuring"));
     QString stage = model.stage();

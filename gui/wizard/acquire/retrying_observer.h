@@ -12,7 +12,7 @@ namespace relucent::gui {
 
 /// Looks on for another, and tries again by itself what may have passed when it is photographed next: a door
 /// stood open, somebody went through the light. Three times at one place, then somebody has to be asked; and
-/// only about what was photographed now: what is read from a log may have been put up with, and trying again
+/// only about what was photographed now: what is read from a log may have been accepted, and trying again
 /// would throw away all that followed. On the measuring thread.
 class RetryingObserver : public sentinels::AcquisitionObserver {
  public:

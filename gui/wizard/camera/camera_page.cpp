@@ -156,11 +156,11 @@ void CameraPage::updateCommands() {
   chooseAnother_->show(tr("Choose another camera"), free);
 }
 
-Command* CameraPage::primary() const {
+PageCommand* CameraPage::primary() const {
   return keep_;
 }
 
-std::vector<Command*> CameraPage::secondary() const {
+std::vector<PageCommand*> CameraPage::secondary() const {
   if (isLooking()) return {pause_};
   if (needsCamera()) return {};
   if (mayChooseCamera()) return {again_, chooseAnother_};

@@ -37,8 +37,8 @@ class CameraPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command* primary() const override;
-  std::vector<Command*> secondary() const override;
+  PageCommand* primary() const override;
+  std::vector<PageCommand*> secondary() const override;
   void enter() override;
   void leave() override { finish(); }
   void finish() override;
@@ -108,7 +108,7 @@ class CameraPage : public PageModel {
   devices::CameraList cameras_;
   Latest<devices::CameraList> listing_;
   std::optional<pipeline::RigCheck> check_;
-  Command *keep_, *pause_, *again_, *chooseAnother_;
+  PageCommand *keep_, *pause_, *again_, *chooseAnother_;
   bool goOn_ = false;  // the next step was asked for while looking
 };
 

@@ -201,7 +201,7 @@ std::optional<Banner> ClusterPage::banner() const {
   if (session_.progress(calibration::Stage::clustering) != calibration::StageProgress::stale)
     return std::nullopt;
   return Banner{Banner::Kind::amber, tr("The clusters that are kept belong to an earlier threshold"),
-                tr("What you see here is grouped anew. Going on keeps it.")};
+                tr("What you see here has been grouped again. Going on keeps it.")};
 }
 
 void ClusterPage::accept() {

@@ -41,7 +41,7 @@ class ClusterPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command* primary() const override { return accept_; }
+  PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override;
 
@@ -68,7 +68,7 @@ class ClusterPage : public DevicePage {
   void show(std::shared_ptr<const ClusterResult> result);
   void accept();
 
-  Command* accept_;
+  PageCommand* accept_;
   clustering::ClusteringSettings settings_;
   std::string preparedFor_;  // fingerprint of the threshold
   std::shared_ptr<const transport::Acquisition> source_;

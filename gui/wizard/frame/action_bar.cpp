@@ -57,12 +57,12 @@ bool ActionBar::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void ActionBar::runPrimary() {
-  if (Command* command = wizard_.currentPage().primary()) command->trigger();
+  if (PageCommand* command = wizard_.currentPage().primary()) command->trigger();
 }
 
 void ActionBar::refresh() {
   const PageModel& page = wizard_.currentPage();
-  const Command* primary = page.primary();
+  const PageCommand* primary = page.primary();
   primary_->setVisible(primary != nullptr);
   if (primary != nullptr) {
     primary_->setText(primary->text());
@@ -88,7 +88,7 @@ void ActionBar::refresh() {
   refreshSecondary(page.secondary());
 }
 
-void ActionBar::refreshSecondary(const std::vector<Command*>& commands) {
+void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {
   commands_.assign(commands.begin(), commands.end());
   while (buttons_.size() < commands.size()) {
     std::size_t index = buttons_.size();
@@ -103,7 +103,7 @@ void ActionBar::refreshSecondary(const std::vector<Command*>& commands) {
   for (std::size_t i = 0; i < buttons_.size(); ++i) {
     buttons_[i]->setVisible(i < commands.size());
     if (i >= commands.size()) continue;
-    const Command& command = *commands[i];
+    const PageCommand& command = *commands[i];
     buttons_[i]->setText(command.text());
     buttons_[i]->setIcon(iconOf(command.glyph(), command.isEnabled() ? colours().text : colours().disabled));
     buttons_[i]->setEnabled(command.isEnabled());

@@ -27,14 +27,14 @@ class ActionBar : public QFrame {
 
  private:
   void refresh();
-  void refreshSecondary(const std::vector<Command*>& commands);
+  void refreshSecondary(const std::vector<PageCommand*>& commands);
   Wizard& wizard_;
   QProgressBar* progress_;
   QPushButton *back_, *primary_;
   QLabel* hint_;
   QHBoxLayout* secondary_;
   std::vector<QPushButton*> buttons_;
-  std::vector<QPointer<Command>> commands_;
+  std::vector<QPointer<PageCommand>> commands_;
 };
 
 }  // namespace relucent::gui

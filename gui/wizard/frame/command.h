@@ -9,9 +9,9 @@ namespace relucent::gui {
 
 /// Something that the user can do on a page, which owns it. Its icon is one of the theme, so that each place
 /// draws it in the colour that it has there. Where it is not possible, its tool tip says why.
-class Command : public QAction {
+class PageCommand : public QAction {
  public:
-  Command(Icon glyph, QObject* parent) : QAction(parent), glyph_(glyph) {}
+  PageCommand(Icon glyph, QObject* parent) : QAction(parent), glyph_(glyph) {}
 
   Icon glyph() const { return glyph_; }
   void setGlyph(Icon glyph) { glyph_ = glyph; }

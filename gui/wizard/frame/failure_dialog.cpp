@@ -64,7 +64,7 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
   row->addWidget(copy);
   row->addStretch(1);
   QPushButton* first = nullptr;
-  auto action = [&](Command* command, const char* role) {
+  auto action = [&](PageCommand* command, const char* role) {
     if (command == nullptr) return;
     QPushButton* button = buttonOf(command->text(), role);
     connect(button, &QPushButton::clicked, command, [this, command] {

@@ -27,14 +27,14 @@ struct Banner {
   enum class Kind { information, amber };
   Kind kind = Kind::information;
   QString sentence, more;
-  Command* primary = nullptr;  // the page's; nullptr: there is nothing to do about it
+  PageCommand* primary = nullptr;  // the page's; nullptr: there is nothing to do about it
 };
 
 /// A failure as the user is told of it: what happened, what is safe, what to do.
 struct FailureReport {
   Failure failure;
   QString safe;
-  Command *resume = nullptr, *keep = nullptr, *goOn = nullptr;  // the page's; nullptr: not to be chosen
+  PageCommand *resume = nullptr, *keep = nullptr, *goOn = nullptr;  // the page's; nullptr: not to be chosen
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the
@@ -56,8 +56,8 @@ class PageModel : public QObject {
   /// What the hint says can be changed on this page: remedyWanted() asks where.
   virtual bool hasRemedy() const { return false; }
   /// The command that leads on; nullptr: there is none now.
-  virtual Command* primary() const = 0;
-  virtual std::vector<Command*> secondary() const { return {}; }
+  virtual PageCommand* primary() const = 0;
+  virtual std::vector<PageCommand*> secondary() const { return {}; }
   /// Of a measurement under way, 0 to 1.
   virtual std::optional<double> progress() const { return std::nullopt; }
   virtual std::optional<Banner> banner() const { return std::nullopt; }
@@ -94,8 +94,8 @@ class PageModel : public QObject {
  protected:
   /// A command of this page; text and all that changes come from updateCommands().
   template <typename Run>
-  Command* addCommand(Icon icon, Run run, const QKeySequence& shortcut = {}) {
-    auto* command = new Command(icon, this);
+  PageCommand* addCommand(Icon icon, Run run, const QKeySequence& shortcut = {}) {
+    auto* command = new PageCommand(icon, this);
     command->setShortcut(shortcut);
     connect(command, &QAction::triggered, this, run);
     return command;
@@ -105,7 +105,7 @@ class PageModel : public QObject {
 
   void tellStatus() {
     updateCommands();
-    if (Command* command = primary()) command->setToolTip(command->isEnabled() ? QString() : hint());
+    if (PageCommand* command = primary()) command->setToolTip(command->isEnabled() ? QString() : hint());
     Q_EMIT statusChanged();
   }
   /// These change what the frame shows as well.

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
-#include "jobs/time_left.h"
 #include "relucent/base/message.h"
+#include "relucent/base/time_left.h"
 #include "relucent/calibration/results.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/devices/missing_screen.h"
 
@@ -78,7 +79,7 @@ QString LinearizePage::hint() const {
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done) {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
-    if (auto took = seconds()) return tr("Measured in %1").arg(durationText(*took));
+    if (auto took = seconds()) return tr("Measured in %1").arg(text(roundedDuration(*took)));
   }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   return tr("About %n test pattern(s)", nullptr, static_cast<int>(projectors()) * (3 * levels() + 60));
@@ -94,12 +95,12 @@ void LinearizePage::updateCommands() {
   retry_->show(tr("Try again"));
 }
 
-Command* LinearizePage::primary() const {
+PageCommand* LinearizePage::primary() const {
   const bool done = session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done;
   return done && !isMeasuring() ? next_ : measure_;
 }
 
-std::vector<Command*> LinearizePage::secondary() const {
+std::vector<PageCommand*> LinearizePage::secondary() const {
   if (isMeasuring()) return {stop_};
   if (session_.progress(calibration::Stage::linearization) != calibration::StageProgress::done) return {};
   return {again_};

@@ -25,8 +25,8 @@ class LinearizePage : public DevicePage {
   StepStatus status() const override;
   QString hint() const override;
   bool hasRemedy() const override { return !session_.mayMeasure(); }
-  Command* primary() const override;
-  std::vector<Command*> secondary() const override;
+  PageCommand* primary() const override;
+  std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
   void finish() override;
@@ -56,7 +56,7 @@ class LinearizePage : public DevicePage {
   void look();
   void ended();
 
-  Command *next_, *measure_, *stop_, *again_, *renew_, *retry_;
+  PageCommand *next_, *measure_, *stop_, *again_, *renew_, *retry_;
   DeviceLease lease_;
   Job job_;
   std::optional<linearization::Linearization> result_;

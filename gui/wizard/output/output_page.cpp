@@ -117,7 +117,7 @@ void OutputPage::updateCommands() {
   close_->show(tr("Close output"));
 }
 
-std::vector<Command*> OutputPage::secondary() const {
+std::vector<PageCommand*> OutputPage::secondary() const {
   if (!isOpen()) return {};
   return {freeze_, black_, close_};
 }

@@ -32,8 +32,8 @@ class OutputPage : public DevicePage {
   StepStatus status() const override;
   QString hint() const override;
   bool hasRemedy() const override { return projectorWithoutScreen().has_value(); }
-  Command* primary() const override { return isOpen() ? install_ : open_; }
-  std::vector<Command*> secondary() const override;
+  PageCommand* primary() const override { return isOpen() ? install_ : open_; }
+  std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   void enter() override;
   void finish() override;
@@ -117,7 +117,7 @@ class OutputPage : public DevicePage {
   QStringList showArguments() const;
   void tell(const Failure& failure);
 
-  Command *open_, *install_, *freeze_, *black_, *close_;
+  PageCommand *open_, *install_, *freeze_, *black_, *close_;
   OutputPlaylist playlist_;
   OutputProof proof_;
   OutputProjection projection_;

@@ -23,7 +23,7 @@ struct ContentPreview {
   image::Image without, with;  // predicted: nothing corrected, and by the chosen method
   image::Image deltaE;         // CIEDE2000; NaN outside the content
   std::vector<float> reach;    // brightest possible, as a share of the content's white
-  std::vector<std::uint8_t> reachable, inside;
+  CameraMask reachable, inside;
   float white = 1.0f;
   compensation::Corners corners{};
   double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;

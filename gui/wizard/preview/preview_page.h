@@ -27,7 +27,7 @@ class PreviewPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command* primary() const override { return accept_; }
+  PageCommand* primary() const override { return accept_; }
   std::optional<double> progress() const override;
   void enter() override;
   void leave() override { looked_ = false; }
@@ -69,7 +69,7 @@ class PreviewPage : public PageModel {
   void accept();
 
   Session& session_;
-  Command* accept_;
+  PageCommand* accept_;
   DeviceLease lease_;
   Job job_;
   pipeline::ContentSettings settings_;

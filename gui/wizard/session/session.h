@@ -207,7 +207,7 @@ class Session : public QObject {
   void look(const calibration::CalibrationFolder& folder);
   /// Writes into the calibration and looks at it again.
   void change(const std::function<void(calibration::CalibrationFolder&)>& write);
-  /// The same with the devices closed meanwhile and opened anew.
+  /// The same with the devices closed meanwhile and opened again.
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
   void adopt(const calibration::CalibrationFolder& folder);
   void slowDown();

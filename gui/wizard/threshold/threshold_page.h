@@ -25,7 +25,7 @@ class ThresholdPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  Command* primary() const override { return accept_; }
+  PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override { session_.wantAcquisition(); }
 
@@ -78,7 +78,7 @@ class ThresholdPage : public DevicePage {
   void compute();
   void accept();
 
-  Command* accept_;
+  PageCommand* accept_;
   std::shared_ptr<const transport::Acquisition> adopted_;
   transport::ThresholdSettings cut_;
   bool shareOfRow_ = false;

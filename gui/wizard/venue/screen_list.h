@@ -26,7 +26,7 @@ class ScreenList : public QWidget {
   /// What is offered, asked for whenever a screen comes or goes.
   using Offer = std::function<std::vector<ScreenChoice>()>;
   explicit ScreenList(Chosen chosen, Offer offer = screenChoices);
-  /// Offers anew, with that screen chosen if it is there.
+  /// Offers again, with that screen chosen if it is there.
   void start(const pipeline::ScreenRigSettings::Display& chosen);
 
  protected:

@@ -116,12 +116,12 @@ void VenuePage::updateCommands() {
   changeScreen_->show(tr("Change the screen"));
 }
 
-Command* VenuePage::primary() const {
+PageCommand* VenuePage::primary() const {
   if (mode_ == Mode::start) return session_.isOpen() ? checkCamera_ : nullptr;
   return mode_ == Mode::screen ? useScreen_ : begin_;
 }
 
-std::vector<Command*> VenuePage::secondary() const {
+std::vector<PageCommand*> VenuePage::secondary() const {
   // Where it is missing, the banner has the same.
   if (mode_ != Mode::start || !openScreen_.isChangeable() || openScreen_.isMissing()) return {};
   return {changeScreen_};

@@ -44,8 +44,8 @@ class VenuePage : public PageModel {
   StepStatus status() const override;
   QString hint() const override;
   bool hasRemedy() const override { return remedy() != Remedy::none; }
-  Command* primary() const override;
-  std::vector<Command*> secondary() const override;
+  PageCommand* primary() const override;
+  std::vector<PageCommand*> secondary() const override;
   std::optional<Banner> banner() const override;
   bool goBack() override;
   bool canGoBack() const override { return mode_ != Mode::start; }
@@ -139,7 +139,7 @@ class VenuePage : public PageModel {
   QString usualFolder_;
   bool roomClear_ = false;
   bool named_ = false;  // by the user
-  Command *checkCamera_, *begin_, *useScreen_, *changeScreen_;
+  PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
 };
 
 }  // namespace relucent::gui

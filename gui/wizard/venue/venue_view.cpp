@@ -6,7 +6,8 @@
 #include <QLineEdit>
 #include <QStackedWidget>
 
-#include "jobs/time_left.h"
+#include "relucent/base/time_left.h"
+#include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -72,7 +73,7 @@ class KeepingPart : public QWidget {
     WorkLeft work = model_.expected();
     patterns_->setValue(VenuePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work.shots))));
     auto [fast, slow] = model_.expectedSeconds();
-    time_->setValue(VenuePage::tr("%1 to %2").arg(durationText(fast), durationText(slow)));
+    time_->setValue(VenuePage::tr("%1 to %2").arg(text(roundedDuration(fast)), text(roundedDuration(slow))));
     const std::uint64_t free = model_.freeBytes();
     disk_->setValue(VenuePage::tr("%1 of %2").arg(bytesText(work.diskBytes), bytesText(free)),
                     free < work.diskBytes ? "error" : "strong");

@@ -31,8 +31,8 @@ std::vector<Message> problems(const DrivenCameraSettings& settings);
 /// - A frame counts only if it arrived late enough to have been exposed wholly after it was asked for, and
 ///   if its number is not that of the frame before. Older ones are dropped.
 /// - A frame with parts missing, of another size, or that does not come is asked for again; from the second
-///   time on the camera is connected anew.
-/// - A camera that is gone is looked for again and set up as before; the photograph is then taken anew.
+///   time on the camera is connected again.
+/// - A camera that is gone is looked for again and set up as before; the photograph is then taken again.
 class DrivenCamera : public rig::Camera {
  public:
   /// Throws: std::logic_error if problems(settings) finds any; Error{device} if there is no such camera.

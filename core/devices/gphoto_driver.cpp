@@ -135,7 +135,7 @@ class GphotoDriver : public CameraDriver {
   }
 
   /// Files have no numbers that would tell a late one from the next: it has to come first, or the camera to
-  /// be connected anew.
+  /// be connected again.
   void restart() override {
     guarded([&] {
       const microseconds deadline = port_->now() + latestTime;

@@ -50,7 +50,7 @@ float ProjectorOptics::strength(const Vector2f& tangents) const {
   return focus * focus * (1.0f - vignetting * squared / corner) / (cosineSquared * cosineSquared);
 }
 
-std::optional<Connection> ProjectorOptics::connect(const Vector3f& point, const Vector2f& lens) const {
+std::optional<LensConnection> ProjectorOptics::connect(const Vector3f& point, const Vector2f& lens) const {
   Vector3f from = onLens(lens);
   Vector3f path = point - from;
   float depth = path.dot(pose.forward);
@@ -64,7 +64,7 @@ std::optional<Connection> ProjectorOptics::connect(const Vector3f& point, const 
                  0.5f * height - tangents.y() * throwRatio * width);
   if (place.x() < 0.0f || place.y() < 0.0f || place.x() >= width || place.y() >= height) return std::nullopt;
 
-  Connection connection;
+  LensConnection connection;
   connection.distance = path.norm();
   connection.direction = -path / connection.distance;
   connection.place = place;

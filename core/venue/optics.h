@@ -31,7 +31,7 @@ struct CameraOptics {
 };
 
 /// A path from a point of the scene to a projector.
-struct Connection {
+struct LensConnection {
   Eigen::Vector3f direction;  // towards the lens
   float distance = 0.0f;
   Eigen::Vector2f place;    // position on the projector's raster; its pixel determines the light
@@ -62,7 +62,7 @@ struct ProjectorOptics {
 
   /// From `point` to the position on the lens given by `lens`, a point of the unit square.
   /// Empty if the path does not come from the picture.
-  std::optional<Connection> connect(const Eigen::Vector3f& point, const Eigen::Vector2f& lens) const;
+  std::optional<LensConnection> connect(const Eigen::Vector3f& point, const Eigen::Vector2f& lens) const;
   /// From a position on the raster through a position on the lens.
   Emission emission(const Eigen::Vector2f& place, const Eigen::Vector2f& lens) const;
 

@@ -113,7 +113,7 @@ void Tracer::followPath(Path& path, TransportRow& row) const {
 void Tracer::connect(const Path& path, TransportRow& row) const {
   Vector2f lens = samples_.point(path.sample, path.pair, path.shift);
   for (std::size_t i = 0; i < scene_.projectors.size(); ++i) {
-    std::optional<Connection> connection = scene_.projectors[i].connect(path.point.position, lens);
+    std::optional<LensConnection> connection = scene_.projectors[i].connect(path.point.position, lens);
     if (!connection) continue;
     float cosine = path.scattering.cosine(connection->direction);
     if (cosine <= 0.0f || !rays_->free(path.point, connection->direction, connection->distance)) continue;

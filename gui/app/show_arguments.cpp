@@ -108,9 +108,9 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addOptions({content, loop, schedule, display, canvas, adaptive, backend, log, installService,
                      installAutostart, removeService, removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
-  if (parser.isSet(help)) return PrintText{parser.helpText()};
+  if (parser.isSet(help)) return TextToPrint{parser.helpText()};
   if (parser.isSet(version))
-    return PrintText{QString::fromStdString(pipeline::versionText("relucent", allLibraries()))};
+    return TextToPrint{QString::fromStdString(pipeline::versionText("relucent", allLibraries()))};
 
   QStringList words = parser.positionalArguments();
   if (words.value(0) == "show" && words.size() == 1) {

@@ -17,7 +17,7 @@ struct WrongArguments : std::runtime_error {
 };
 
 /// Only a text to print: the help or the version.
-struct PrintText {
+struct TextToPrint {
   QString text;
 };
 struct PlayShow {
@@ -33,7 +33,7 @@ struct UninstallShow {
   Start start;
 };
 
-using ShowArguments = std::variant<PrintText, PlayShow, InstallShow, UninstallShow>;
+using ShowArguments = std::variant<TextToPrint, PlayShow, InstallShow, UninstallShow>;
 
 /// Parses `relucent ARGUMENTS`; the first one is the program's name.
 /// Throws: WrongArguments; as contentOf().

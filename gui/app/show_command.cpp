@@ -36,7 +36,7 @@ QString config() {
   return QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation);
 }
 
-int run(const PrintText& print) {
+int run(const TextToPrint& print) {
   return say(print.text);
 }
 

@@ -44,7 +44,7 @@ std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
   return window;
 }
 
-/// Pages know no widgets and go on with what they do; the window round them is made anew in its place.
+/// Pages know no widgets and go on with what they do; the window round them is made again in its place.
 void WizardWindow::rebuildForLanguage() {
   language_.choose(languageCode_);
   for (const std::unique_ptr<PageModel>& page : pages_) page->refresh();

@@ -107,7 +107,7 @@ void VideoFollower::follow() {
                                   VideoTime::Clock::now());
   bool stopped = player_.playbackState() == QMediaPlayer::StoppedState;
   if (step.seek) {
-    // Behind its end a player has stopped, and would begin anew by itself.
+    // Behind its end a player has stopped, and would begin again by itself.
     if (stopped) player_.pause();
     player_.setPosition(std::chrono::duration_cast<std::chrono::milliseconds>(*step.seek).count());
   }

@@ -7,7 +7,7 @@
 
 #include <QGuiApplication>
 
-#include "desktop/xcb_answer.h"
+#include "desktop/xcb_reply.h"
 
 namespace relucent::gui {
 namespace {

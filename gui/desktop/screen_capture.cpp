@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "desktop/xcb_answer.h"
+#include "desktop/xcb_reply.h"
 
 namespace relucent::gui {
 namespace {

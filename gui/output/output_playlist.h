@@ -17,7 +17,7 @@ class OutputPlaylist : public QObject {
   using QObject::QObject;
 
   /// The list of another calibration. `picture`: of Preview. A list that cannot be read is told by
-  /// unreadable() and begun anew; the file stays until the list is edited.
+  /// unreadable() and begun again; the file stays until the list is edited.
   void open(const QString& folder, const QString& picture);
   /// Preview was left with another picture: it is played, first if it was not in the list.
   void prefer(const QString& picture);

@@ -157,7 +157,7 @@ PlayerStatistics Player::statistics() const {
   }
   if (count > 0) result.frameSeconds = seconds / count;
   double span = std::min(windowSeconds, 1e-6 * static_cast<double>(now.count()));
-  // One picture that took another's place, or is computed anew, is no film.
+  // One picture that took another's place, or is computed again, is no film.
   bool moves = changes > 1 && !clock_.isPaused() && clock_.time() - last_.since < stillFor;
   if (span > 0.0 && moves) result.framesPerSecond = count / span;
   return result;

@@ -150,7 +150,7 @@ void PlaneScene::setShown(bool shown) {
 void PlaneScene::placeBar(const QRectF& bar, const ColourScale& scale) {
   parts_->bar->SetVisibility(!bar.isEmpty());
   if (bar.isEmpty()) return;
-  // VTK makes everything anew when any of it is said again.
+  // VTK makes everything again when any of it is said again.
   if (std::exchange(parts_->barMap, scale.map) != scale.map)
     for (int i = 0; i < 256; ++i) {
       QColor colour = colourAt(scale.map, i / 255.0);

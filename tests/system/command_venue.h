@@ -18,7 +18,7 @@ inline ScriptedVenue commandVenue() {
   camera.exposures = {1e-4, 2.0};
   devices.cameras = {camera};
   transport::TransportMatrix transport = syntheticTransport(scene);
-  Stack black = syntheticBlack(transport);
+  CameraStack black = syntheticBlack(transport);
   return ScriptedVenue(std::move(transport), std::move(black), devices);
 }
 

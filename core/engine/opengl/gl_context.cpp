@@ -12,8 +12,8 @@ namespace relucent::engine {
 namespace {
 
 constexpr int leastVersion = 43;
-constexpr auto advice = RELUCENT_MESSAGE(
-    "engine.install-driver", "install the graphics card's driver, or let the processor do the work");
+constexpr auto advice = RELUCENT_MESSAGE("engine.install-driver",
+                                         "install the graphics card's driver, or compute on the processor");
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 namespace relucent::engine {
 namespace {
 
-constexpr auto advice = RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work");
+constexpr auto advice = RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead");
 
 GLint limitOf(GLenum name) {
   GLint value = 0;

@@ -168,7 +168,7 @@ OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContex
   if (!current)
     throw Error(ErrorKind::device,
                 RELUCENT_MESSAGE("engine.graphics-card-cannot-used", "the graphics card cannot be used"),
-                RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work"),
+                RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead"),
                 context_->renderer());
   objects_ = std::make_unique<Objects>(engine);
 }
@@ -185,7 +185,7 @@ void OpenGlBackend::setContent(const EngineContent& content) {
     if (!context_->failed()) return;
   }
   throw Error(ErrorKind::device, RELUCENT_MESSAGE("engine.graphics-card-lost", "the graphics card was lost"),
-              RELUCENT_MESSAGE("engine.let-processor-do-work", "let the processor do the work"), name_);
+              RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead"), name_);
 }
 
 bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& request,

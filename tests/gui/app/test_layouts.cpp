@@ -170,7 +170,7 @@ class TestLayouts : public QObject {
                              ErrorKind::input, ErrorKind::numerics}) {
         Failure failure{
             kind, "What happened, as long as it takes to say it.", "What to do about that now.", {}};
-        Command resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr);
+        PageCommand resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr);
         resume.show(AcquirePage::tr("Resume"));
         keep.show(AcquirePage::tr("Stop and keep"));
         goOn.show(AcquirePage::tr("Continue anyway"));

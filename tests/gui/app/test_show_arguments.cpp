@@ -78,7 +78,7 @@ class TestShowArguments : public QObject {
   }
 
   void helpNamesEveryOption() {
-    QString help = parsed<PrintText>({"--help"}).text;
+    QString help = parsed<TextToPrint>({"--help"}).text;
     for (const char* option :
          {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--backend",
           "--log", "--install-service", "--install-autostart", "--remove-service"})

@@ -89,7 +89,7 @@ class TestShow : public QObject {
     QVERIFY(log().contains("playing 1 items on scripted") && log().contains("stopped"));
   }
 
-  /// With OpenGL and without: see CMakeLists.txt. A show that begins anew does not say it anew.
+  /// With OpenGL and without: see CMakeLists.txt. A show that begins again does not say it twice.
   void whatItDrawsWithIsTold() {
     bool hasOpenGl = qEnvironmentVariable("QT_XCB_GL_INTEGRATION") != "none";
     broken_ = true;

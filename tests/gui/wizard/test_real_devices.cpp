@@ -252,7 +252,7 @@ class TestRealDevices : public QObject {
       QVERIFY(!screenOn("DUMMY1"));
       if (gone % 2 == 0) room_->camera().plug();
       switchScreen(true);
-      // A camera that does not answer is given some seconds before it is connected anew.
+      // A camera that does not answer is given some seconds before it is connected again.
       QTRY_VERIFY_WITH_TIMEOUT(room_->photographs() > stopped || worker->isFinished(), 30000);
     }
     worker->wait();

@@ -24,7 +24,7 @@ class ScriptedPage : public PageModel {
   ScriptedPage() : PageModel({"page", "", "page"}) {}
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {state, {}}; }
-  Command* primary() const override { return nullptr; }
+  PageCommand* primary() const override { return nullptr; }
   void enter() override { ++entered; }
   void leave() override { ++left; }
   void updateCommands() override { ++updated; }

@@ -18,7 +18,7 @@ class ScriptedPage : public DevicePage {
   explicit ScriptedPage(Session& session) : DevicePage({"page", "", "page"}, session) {}
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
-  Command* primary() const override { return nullptr; }
+  PageCommand* primary() const override { return nullptr; }
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ class ScriptedPage : public PageModel {
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
   QString hint() const override { return "because"; }
-  Command* primary() const override { return go_; }
+  PageCommand* primary() const override { return go_; }
   void updateCommands() override { go_->show(text, possible); }
   using PageModel::tellAll;
   using PageModel::tellProgress;
@@ -33,7 +33,7 @@ class ScriptedPage : public PageModel {
   int runs = 0;
 
  private:
-  Command* go_;
+  PageCommand* go_;
 };
 
 /// How often each signal came: status, settings, result, progress.

@@ -6,15 +6,15 @@
 
 namespace relucent::gui {
 
-struct FreeAnswer {
+struct FreeReply {
   void operator()(void* answer) const { std::free(answer); }
 };
 /// A reply of the X server, owned by the caller. nullptr: none.
 template <typename Reply>
-using Answer = std::unique_ptr<Reply, FreeAnswer>;
+using XcbReply = std::unique_ptr<Reply, FreeReply>;
 template <typename Reply>
-Answer<Reply> owned(Reply* reply) {
-  return Answer<Reply>(reply);
+XcbReply<Reply> owned(Reply* reply) {
+  return XcbReply<Reply>(reply);
 }
 
 }  // namespace relucent::gui

@@ -152,7 +152,7 @@ std::vector<fs::path> writePictures(const fs::path& out, const compensation::Tar
     files.push_back(out / fmt::format("{}_delta_e.exr", name));
     image::writeExr(files.back(), photographed.deltaE, image::ExrType::floatType,
                     {{image::exr_attribute::units, std::string("CIEDE2000")}});
-    return painted(photographed.deltaE, ColorMap::viridis, 0.0, brightestDeltaE);
+    return painted(photographed.deltaE, image::ColourMap::viridis, 0.0, brightestDeltaE);
   };
   std::vector<image::Image> pictures{shown("target", target.wanted), shown("before", before.camera),
                                      shown("after", after.camera)};

@@ -62,8 +62,8 @@ std::string comparison(const ReportComparison& shown) {
       "the pictures of '{}' differ in size", shown.name);
   image::Image before = deltaEMap(shown.uncompensated, shown.wanted, shown.white, shown.inside);
   image::Image after = deltaEMap(shown.compensated, shown.wanted, shown.white, shown.inside);
-  std::string bar =
-      legend(ColorMap::cividis, {"0", "5", "10", "15", "20+"}, "Colour error from 0 to 20, CIEDE2000");
+  std::string bar = legend(image::ColourMap::cividis, {"0", "5", "10", "15", "20+"},
+                           "Colour error from 0 to 20, CIEDE2000");
   std::string how = shown.truth ? "through the true light transport" : "predicted from the measurement";
 
   std::string body = "<div class=\"pictures\">";
@@ -72,9 +72,9 @@ std::string comparison(const ReportComparison& shown) {
       figure(image::viewed(shown.uncompensated, shown.white), "Uncompensated", "only placed, " + how + ".");
   body += figure(image::viewed(shown.compensated, shown.white), "Compensated",
                  fmt::format("method {}, {}.", nameOf(shown.method), how));
-  body += figure(painted(before, ColorMap::cividis, 0.0, deltaEScale), "Error uncompensated",
+  body += figure(painted(before, image::ColourMap::cividis, 0.0, deltaEScale), "Error uncompensated",
                  fmt::format("mean colour error ΔE {:.1f}.", meanOf(before)), bar);
-  body += figure(painted(after, ColorMap::cividis, 0.0, deltaEScale), "Error compensated",
+  body += figure(painted(after, image::ColourMap::cividis, 0.0, deltaEScale), "Error compensated",
                  fmt::format("mean colour error ΔE {:.1f}.", meanOf(after)), bar);
   body += "<figure>" +
           histogram(before.data(), after.data(), deltaEScale, "Colour error ΔE (CIEDE2000)",

@@ -33,9 +33,8 @@ std::string mark(std::size_t channel, double x, double y) {
   return fmt::format(R"(<path class="c2" d="M{:.1f} {:.1f}l3.4 6h-6.8z"/>)", x, y - 3.6);
 }
 
-std::string hexOf(const std::array<float, 3>& color) {
-  auto byte = [](float value) { return static_cast<int>(std::lround(255.0f * value)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(color[0]), byte(color[1]), byte(color[2]));
+std::string hexOf(const image::Rgb8& colour) {
+  return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
 }
 
 }  // namespace
@@ -156,7 +155,7 @@ std::string histogram(const std::vector<float>& before, const std::vector<float>
   return svg + "</svg>";
 }
 
-std::string legend(ColorMap map, const std::vector<std::string>& ticks, const std::string& title) {
+std::string legend(image::ColourMap map, const std::vector<std::string>& ticks, const std::string& title) {
   constexpr double left = 24, width = 252;
   constexpr int cells = 42;
   std::string svg =
@@ -165,7 +164,7 @@ std::string legend(ColorMap map, const std::vector<std::string>& ticks, const st
   for (int cell = 0; cell < cells; ++cell)
     svg += fmt::format(R"(<rect x="{:.1f}" y="2" width="{:.1f}" height="10" fill="{}"/>)",
                        left + width * cell / cells, width / cells + 0.3,
-                       hexOf(colorOf(map, (cell + 0.5) / cells)));
+                       hexOf(image::colourAt(map, (cell + 0.5) / cells)));
   for (std::size_t tick = 0; tick < ticks.size(); ++tick) {
     double share = ticks.size() > 1 ? static_cast<double>(tick) / static_cast<double>(ticks.size() - 1) : 0.0;
     svg += text(left + width * share, 28, "middle", ticks[tick]);

@@ -33,6 +33,6 @@ std::string histogram(const std::vector<float>& before, const std::vector<float>
                       const std::string& unit, const std::string& title);
 
 /// A colour bar with ticks evenly spaced from its left to its right end.
-std::string legend(ColorMap map, const std::vector<std::string>& ticks, const std::string& title);
+std::string legend(image::ColourMap map, const std::vector<std::string>& ticks, const std::string& title);
 
 }  // namespace relucent::pipeline

@@ -41,11 +41,12 @@ std::string measuredPictures(const ReportData& data) {
   std::string body = "<div class=\"pictures\">";
   body += figure(image::viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
                  "what the camera sees when every pixel of the projector is fully lit.");
-  body += figure(
-      painted(reach, ColorMap::viridis, -4.0, 2.0), "Reachable light",
-      "the brightest that each place can get, in the colour that is hardest there; 1 is the picture's "
-      "white.",
-      legend(ColorMap::viridis, {"1/16", "1/4", "1", "4"}, "Reachable light from 1/16 to 4 times white"));
+  body +=
+      figure(painted(reach, image::ColourMap::viridis, -4.0, 2.0), "Reachable light",
+             "the brightest that each place can get, in the colour that is hardest there; 1 is the picture's "
+             "white.",
+             legend(image::ColourMap::viridis, {"1/16", "1/4", "1", "4"},
+                    "Reachable light from 1/16 to 4 times white"));
   if (!data.black.empty())
     body += figure(
         image::viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
@@ -54,7 +55,7 @@ std::string measuredPictures(const ReportData& data) {
     image::Image mask(data.flood.size(), 1);
     for (std::size_t i = 0; i < data.flagged.size(); ++i) mask.data()[i] = data.flagged[i] != 0 ? 1.0f : 0.0f;
     body += figure(
-        painted(mask, ColorMap::cividis, 0.0, 1.0), "Flagged pixels",
+        painted(mask, image::ColourMap::cividis, 0.0, 1.0), "Flagged pixels",
         fmt::format("bright: {} of the camera's pixels did not pass the verification and are not relied "
                     "on.",
                     percent(data.result.flaggedShare)));

@@ -13,48 +13,20 @@
 namespace relucent::pipeline {
 namespace {
 
-using Anchors = std::array<std::array<int, 3>, 9>;
-constexpr Anchors viridisAnchors{{{68, 1, 84},
-                                  {71, 44, 122},
-                                  {59, 81, 139},
-                                  {44, 113, 142},
-                                  {33, 144, 141},
-                                  {39, 173, 129},
-                                  {92, 200, 99},
-                                  {170, 220, 50},
-                                  {253, 231, 37}}};
-constexpr Anchors cividisAnchors{{{0, 34, 78},
-                                  {26, 56, 111},
-                                  {67, 78, 108},
-                                  {98, 100, 111},
-                                  {125, 124, 120},
-                                  {154, 148, 119},
-                                  {187, 174, 109},
-                                  {220, 202, 90},
-                                  {254, 232, 56}}};
 // What has no value: darker than either map's first colour, and another hue.
-constexpr std::array<float, 3> noValue{0x16 / 255.0f, 0x18 / 255.0f, 0x1e / 255.0f};
+constexpr image::Rgb8 noValue{0x16, 0x18, 0x1e};
 
 }  // namespace
 
-std::array<float, 3> colorOf(ColorMap map, double value) {
-  const Anchors& anchors = map == ColorMap::viridis ? viridisAnchors : cividisAnchors;
-  double place = std::clamp(value, 0.0, 1.0) * static_cast<double>(anchors.size() - 1);
-  auto first = std::min(static_cast<std::size_t>(place), anchors.size() - 2);
-  double t = place - static_cast<double>(first);
-  std::array<float, 3> color{};
-  for (std::size_t c = 0; c < 3; ++c)
-    color[c] = static_cast<float>(((1.0 - t) * anchors[first][c] + t * anchors[first + 1][c]) / 255.0);
-  return color;
-}
-
-image::Image painted(const image::Image& values, ColorMap map, double low, double high) {
+image::Image painted(const image::Image& values, image::ColourMap map, double low, double high) {
   require(values.channels() == 1 && high > low, "{} channels, from {} to {}", values.channels(), low, high);
   image::Image result(values.size(), 3);
   for (std::size_t pixel = 0; pixel < values.pixels(); ++pixel) {
     double value = static_cast<double>(values.data()[pixel]);
-    std::array<float, 3> color = std::isnan(value) ? noValue : colorOf(map, (value - low) / (high - low));
-    std::copy(color.begin(), color.end(), result.pixel(pixel).begin());
+    const image::Rgb8 colour =
+        std::isnan(value) ? noValue : image::colourAt(map, (value - low) / (high - low));
+    std::transform(colour.begin(), colour.end(), result.pixel(pixel).begin(),
+                   [](std::uint8_t code) { return static_cast<float>(code) / 255.0f; });
   }
   return result;
 }

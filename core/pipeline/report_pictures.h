@@ -5,18 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "relucent/image/colour_map.h"
 #include "relucent/image/image.h"
 
 namespace relucent::pipeline {
 
-/// Colour maps that people with any colour vision can read, as anchors evenly spaced from 0 to 1, sRGB.
-/// Source: viridis, van der Walt & Smith 2015; cividis, Nunez, Anderton & Renslow 2018.
-enum class ColorMap { viridis, cividis };
-std::array<float, 3> colorOf(ColorMap map, double value);
-
 /// One value a pixel, painted: `low` and below take the map's first colour, `high` and above its last;
 /// pixels that are NaN are dark. Encoded, three channels.
-image::Image painted(const image::Image& values, ColorMap map, double low, double high);
+image::Image painted(const image::Image& values, image::ColourMap map, double low, double high);
 
 /// CIEDE2000 of every pixel as a viewer adapted to `white` sees them; NaN where `inside` is 0.
 image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,

@@ -17,7 +17,7 @@ void drawColourBar(QPainter& painter, const QRectF& area, const ColourScale& sca
   int rows = static_cast<int>(bar.height());
   for (int y = 0; y < rows; ++y)
     painter.fillRect(QRectF(bar.left(), bar.top() + y, bar.width(), 1.5),
-                     colourAt(scale.map, 1.0 - (y + 0.5) / rows));
+                     qtColourAt(scale.map, 1.0 - (y + 0.5) / rows));
 }
 
 void drawColourBarWords(QPainter& painter, const QRectF& area, const ColourScale& scale, const QString& unit,

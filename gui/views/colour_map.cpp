@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "relucent/base/error.h"
 #include "relucent/image/colour.h"
@@ -14,27 +13,17 @@
 namespace relucent::gui {
 namespace {
 
-std::array<QRgb, 256> tableOf(int map) {
-  cv::Mat places(1, 256, CV_8U), colours;
-  for (int i = 0; i < 256; ++i) places.at<uchar>(0, i) = static_cast<uchar>(i);
-  cv::applyColorMap(places, colours, map);
+std::array<QRgb, 256> tableOf(ColourMap map) {
   std::array<QRgb, 256> table;
-  for (int i = 0; i < 256; ++i) {
-    cv::Vec3b bgr = colours.at<cv::Vec3b>(0, i);
-    table[static_cast<std::size_t>(i)] = qRgb(bgr[2], bgr[1], bgr[0]);
-  }
+  std::transform(image::coloursOf(map).begin(), image::coloursOf(map).end(), table.begin(),
+                 [](const image::Rgb8& colour) { return qRgb(colour[0], colour[1], colour[2]); });
   return table;
 }
 
 const std::array<QRgb, 256>& table(ColourMap map) {
-  static const std::array<QRgb, 256> cividis = tableOf(cv::COLORMAP_CIVIDIS);
-  static const std::array<QRgb, 256> viridis = tableOf(cv::COLORMAP_VIRIDIS);
+  static const std::array<QRgb, 256> cividis = tableOf(ColourMap::cividis);
+  static const std::array<QRgb, 256> viridis = tableOf(ColourMap::viridis);
   return map == ColourMap::cividis ? cividis : viridis;
-}
-
-QRgb rgbAt(ColourMap map, double place) {
-  auto index = static_cast<std::size_t>(std::lround(std::clamp(place, 0.0, 1.0) * 255.0));
-  return table(map)[index];
 }
 
 }  // namespace
@@ -45,8 +34,9 @@ double ColourScale::place(double value) const {
   return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
 }
 
-QColor colourAt(ColourMap map, double place) {
-  return QColor(rgbAt(map, place));
+QColor qtColourAt(ColourMap map, double place) {
+  const image::Rgb8 colour = image::colourAt(map, place);
+  return {colour[0], colour[1], colour[2]};
 }
 
 QImage mapped(std::span<const float> values, Size size, const ColourScale& scale) {

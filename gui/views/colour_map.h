@@ -4,12 +4,12 @@
 #include <QImage>
 #include <span>
 
+#include "relucent/image/colour_map.h"
 #include "relucent/image/image.h"
 
 namespace relucent::gui {
 
-/// Errors and differences: cividis. Transport and reachable light: viridis.
-enum class ColourMap { cividis, viridis };
+using image::ColourMap;
 
 /// The values at the two ends of a colour map.
 struct ColourScale {
@@ -21,7 +21,7 @@ struct ColourScale {
   double place(double value) const;
 };
 
-QColor colourAt(ColourMap map, double place);
+QColor qtColourAt(ColourMap map, double place);
 
 /// One value per pixel as colours; NaN gets the colour of invalid values.
 /// Contract: values.size() == size.count().

@@ -153,7 +153,7 @@ void PlaneScene::placeBar(const QRectF& bar, const ColourScale& scale) {
   // VTK makes everything again when any of it is said again.
   if (std::exchange(parts_->barMap, scale.map) != scale.map)
     for (int i = 0; i < 256; ++i) {
-      QColor colour = colourAt(scale.map, i / 255.0);
+      QColor colour = qtColourAt(scale.map, i / 255.0);
       parts_->colours->SetTableValue(i, colour.redF(), colour.greenF(), colour.blueF(), 1.0);
     }
   double width = parts_->size.width(), height = parts_->size.height();

@@ -260,20 +260,6 @@ class TestReport : public QObject {
     QCOMPARE(QByteArray::fromStdString(relucent::pipeline::base64(bytes.toStdString())), text);
   }
 
-  /// Law of both maps: brighter with every step, so that they can be read without colours.
-  void mapsRiseInBrightness() {
-    for (ColorMap map : {ColorMap::viridis, ColorMap::cividis}) {
-      double before = -1.0;
-      for (int i = 0; i <= 100; ++i) {
-        auto color = colorOf(map, i / 100.0);
-        double brightness = 0.2126 * std::pow(color[0], 2.2) + 0.7152 * std::pow(color[1], 2.2) +
-                            0.0722 * std::pow(color[2], 2.2);
-        QVERIFY2(brightness > before, QByteArray::number(i));
-        before = brightness;
-      }
-    }
-  }
-
   void errorMapsAreZeroForEqualPicturesAndEmptyOutside() {
     CameraMask inside(size.count(), 1);
     inside[5] = 0;

@@ -131,7 +131,7 @@ class TestMapView : public QObject {
         }
       return false;
     };
-    for (double place : {0.02, 0.5, 0.98}) QVERIFY(has(relucent::gui::colourAt(ColourMap::viridis, place)));
+    for (double place : {0.02, 0.5, 0.98}) QVERIFY(has(qtColourAt(ColourMap::viridis, place)));
   }
 
   void aMapRisesAndLiesDownAgain() {

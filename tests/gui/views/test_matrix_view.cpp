@@ -66,12 +66,12 @@ class TestMatrixView : public QObject {
     QVERIFY(colourAt(view, {77.5, 77.5}) != none);
     QCOMPARE(colourAt(view, {200.5, 50.5}), none);
     QCOMPARE(colourAt(view, {50.5, 200.5}), none);
-    QColor expectedColour = relucent::gui::colourAt(
-        ColourMap::viridis, view.scale().place(static_cast<double>(*view.valueAt({77, 77}))));
+    QColor expectedColour =
+        qtColourAt(ColourMap::viridis, view.scale().place(static_cast<double>(*view.valueAt({77, 77}))));
     view.link().look(20.0, {77.5 / 256.0, 77.5 / 256.0});
     QTRY_VERIFY_WITH_TIMEOUT(view.isSettled(), patience);
-    expectedColour = relucent::gui::colourAt(
-        ColourMap::viridis, view.scale().place(static_cast<double>(*view.valueAt({77, 77}))));
+    expectedColour =
+        qtColourAt(ColourMap::viridis, view.scale().place(static_cast<double>(*view.valueAt({77, 77}))));
     QColor found = colourAt(view, {77.5, 77.5});
     // Eight bits a channel, twice rounded.
     QVERIFY(std::abs(found.red() - expectedColour.red()) <= 2 &&

@@ -47,7 +47,7 @@ class TestWithoutGl : public QObject {
     view.setRelief(true);
     QVERIFY(!view.isRelief());
     QPoint place = view.widgetFromPicture({4.5, 5.5}).toPoint();
-    QCOMPARE(view.asSeen().pixelColor(place), colourAt(ColourMap::viridis, 1.0));
+    QCOMPARE(view.asSeen().pixelColor(place), qtColourAt(ColourMap::viridis, 1.0));
     QTest::mouseClick(&view, Qt::LeftButton, {}, place);
     QCOMPARE(view.link().pick(), std::optional(QPoint(4, 5)));
   }

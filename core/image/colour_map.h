@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace relucent::image {
+
+/// Colour maps whose brightness ascends evenly, for people with any colour vision. Errors and differences are
+/// shown in cividis, light in viridis.
+/// Source: viridis, van der Walt & Smith 2015; cividis, Nunez, Anderton & Renslow 2018; the tables are
+/// OpenCV's.
+enum class ColourMap { cividis, viridis };
+
+using Rgb8 = std::array<std::uint8_t, 3>;  // sRGB
+
+/// Evenly spaced from 0 to 1.
+const std::array<Rgb8, 256>& coloursOf(ColourMap map);
+
+/// The nearest one of them; beyond 0 and 1 that of the end.
+Rgb8 colourAt(ColourMap map, double place);
+
+}  // namespace relucent::image

@@ -177,8 +177,8 @@ class TestAcquisitionTrace : public QObject {
     QVERIFY(lines[0].reason != lines[1].reason && !lines[0].reason.isEmpty());
   }
 
-  /// The lens is pushed and nobody minds: it is said beside the result.
-  void whatWasPutUpWithIsOnThePage() {
+  /// The lens is pushed and the operator accepts it: the page says so beside the result.
+  void whatWasAcceptedIsOnThePage() {
     CalibrateSettings settings;
     VenueSettings venue;
     venue.name = "corner";
@@ -211,7 +211,7 @@ class TestAcquisitionTrace : public QObject {
           folder, rig, linearization, [](const Alarm&) { return Answer::skip; }, nobody, progress);
     }
     session.reload();
-    QCOMPARE(page.findings().filter("Put up with before pattern").size(), 1);
+    QCOMPARE(page.findings().filter("Accepted before pattern").size(), 1);
   }
 
   /// A rehearsal, measured through the page: nothing happens, and the trace says so.
